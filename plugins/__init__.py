@@ -1,0 +1,1 @@
+"""The panels an operator sees, one folder a panel."""

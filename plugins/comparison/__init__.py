@@ -1,0 +1,1 @@
+"""Comparison of the model with a real record."""

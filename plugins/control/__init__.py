@@ -1,0 +1,1 @@
+"""Control menu of the micro and nano stages."""

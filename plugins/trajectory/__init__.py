@@ -1,0 +1,1 @@
+"""Trajectories: load, dry run, play."""

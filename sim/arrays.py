@@ -1,0 +1,14 @@
+"""Array types shared by the model: float64 throughout."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+
+def read_only(array: FloatArray) -> FloatArray:
+    """Return a view of ``array`` (any shape) that cannot be written through."""
+    view = array.view()
+    view.flags.writeable = False
+    return view

@@ -1,0 +1,1 @@
+"""The nominal plant: equation of motion, exact sampling, control loop."""

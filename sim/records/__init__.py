@@ -1,0 +1,1 @@
+"""Records and trajectories: ASCII files of all joints over time."""

@@ -1,0 +1,209 @@
+"""The description of a machine: its axes, their coupling and what its sensors declare.
+
+Units are SI throughout (m, rad, kg, N, V, s). The numbers come from a robot file
+(:mod:`rotemina.sim.robot.file`); the equations that use them are in :mod:`rotemina.sim.plant`.
+"""
+
+from collections.abc import Mapping
+from dataclasses import field
+from typing import Annotated, Literal, NamedTuple
+
+from pydantic import ConfigDict, Field, FiniteFloat
+from pydantic.dataclasses import dataclass
+
+STRICT = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+
+Positive = Annotated[float, Field(gt=0)]
+NotNegative = Annotated[float, Field(ge=0)]
+Count = Annotated[int, Field(ge=1)]
+# TOML has lists only: the tuple itself is taken leniently, its numbers stay strict.
+Range = Annotated[tuple[FiniteFloat, FiniteFloat], Field(strict=False)]
+Names = Annotated[tuple[str, ...], Field(strict=False)]
+
+VOLTAGE_SLACK = 1e-6  # relative slack of voltage limits
+
+
+class Inertia(NamedTuple):
+    """The second-order figures of one axis: mass, damping, stiffness (SI, linear or angular)."""
+
+    mass: float
+    damping: float
+    stiffness: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+class Sensor:
+    """What an axis' own sensor declares: resolution and white noise, m or rad."""
+
+    kind: str
+    resolution: NotNegative = 0.0
+    noise_rms: NotNegative = 0.0
+
+    @property
+    def noise_floor(self) -> float:
+        """Declared noise floor ``sqrt(noise_rms² + resolution²/12)``, m or rad."""
+        return float((self.noise_rms**2 + self.resolution**2 / 12.0) ** 0.5)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+class CascadeController:
+    """Sampled position loop around a speed loop.
+
+    ``u_k = clip(kv (kp (cmd_k - q_k) - v_k) + add_k, ±limit)``, held until the next sample.
+
+    Attributes: ``kp`` 1/s, ``kv`` V s/m or V s/rad, ``limit`` V, ``velocity`` how v is obtained
+    (``"backward"`` difference of the position, or the true ``"state"``), ``delay_s`` of u.
+    """
+
+    kind: Literal["cascade"]
+    kp: Positive
+    kv: Positive
+    limit: Positive
+    velocity: Literal["backward", "state"] = "state"
+    delay_s: NotNegative = 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+class _Axis:
+    range: Range
+    unit: Literal["m", "rad"] | None = None
+    mass: Positive | None = None
+    damping: NotNegative | None = None
+    stiffness: Positive | None = None
+    natural_frequency_hz: Positive | None = None
+    damping_ratio: NotNegative | None = None
+    static: bool = False
+    offset: float = 0.0
+    max_speed: Positive | None = None
+    max_acceleration: Positive | None = None
+    repeatability: NotNegative = 0.0
+    sensor: Sensor | None = None
+
+    @property
+    def span(self) -> float:
+        """Length of the range, m or rad."""
+        return self.range[1] - self.range[0]
+
+    @property
+    def inertia(self) -> Inertia | None:
+        """Mass, damping and stiffness (0 if free), or None for a static axis.
+
+        From a natural frequency f and damping ratio ζ, with the mass taken as 1:
+        ``stiffness = (2πf)²``, ``damping = 2ζ(2πf)``.
+        """
+        if self.static:
+            return None
+        if self.natural_frequency_hz is not None and self.damping_ratio is not None:
+            rate = 2.0 * 3.141592653589793 * self.natural_frequency_hz
+            return Inertia(1.0, 2.0 * self.damping_ratio * rate, rate**2)
+        if self.mass is None or self.damping is None:
+            raise ValueError("an axis with dynamics needs mass and damping")
+        return Inertia(self.mass, self.damping, self.stiffness or 0.0)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+class StepperAxis(_Axis):
+    """A stepper with ball screw: its input is the commanded table position (m or rad)."""
+
+    kind: Literal["stepper"]
+    steps_per_rev: Count | None = None
+    microsteps_per_step: Count | None = None
+    pitch: Positive | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+class PiezoAxis(_Axis):
+    """A piezo driven open loop with ``u = cmd / gain``; ``gain`` in m/V or rad/V."""
+
+    kind: Literal["piezo"]
+    gain: float
+    voltage_range: Range | None = None
+    controller: CascadeController | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+class ForceAxis(_Axis):
+    """A force on a mass: ``M q̈ + D q̇ + C q = gain·u - force_offset``; ``gain`` in N/V."""
+
+    kind: Literal["force"]
+    gain: float
+    force_offset: float = 0.0
+    voltage_range: Range | None = None
+    controller: CascadeController | None = None
+
+
+Axis = StepperAxis | PiezoAxis | ForceAxis
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+class Coupling:
+    """An off-diagonal, symmetric entry of M, D or C between two axes (SI)."""
+
+    matrix: Literal["M", "D", "C"]
+    axes: Annotated[tuple[str, str], Field(strict=False)]
+    value: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+class ReferenceNoise:
+    """White noise of the independent reference, m and rad."""
+
+    linear: NotNegative | None = None
+    angular: NotNegative | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+class Reference:
+    """What the independent reference (laser, microscope) declares."""
+
+    noise_rms: ReferenceNoise = field(default_factory=ReferenceNoise)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+class Tool:
+    """The pin or pipette: its approach angle to the dish, rad."""
+
+    approach_angle: float | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+class Microscope:
+    """The microscope and its camera; lengths in m."""
+
+    optical_axis: Annotated[tuple[float, float, float], Field(strict=False)] | None = None
+    pixel_size: Positive | None = None
+    magnification: Positive | None = None
+    numerical_aperture: Positive | None = None
+    depth_of_field: Positive | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+class KeepOut:
+    """Where the tip must not go: below a floor, beyond a radius, into the objective; m."""
+
+    floor: float | None = None
+    radius: Positive | None = None
+    objective: float | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Robot:
+    """A machine: named axes in the order of ``q``, their coupling and their surroundings.
+
+    ``stages`` names groups of axes for the operator; ``pin_length`` and ``piezo_lever_arm`` in m.
+    """
+
+    name: str
+    axes: Mapping[str, Axis]
+    stages: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    couplings: tuple[Coupling, ...] = ()
+    pin_length: float | None = None
+    piezo_lever_arm: float | None = None
+    reference: Reference = field(default_factory=Reference)
+    tool: Tool = field(default_factory=Tool)
+    microscope: Microscope = field(default_factory=Microscope)
+    keep_out: KeepOut = field(default_factory=KeepOut)
+
+    def unit(self, axis: str) -> str | None:
+        """Return ``"m"`` or ``"rad"``, or None where the robot file leaves it to the record."""
+        return self.axes[axis].unit

@@ -1,0 +1,1 @@
+"""Trajectories before they are played: limits, speed, duration, motion profiles."""
