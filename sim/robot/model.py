@@ -8,17 +8,19 @@ from collections.abc import Mapping
 from dataclasses import field
 from typing import Annotated, Literal, NamedTuple
 
-from pydantic import ConfigDict, Field, FiniteFloat
+from pydantic import ConfigDict, Field
 from pydantic.dataclasses import dataclass
 
-STRICT = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+FORBID_UNKNOWN = ConfigDict(extra="forbid")
 
-Positive = Annotated[float, Field(gt=0)]
-NotNegative = Annotated[float, Field(ge=0)]
-Count = Annotated[int, Field(ge=1)]
-# TOML has lists only: the tuple itself is taken leniently, its numbers stay strict.
-Range = Annotated[tuple[FiniteFloat, FiniteFloat], Field(strict=False)]
-Names = Annotated[tuple[str, ...], Field(strict=False)]
+# Numbers are strict (no text, no booleans, no NaN); tables and lists may come as dict and list,
+# the only containers that TOML has.
+Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0)]
+NotNegative = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0)]
+Count = Annotated[int, Field(strict=True, ge=1)]
+Switch = Annotated[bool, Field(strict=True)]
+Range = tuple[Number, Number]
 
 VOLTAGE_SLACK = 1e-6  # relative slack of voltage limits
 
@@ -31,7 +33,7 @@ class Inertia(NamedTuple):
     stiffness: float
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
 class Sensor:
     """What an axis' own sensor declares: resolution and white noise, m or rad."""
 
@@ -45,7 +47,7 @@ class Sensor:
         return float((self.noise_rms**2 + self.resolution**2 / 12.0) ** 0.5)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
 class CascadeController:
     """Sampled position loop around a speed loop.
 
@@ -63,7 +65,7 @@ class CascadeController:
     delay_s: NotNegative = 0.0
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
 class _Axis:
     range: Range
     unit: Literal["m", "rad"] | None = None
@@ -72,8 +74,8 @@ class _Axis:
     stiffness: Positive | None = None
     natural_frequency_hz: Positive | None = None
     damping_ratio: NotNegative | None = None
-    static: bool = False
-    offset: float = 0.0
+    static: Switch = False
+    offset: Number = 0.0
     max_speed: Positive | None = None
     max_acceleration: Positive | None = None
     repeatability: NotNegative = 0.0
@@ -101,7 +103,7 @@ class _Axis:
         return Inertia(self.mass, self.damping, self.stiffness or 0.0)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
 class StepperAxis(_Axis):
     """A stepper with ball screw: its input is the commanded table position (m or rad)."""
 
@@ -111,23 +113,23 @@ class StepperAxis(_Axis):
     pitch: Positive | None = None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
 class PiezoAxis(_Axis):
     """A piezo driven open loop with ``u = cmd / gain``; ``gain`` in m/V or rad/V."""
 
     kind: Literal["piezo"]
-    gain: float
+    gain: Number
     voltage_range: Range | None = None
     controller: CascadeController | None = None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
 class ForceAxis(_Axis):
     """A force on a mass: ``M q̈ + D q̇ + C q = gain·u - force_offset``; ``gain`` in N/V."""
 
     kind: Literal["force"]
-    gain: float
-    force_offset: float = 0.0
+    gain: Number
+    force_offset: Number = 0.0
     voltage_range: Range | None = None
     controller: CascadeController | None = None
 
@@ -135,16 +137,16 @@ class ForceAxis(_Axis):
 Axis = StepperAxis | PiezoAxis | ForceAxis
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
 class Coupling:
     """An off-diagonal, symmetric entry of M, D or C between two axes (SI)."""
 
     matrix: Literal["M", "D", "C"]
-    axes: Annotated[tuple[str, str], Field(strict=False)]
-    value: float
+    axes: tuple[str, str]
+    value: Number
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
 class ReferenceNoise:
     """White noise of the independent reference, m and rad."""
 
@@ -152,38 +154,38 @@ class ReferenceNoise:
     angular: NotNegative | None = None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
 class Reference:
     """What the independent reference (laser, microscope) declares."""
 
     noise_rms: ReferenceNoise = field(default_factory=ReferenceNoise)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
 class Tool:
     """The pin or pipette: its approach angle to the dish, rad."""
 
-    approach_angle: float | None = None
+    approach_angle: Number | None = None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
 class Microscope:
     """The microscope and its camera; lengths in m."""
 
-    optical_axis: Annotated[tuple[float, float, float], Field(strict=False)] | None = None
+    optical_axis: tuple[Number, Number, Number] | None = None
     pixel_size: Positive | None = None
     magnification: Positive | None = None
     numerical_aperture: Positive | None = None
     depth_of_field: Positive | None = None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
 class KeepOut:
     """Where the tip must not go: below a floor, beyond a radius, into the objective; m."""
 
-    floor: float | None = None
+    floor: Number | None = None
     radius: Positive | None = None
-    objective: float | None = None
+    objective: Number | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
