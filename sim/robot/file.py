@@ -1,0 +1,168 @@
+"""Robot files: strict reading of a machine description in TOML.
+
+Every error names the file, the key, the value and the bound. A file is data: nothing in it is
+ever executed.
+"""
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import field, replace
+from importlib import resources
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import Field, TypeAdapter, ValidationError
+from pydantic.dataclasses import dataclass
+
+from rotemina.sim.robot.consistency import Problem, find_problem
+from rotemina.sim.robot.errors import RobotFileError
+from rotemina.sim.robot.model import (
+    FORBID_UNKNOWN,
+    Axis,
+    Coupling,
+    KeepOut,
+    Microscope,
+    Positive,
+    Reference,
+    Robot,
+    Tool,
+)
+from rotemina.sim.robot.schema_errors import describe
+
+MAX_BYTES = 4_000_000
+SHIPPED = "rotemina.resources.robots"
+
+# Joint names of the RoTeMiNa chain whose quantity is known without a `unit` key.
+CONVENTIONAL_UNITS = {"x": "m", "y": "m", "z": "m", "zn": "m", "thx": "rad", "thy": "rad"}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
+class _RobotTable:
+    name: str
+    axes: tuple[str, ...]
+    stages: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    pin_length: Positive | None = None
+    piezo_lever_arm: Positive | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
+class _RobotFile:
+    robot: _RobotTable
+    axis: dict[str, Annotated[Axis, Field(discriminator="kind")]]
+    coupling: tuple[Coupling, ...] = ()
+    reference: Reference = field(default_factory=Reference)
+    tool: Tool = field(default_factory=Tool)
+    microscope: Microscope = field(default_factory=Microscope)
+    keep_out: KeepOut = field(default_factory=KeepOut)
+
+
+_SCHEMA = TypeAdapter(_RobotFile)
+
+
+def shipped_robots() -> tuple[str, ...]:
+    """Return the names of the robots that the program carries, sorted."""
+    folder = resources.files(SHIPPED)
+    return tuple(
+        sorted(item.name[:-5] for item in folder.iterdir() if item.name.endswith(".toml"))
+    )
+
+
+def load_robot(name_or_file: str | Path) -> Robot:
+    """Load a shipped robot by name, or a robot file by path.
+
+    Raises
+    ------
+    RobotFileError
+        If there is no such robot, the file cannot be read, or it is not a valid description.
+    """
+    if isinstance(name_or_file, str) and name_or_file in shipped_robots():
+        text = resources.files(SHIPPED).joinpath(f"{name_or_file}.toml").read_text("utf-8")
+        return parse_robot(text, source=f"{name_or_file}.toml")
+    return parse_robot(_read(Path(name_or_file)), source=str(name_or_file))
+
+
+def parse_robot(text: str, source: str = "robot file") -> Robot:
+    """Build a robot from the text of a robot file; ``source`` names it in errors.
+
+    Raises
+    ------
+    RobotFileError
+        With file, key, value and bound.
+    """
+    try:
+        table = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise RobotFileError(f"{source}: not valid TOML: {error}") from error
+    except RecursionError as error:
+        raise RobotFileError(f"{source}: tables or lists are nested too deeply") from error
+    return _build(table, source)
+
+
+def _build(table: dict[str, Any], source: str) -> Robot:
+    try:
+        parsed = _SCHEMA.validate_python(table)
+    except ValidationError as error:
+        raise RobotFileError(f"{source}: {describe(error)}") from error
+    names = parsed.robot.axes
+    problem = _axis_list_problem(names, parsed.axis)
+    if problem is None:
+        robot = _robot(parsed)
+        problem = find_problem(robot)
+    if problem is not None:
+        raise RobotFileError(f"{source}: {problem}")
+    return robot
+
+
+def _axis_list_problem(names: tuple[str, ...], tables: Mapping[str, Axis]) -> Problem | None:
+    if not names:
+        return Problem("robot.axes", names, "names at least one axis")
+    if len(set(names)) != len(names):
+        return Problem("robot.axes", list(names), "names each axis once")
+    for name in names:
+        if name not in tables:
+            return Problem("robot.axes", name, f"needs a table [axis.{name}]")
+    for name in tables:
+        if name not in names:
+            return Problem(f"axis.{name}", name, f"must be listed in robot.axes {list(names)}")
+    return None
+
+
+def _robot(parsed: _RobotFile) -> Robot:
+    return Robot(
+        name=parsed.robot.name,
+        axes={name: _with_unit(name, parsed.axis[name]) for name in parsed.robot.axes},
+        stages=parsed.robot.stages,
+        couplings=parsed.coupling,
+        pin_length=parsed.robot.pin_length,
+        piezo_lever_arm=parsed.robot.piezo_lever_arm,
+        reference=parsed.reference,
+        tool=parsed.tool,
+        microscope=parsed.microscope,
+        keep_out=parsed.keep_out,
+    )
+
+
+def _with_unit(name: str, axis: Axis) -> Axis:
+    unit = CONVENTIONAL_UNITS.get(name)
+    if axis.unit is not None or unit is None:
+        return axis
+    return replace(axis, unit=unit)
+
+
+def _read(path: Path) -> str:
+    try:
+        with path.open("rb") as file:
+            data = file.read(MAX_BYTES + 1)
+    except FileNotFoundError as error:
+        known = ", ".join(shipped_robots())
+        raise RobotFileError(
+            f"{path}: no such robot file, and no shipped robot of that name (shipped: {known})"
+        ) from error
+    except OSError as error:
+        raise RobotFileError(f"{path}: cannot be read: {error.strerror}") from error
+    if len(data) > MAX_BYTES:
+        raise RobotFileError(f"{path}: larger than {MAX_BYTES} bytes; this is no robot file")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise RobotFileError(f"{path}: not UTF-8 text (byte {error.start})") from error
