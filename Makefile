@@ -1,0 +1,95 @@
+# `make run` and `make test` prepare everything they need; `make help` lists the rest.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+PYTEST := $(BIN)/pytest
+PIP := $(BIN)/python -m pip --disable-pip-version-check
+
+# The Qt platform that must work: empty for the one of the display in use.
+QT_PLATFORM := offscreen
+
+# A .venv can be used when no installation into it was cut off and its Python still runs.
+USABLE := test ! -e $(VENV)/.unfinished && $(BIN)/python -c 'import pip' 2>/dev/null
+REBUILD := $(shell $(USABLE) || echo rebuild)
+
+EXTRAS_run :=
+EXTRAS_test := [test]
+EXTRAS_lint := [lint]
+EXTRAS_bench := [test,bench]
+EXTRAS_screenshots := [test]
+
+.NOTPARALLEL:
+.PHONY: run test test-slow lint bench screenshots clean help system rebuild
+
+run: QT_PLATFORM :=
+run: system $(VENV)/.run  ## open the program with the built-in simulator
+	@$(BIN)/rotemina
+
+test: system $(VENV)/.test  ## run the quick tests
+	@$(PYTEST) -m "not slow"
+
+# pytest fails when it selects nothing, which is right as soon as one slow test is written.
+test-slow: system $(VENV)/.test  ## run the long tests
+	@if grep -rqs --include='*.py' '^ *@pytest\.mark\.slow\|^pytestmark.*slow' tests; \
+	then $(PYTEST) -m slow; else echo 'There are no slow tests.'; fi
+
+lint: system $(VENV)/.lint $(VENV)/src  ## check style, types and the layers
+	@$(BIN)/ruff check .
+	@$(BIN)/ruff format --check .
+	@$(BIN)/lint-imports --no-cache
+	@$(BIN)/mypy
+
+bench: system $(VENV)/.bench  ## measure against the alternatives (tests/benchmarks)
+	@$(PYTEST) -s --override-ini python_files='bench_*.py' tests/benchmarks
+
+screenshots: system $(VENV)/.screenshots  ## draw the pictures of the documentation
+	@$(BIN)/python -m rotemina.app.shell.screenshots docs/screenshots
+
+clean:  ## remove .venv and everything else that was generated
+	rm -rf $(VENV) build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	find app drivers plugins resources sim tests -name __pycache__ -prune -exec rm -rf {} +
+
+help:  ## list these targets
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1	\2/p' Makefile | expand -t 18
+
+# Python itself, then what Python can check: its version, venv and the libraries of Qt.
+system:
+	@command -v $(PYTHON) >/dev/null 2>&1 || { $(INSTALL_PYTHON); }
+	@$(PYTHON) -I -B app/system_check.py --install $(QT_PLATFORM)
+
+APT_GET := apt-get install -y --no-install-recommends python3 python3-venv
+define INSTALL_PYTHON
+if [ "$(PYTHON)" != python3 ]; then echo 'There is no command "$(PYTHON)".' >&2; exit 1; fi; \
+if ! command -v apt-get >/dev/null; then echo 'Python 3.11 or newer is missing.' >&2; exit 1; fi; \
+if [ "$$(id -u)" = 0 ]; then root='env'; \
+elif sudo -n true 2>/dev/null; then root='sudo -n env'; \
+elif command -v sudo >/dev/null; then \
+	echo 'Python is missing; install it with: sudo apt-get update && sudo $(APT_GET)' >&2; exit 1; \
+else echo "Python is missing; install it with: su -c 'apt-get update && $(APT_GET)'" >&2; exit 1; fi; \
+echo 'Installing python3 and python3-venv'; \
+$$root apt-get -qq update </dev/null; \
+$$root DEBIAN_FRONTEND=noninteractive $(APT_GET) -qq </dev/null >/dev/null || \
+{ echo 'apt-get could not install python3 and python3-venv (its messages are above).' >&2; exit 1; }
+endef
+
+$(VENV)/.python: $(REBUILD) | system
+	@{ $(USABLE); } || { \
+	$(PYTHON) -m venv --clear --without-pip $(VENV) && touch $(VENV)/.unfinished && \
+	$(BIN)/python -m ensurepip --upgrade >/dev/null && rm $(VENV)/.unfinished; }
+	@touch $@
+
+# Killed on the way, pip leaves packages that look complete: .unfinished has them made again.
+$(VENV)/.run $(VENV)/.test $(VENV)/.lint $(VENV)/.bench $(VENV)/.screenshots: \
+$(VENV)/.%: pyproject.toml $(VENV)/.python
+	@echo 'Installing RoTeMiNa into $(VENV) (the first time this takes minutes)'
+	@touch $(VENV)/.unfinished
+	@$(PIP) install --quiet --editable '.$(EXTRAS_$*)' || { rm -f $(VENV)/.unfinished; exit 1; }
+	@rm -f $(VENV)/.unfinished
+	@touch $@
+
+# mypy cannot follow an editable install: it reads the folders under their import names.
+$(VENV)/src: $(VENV)/.python
+	@rm -rf $@ && mkdir -p $@/rotemina
+	@for layer in app drivers plugins resources sim; do \
+	ln -s ../../../$$layer $@/rotemina/$$layer; done
