@@ -37,7 +37,7 @@ test-slow: system $(VENV)/.test  ## run the long tests
 lint: system $(VENV)/.lint $(VENV)/src  ## check style, types and the layers
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
-	@$(BIN)/lint-imports --no-cache
+	@$(BIN)/lint-imports --no-logo --no-cache
 	@$(BIN)/mypy
 
 bench: system $(VENV)/.bench  ## measure against the alternatives (tests/benchmarks)
