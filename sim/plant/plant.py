@@ -1,0 +1,227 @@
+"""The nominal plant: what the model believes of a machine, sampled exactly."""
+
+from dataclasses import dataclass
+from typing import NamedTuple, Self
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.sim.errors import InputError
+from rotemina.sim.plant import kernel
+from rotemina.sim.plant.group import Group, groups_of
+from rotemina.sim.plant.sampling import cut, step_matrices
+from rotemina.sim.robot.model import CascadeController, PiezoAxis, Robot, StepperAxis
+
+
+class PlantError(InputError):
+    """A robot and commands that cannot be simulated together."""
+
+
+class Motion(NamedTuple):
+    """Response at n samples of all axes of a plant, each (n, axes), in the plant's order.
+
+    ``position`` m or rad, ``velocity`` m/s or rad/s (zero for static axes), ``inputs`` V, or the
+    commanded position of a stepper.
+    """
+
+    position: FloatArray
+    velocity: FloatArray
+    inputs: FloatArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PlantState:
+    """Where a run stands after its last sample, with the samples whose inputs still matter.
+
+    ``time_s`` (h,), ``inputs`` (h, axes) and ``position``, ``velocity`` (h, axes) of the last h
+    samples; the very last is the present. No sample has been taken yet where ``started`` is false.
+    """
+
+    time_s: FloatArray
+    inputs: FloatArray
+    position: FloatArray
+    velocity: FloatArray
+    started: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Plant:
+    """A robot prepared for simulation; make one by :meth:`of`.
+
+    ``axes`` are all axes of the robot, in its order; ``loops`` the controllers that are closed.
+    """
+
+    robot: Robot
+    axes: tuple[str, ...]
+    groups: tuple[Group, ...]
+    loops: tuple[CascadeController | None, ...]
+
+    @classmethod
+    def of(cls, robot: Robot, *, closed_loop: bool = False) -> Self:
+        """Prepare ``robot``; with ``closed_loop`` every axis that has a controller is under it."""
+        axes = tuple(robot.axes)
+        loops = tuple(_controller(robot, name) if closed_loop else None for name in axes)
+        return cls(robot, axes, groups_of(robot), loops)
+
+    def open_loop_inputs(self, command: FloatArray) -> FloatArray:
+        """Inputs (n, axes) that ``command`` (n, axes) asks for: V for piezos, else the command."""
+        scale = [a.gain if isinstance(a, PiezoAxis) else 1.0 for a in self.robot.axes.values()]
+        return np.asarray(command / np.array(scale))
+
+    def at_rest(self, time_s: float, command: FloatArray) -> PlantState:
+        """Return the state in equilibrium with ``command`` (axes,), before its first sample.
+
+        An axis that a force moves is at its command, at rest.
+        """
+        inputs = self.open_loop_inputs(command[None])[0]
+        position = self._static_position(inputs[None])[0]
+        for group in self.groups:
+            index = self._index(group)
+            position[index] = group.rest_position(inputs[index], command[index])
+        return self.at(time_s, inputs, position, np.zeros(len(self.axes)))
+
+    def at(
+        self, time_s: float, inputs: FloatArray, position: FloatArray, velocity: FloatArray
+    ) -> PlantState:
+        """Return a given state, each (axes,), before the first sample."""
+        return PlantState(
+            np.array([time_s]), inputs[None], position[None], velocity[None], started=False
+        )
+
+    def advance(
+        self,
+        state: PlantState,
+        time_s: FloatArray,
+        command: FloatArray,
+        *,
+        add: FloatArray | None = None,
+        inputs: FloatArray | None = None,
+    ) -> tuple[Motion, PlantState]:
+        """Sample the response to ``command`` and return it with the state after it.
+
+        Parameters
+        ----------
+        state : PlantState
+            From :meth:`at_rest`, :meth:`at` or an earlier call.
+        time_s : (n,)
+            Sample times, increasing, from the state's time on. A response is sampled at
+            ``time_s[k]`` before ``command[k]`` acts.
+        command : (n, axes)
+            m or rad.
+        add : (n, axes), optional
+            V, added to the controllers' outputs.
+        inputs : (n, axes), optional
+            Inputs of the axes without a closed loop instead of those that the command asks for:
+            what an amplifier really put out, V.
+
+        Raises
+        ------
+        PlantError
+            If the response leaves what a float can hold (an unstable loop), with axis and time.
+        """
+        history = len(state.time_s) if state.started else 0
+        count = history + len(time_s)
+        given = self.open_loop_inputs(command) if inputs is None else inputs
+        stack = _Stack(
+            time_s=np.concatenate([state.time_s[:history], time_s]),
+            inputs=np.concatenate([state.inputs[:history], given]),
+            position=np.empty((count, len(self.axes))),
+            velocity=np.zeros((count, len(self.axes))),
+            command=np.concatenate([np.zeros((history, len(self.axes))), command]),
+            add=np.zeros((count, len(self.axes))),
+        )
+        stack.position[:history] = state.position[:history]
+        stack.velocity[:history] = state.velocity[:history]
+        if add is not None:
+            stack.add[history:] = add
+        stack.position[history:] = self._static_position(stack.inputs[history:])
+        for group in self.groups:
+            self._run(group, stack, history, state)
+        self._check(stack, history)
+        motion = Motion(*(array[history:] for array in (stack.position, stack.velocity, stack.inputs)))
+        return motion, self._after(stack)
+
+    def _run(self, group: Group, stack: "_Stack", history: int, state: PlantState) -> None:
+        index = self._index(group)
+        loops = [self.loops[i] for i in index]
+        delays = np.array([loop.delay_s if loop else 0.0 for loop in loops])
+        segments = cut(stack.time_s, history, delays)
+        state_step, input_step = step_matrices(group, segments.lengths_s)
+        states = np.concatenate([stack.position[:, index], stack.velocity[:, index]], axis=1)
+        inputs = np.ascontiguousarray(stack.inputs[:, index])
+        x = np.concatenate([state.position[-1, index], state.velocity[-1, index]])
+        kernel.run(
+            state_step,
+            input_step,
+            segments.step,
+            segments.sample,
+            segments.applied,
+            stack.time_s,
+            np.ascontiguousarray(stack.command[:, index]),
+            np.ascontiguousarray(stack.add[:, index]),
+            np.array([_loop_code(loop) for loop in loops], dtype=np.int64),
+            np.array([(l.kp, l.kv, l.limit) if l else (0.0, 0.0, 0.0) for l in loops]),
+            inputs,
+            states,
+            x,
+        )
+        stack.position[:, index] = states[:, : group.size]
+        stack.velocity[:, index] = states[:, group.size :]
+        stack.inputs[:, index] = inputs
+
+    def _static_position(self, inputs: FloatArray) -> FloatArray:
+        """Position (n, axes) of the static axes, ``gain·u`` or the command; 0 for the others."""
+        gains = []
+        for axis in self.robot.axes.values():
+            static_gain = 1.0 if isinstance(axis, StepperAxis) else axis.gain
+            gains.append(static_gain if axis.static else 0.0)
+        return np.asarray(inputs * np.array(gains))
+
+    def _index(self, group: Group) -> IntArray:
+        return np.array([self.axes.index(name) for name in group.axes], dtype=np.int64)
+
+    def _after(self, stack: "_Stack") -> PlantState:
+        """Keep the present and every sample whose delayed input has yet to act or acts now."""
+        longest = max((loop.delay_s for loop in self.loops if loop), default=0.0)
+        first = int(np.searchsorted(stack.time_s, stack.time_s[-1] - longest, side="right")) - 1
+        first = max(first, 0)
+        return PlantState(
+            stack.time_s[first:].copy(),
+            stack.inputs[first:].copy(),
+            stack.position[first:].copy(),
+            stack.velocity[first:].copy(),
+            started=True,
+        )
+
+    def _check(self, stack: "_Stack", history: int) -> None:
+        finite = np.isfinite(stack.position)
+        if finite.all():
+            return
+        row = int(np.argmax(~finite.all(axis=1)))
+        axis = self.axes[int(np.argmax(~finite[row]))]
+        raise PlantError(
+            f"axis {axis}: the response grows without bound, beyond what a number can hold at "
+            f"t = {stack.time_s[row]:.6g} s; check the controller's gains against the sample rate"
+        )
+
+
+class _Stack(NamedTuple):
+    """All arrays of one call, history rows first."""
+
+    time_s: FloatArray
+    inputs: FloatArray
+    position: FloatArray
+    velocity: FloatArray
+    command: FloatArray
+    add: FloatArray
+
+
+def _controller(robot: Robot, name: str) -> CascadeController | None:
+    axis = robot.axes[name]
+    return None if isinstance(axis, StepperAxis) else axis.controller
+
+
+def _loop_code(loop: CascadeController | None) -> int:
+    if loop is None:
+        return kernel.NO_LOOP
+    return kernel.STATE_VELOCITY if loop.velocity == "state" else kernel.BACKWARD_VELOCITY

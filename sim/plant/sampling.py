@@ -1,0 +1,89 @@
+"""Exact sampling: when commands act, and how the state steps between samples.
+
+A command is held from its sample to the next (zero-order hold), so the state is stepped by the
+matrix exponential of the augmented system over each interval, uniform or not. Van Loan,
+"Computing integrals involving the matrix exponential", IEEE TAC 23 (1978).
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from scipy.linalg import expm
+
+from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.sim.plant.group import Group
+
+TICK_S = 1e-12  # sample times are told apart to this
+_BATCH = 20_000  # matrix exponentials held at once
+
+
+@dataclass(frozen=True, slots=True)
+class Segments:
+    """A run cut where a sample is taken or a delayed input begins to act.
+
+    Attributes
+    ----------
+    sample : (s,) int
+        Which sample is taken at the segment's start, or -1.
+    applied : (s, m) int
+        Which sample's input of each axis acts during the segment.
+    step : (s,) int
+        Which entry of ``lengths_s`` is the segment's length.
+    lengths_s : (k,) float
+        The different lengths, s. The last segment has length 0.
+    """
+
+    sample: IntArray
+    applied: IntArray
+    step: IntArray
+    lengths_s: FloatArray
+
+
+def cut(time_s: FloatArray, first: int, delay_s: FloatArray) -> Segments:
+    """Cut the span of ``time_s`` (n,), from sample ``first``, into segments.
+
+    Samples before ``first`` are history: they are not taken again but their inputs still act.
+    ``delay_s`` (m,) is how long after its sample an input begins to act. With ``first`` > 0 the
+    run starts at sample ``first - 1``, whose state is known.
+    """
+    start = max(first - 1, 0)
+    tick = max(TICK_S, 4.0 * np.finfo(float).eps * float(np.abs(time_s[[0, -1]]).max()))
+    ticks = np.rint((time_s - time_s[start]) / tick).astype(np.int64)
+    delays = np.rint(delay_s / tick).astype(np.int64)
+    edges = [ticks[start:]] + [ticks + delay for delay in np.unique(delays[delays > 0])]
+    breaks = np.unique(np.concatenate(edges))
+    breaks = breaks[(breaks >= 0) & (breaks <= ticks[-1])]
+    sample = np.full(len(breaks), -1, dtype=np.int64)
+    sample[np.searchsorted(breaks, ticks[first:])] = np.arange(first, len(ticks))
+    applied = np.stack(
+        [np.maximum(np.searchsorted(ticks + d, breaks, side="right") - 1, 0) for d in delays],
+        axis=1,
+    )
+    lengths = np.append(np.diff(breaks), 0)
+    values, step = np.unique(lengths, return_inverse=True)
+    return Segments(sample, applied, step.astype(np.int64), values * tick)
+
+
+def step_matrices(group: Group, lengths_s: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return exact steps over each length: state (k, 2m, 2m) and input (k, 2m, m + 1) matrices.
+
+    The last input column belongs to the constant force.
+    """
+    if len(lengths_s) <= 32:  # a live run asks for the same few lengths again and again
+        exact = np.stack([_step(group, float(length)) for length in lengths_s])
+    else:
+        exact = np.concatenate(
+            [
+                expm(lengths_s[i : i + _BATCH, None, None] * group.generator)[:, : 2 * group.size]
+                for i in range(0, len(lengths_s), _BATCH)
+            ]
+        )
+    states = 2 * group.size
+    return np.ascontiguousarray(exact[:, :, :states]), np.ascontiguousarray(exact[:, :, states:])
+
+
+@lru_cache(maxsize=512)
+def _step(group: Group, length_s: float) -> FloatArray:
+    exact: FloatArray = expm(length_s * group.generator)[: 2 * group.size]
+    return exact

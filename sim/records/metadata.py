@@ -1,0 +1,89 @@
+"""The ``# key: value`` lines of a record file."""
+
+from collections.abc import Callable, Iterator, Mapping
+
+from rotemina.sim.records.record import RecordError
+
+VERSION_KEY = "rotemina-record"
+VERSION = "1"
+BLANKS = " \t"
+
+
+def _is_count(text: str) -> bool:
+    return text.isascii() and text.isdigit() and len(text) <= 15 and int(text) > 0
+
+
+# What the program itself reads, with what it may be; any other key is the user's.
+_RULES: Mapping[str, tuple[Callable[[str], bool], str]] = {
+    VERSION_KEY: (lambda text: text == VERSION, f"the version must be {VERSION}"),
+    "mode": (lambda text: text in ("open_loop", "closed_loop"), "use open_loop or closed_loop"),
+    "history": (
+        lambda text: text in ("unknown", "periodic"),
+        "use unknown or periodic, or leave the line out for a machine at rest",
+    ),
+    "period_samples": (_is_count, "use a positive whole number of rows"),
+}
+
+
+def parse_comment(line: str) -> tuple[str, str] | None:
+    """Return the key and value of one line that begins with ``#``, or None for plain prose."""
+    key, colon, value = line.strip(BLANKS).removeprefix("#").partition(":")
+    key, value = key.strip(BLANKS), value.strip(BLANKS)
+    return (key, value) if colon and key else None
+
+
+def add_comment(metadata: dict[str, str], line: str, where: str) -> None:
+    """Add what one ``#`` line says to ``metadata``.
+
+    A key of the user that is given twice keeps both values, with ``"; "`` between them.
+
+    Raises
+    ------
+    RecordError
+        If the program reads the key and the value is none of its values, or contradicts another.
+    """
+    entry = parse_comment(line)
+    if entry is None:
+        return
+    key, value = entry
+    check_entry(key, value, where)
+    before = metadata.get(key, value)
+    if before != value and key in _RULES:
+        raise RecordError(f"{where}:{key}: {value!r} contradicts {before!r} above; keep one")
+    metadata[key] = value if before == value else f"{before}; {value}"
+
+
+def check_entry(key: str, value: str, where: str) -> None:
+    """Refuse a value that a key of the program may not have."""
+    allowed, advice = _RULES.get(key, (None, ""))
+    if allowed is not None and not allowed(value):
+        raise RecordError(f"{where}:{key}: value {value[:40]!r}; {advice}")
+
+
+def comment_lines(metadata: Mapping[str, str], longest: int) -> Iterator[str]:
+    """Give the ``#`` lines of a file, the version first, each of at most ``longest`` bytes.
+
+    Raises
+    ------
+    RecordError
+        If an entry would not read back as it is.
+    """
+    for key, value in {VERSION_KEY: VERSION, **metadata}.items():
+        check_entry(key, value, "metadata")
+        line = f"# {key}: {value}".rstrip(BLANKS)
+        if parse_comment(line) != (key, value) or not _is_one_line(line):
+            raise RecordError(
+                f"metadata:{key[:40]!r}: {value[:40]!r} does not fit in a '# key: value' line; "
+                "leave out line ends, control characters, blanks around, and ':' in the key"
+            )
+        if len(line.encode()) >= longest:
+            raise RecordError(f"metadata:{key[:40]!r}: longer than {longest} bytes; shorten it")
+        yield line
+
+
+def _is_one_line(line: str) -> bool:
+    try:
+        line.encode()
+    except UnicodeEncodeError:
+        return False
+    return not any(ord(sign) < 32 and sign != "\t" for sign in line)

@@ -1,0 +1,187 @@
+"""The rows of a record file: numbers, one time and one value per channel each.
+
+Two parsers read them. :meth:`RowParser.parse_strictly` is plain Python, defines the format and finds
+the line and column of an error. :meth:`RowParser.parse` does the same for whole blocks at once with
+polars and hands any block that is not beyond doubt to the strict one.
+"""
+
+from math import inf, isfinite
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.records.layout import NUMBER, Layout, split_fields
+from rotemina.sim.records.record import RecordError
+from rotemina.sim.records.source import Block
+
+# Below this size plain Python is done before polars is even imported.
+SMALL_BLOCK_BYTES = 200_000
+
+
+class RowParser:
+    """Turns blocks of rows into SI numbers and checks them, in the order of the file.
+
+    Parameters
+    ----------
+    name : the file's, for errors.
+    layout : separator and columns.
+    small_block_bytes : blocks up to this size are parsed strictly at once.
+    """
+
+    def __init__(
+        self, name: str, layout: Layout, *, small_block_bytes: int = SMALL_BLOCK_BYTES
+    ) -> None:
+        self._name = name
+        self._layout = layout
+        self._per_si = layout.per_si
+        self._small_block_bytes = small_block_bytes
+        self._last_time_s = -inf
+        self._decimal_sign = ""
+
+    def parse(self, block: Block) -> FloatArray:
+        """Return the (rows, columns) numbers of a block in SI, time first.
+
+        Raises
+        ------
+        RecordError
+            If a row is refused; the message names file, line and column.
+        """
+        rows = None
+        if len(block.data) > self._small_block_bytes:
+            rows = self._parse_fast(block)
+        if rows is None:
+            rows = self.parse_strictly(block)
+        if len(rows):
+            self._last_time_s = float(rows[-1, 0])
+        return rows
+
+    def _parse_fast(self, block: Block) -> FloatArray | None:
+        """Return what the strict parser would, or None where it has to decide."""
+        from rotemina.sim.records import fast  # polars takes its time to import
+
+        sign = fast.decimal_sign(block.data, self._layout.separator)
+        if sign is None or (sign and self._decimal_sign not in ("", sign)):
+            return None
+        rows = fast.parse(block.data, self._layout.separator, len(self._layout.columns))
+        if rows is None:
+            return None
+        for index, divisor in enumerate(self._per_si):
+            if divisor != 1.0:
+                rows[:, index] /= divisor
+        time_s = rows[:, 0]
+        if len(rows) and (time_s[0] <= self._last_time_s or (np.diff(time_s) <= 0).any()):
+            return None
+        self._decimal_sign = self._decimal_sign or sign
+        return rows
+
+    def parse_strictly(self, block: Block) -> FloatArray:
+        """Return the same as :meth:`parse`, row by row in plain Python; refuse as it does."""
+        rows: list[list[float]] = []
+        last_time_s = self._last_time_s
+        for line, data in enumerate(block.data.split(b"\n")[:-1], start=block.first_line):
+            text = decode_line(data, self._name, line)
+            if not text or text.startswith("#"):
+                continue
+            row = self._parse_row(text, line)
+            if row[0] <= last_time_s:
+                raise self._error(
+                    line,
+                    0,
+                    f"time {row[0]!r} s does not increase after {last_time_s!r} s; "
+                    "each row must be later than the one before",
+                )
+            last_time_s = row[0]
+            rows.append(row)
+        return np.array(rows, dtype=np.float64).reshape(len(rows), len(self._per_si))
+
+    def _parse_row(self, text: str, line: int) -> list[float]:
+        fields = split_fields(text, self._layout.separator)
+        if len(fields) != len(self._per_si):
+            raise self._length_error(line, fields)
+        return [
+            self._parse_number(field, line, index) / divisor
+            for index, (field, divisor) in enumerate(zip(fields, self._per_si, strict=True))
+        ]
+
+    def _parse_number(self, field: str, line: int, index: int) -> float:
+        text = field
+        if self._layout.separator != ",":
+            text = field.replace(",", ".", 1)
+            self._check_decimal_sign(field, line, index)
+        if NUMBER.fullmatch(text) is None:
+            raise self._error(line, index, _what_is_wrong(field))
+        value = float(text)
+        if not isfinite(value):
+            raise self._error(line, index, f"value {_shown(field)} exceeds what float64 holds")
+        return value
+
+    def _check_decimal_sign(self, field: str, line: int, index: int) -> None:
+        # Both in one file would let a thousands separator pass for a decimal sign: "1,234" beside
+        # "0.5".
+        for sign in ",.":
+            if sign in field:
+                self._decimal_sign = self._decimal_sign or sign
+                if sign != self._decimal_sign:
+                    raise self._error(
+                        line,
+                        index,
+                        f"value {_shown(field)} has {sign!r} where the numbers before have "
+                        f"{self._decimal_sign!r}; use one decimal sign and no thousands separators",
+                    )
+
+    def _length_error(self, line: int, fields: list[str]) -> RecordError:
+        wanted = len(self._per_si)
+        separator = {"\t": "tabs", " ": "blanks"}.get(
+            self._layout.separator, repr(self._layout.separator)
+        )
+        advice = f"separate {wanted} columns by {separator}"
+        if len(fields) < wanted:
+            advice += "; was the file cut off?"
+        elif self._layout.separator == "," and len(fields) <= 2 * wanted:
+            advice += "; if the commas are decimal signs, separate columns by ';'"
+        return self._error(
+            line,
+            min(len(fields), wanted),
+            f"the row has {len(fields)} fields where the header names {wanted}; {advice}",
+        )
+
+    def _error(self, line: int, index: int, what: str) -> RecordError:
+        names = self._layout.names
+        column = names[index] if index < len(names) else str(index + 1)
+        return RecordError(f"{self._name}:{line}:{column}: {what}")
+
+
+def decode_line(data: bytes, name: str, line: int) -> str:
+    """Return one line as text, without its line end and the blanks around.
+
+    Raises
+    ------
+    RecordError
+        If it is not UTF-8, or if a carriage return stands inside of it.
+    """
+    try:
+        text = data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise RecordError(
+            f"{name}:{line}:byte {error.start + 1}: {data[error.start : error.start + 1]!r} "
+            "is not UTF-8; save the file as UTF-8"
+        ) from error
+    text = text.removesuffix("\r")
+    if "\r" in text:
+        raise RecordError(
+            f"{name}:{line}: a carriage return stands inside of the line; "
+            "end lines with LF or CRLF"
+        )
+    return text.strip(" \t")
+
+
+def _what_is_wrong(field: str) -> str:
+    if not field:
+        return "the value is missing; a sensor dropout is a finite wrong value, never an empty field"
+    if field.lower().lstrip("+-") in ("nan", "inf", "infinity"):
+        return f"value {_shown(field)} is not finite; write a finite number"
+    return f"value {_shown(field)} is no plain decimal number; write such as -12.5 or 3e-6"
+
+
+def _shown(field: str) -> str:
+    return repr(field if len(field) <= 40 else field[:40] + "…")
