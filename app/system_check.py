@@ -210,9 +210,7 @@ def _as_root() -> list[str] | None:
 
 def _run(command: Sequence[str], errors: int | None = None) -> bool:
     null = subprocess.DEVNULL
-    done = subprocess.run(  # noqa: S603 - the words are this file's own
-        command, check=False, stdin=null, stdout=null, stderr=errors
-    )
+    done = subprocess.run(command, check=False, stdin=null, stdout=null, stderr=errors)
     return done.returncode == 0
 
 
