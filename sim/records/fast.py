@@ -18,22 +18,20 @@ def without_comments(data: bytes) -> bytes:
     return _COMMENT_LINES.sub(b"", data) if b"#" in data else data
 
 
-def decimal_sign(data: bytes, separator: str) -> str | None:
+def decimal_sign(rows: bytes, separator: str) -> str | None:
     """Return the decimal sign of rows, "" if it does not matter and None if it is in doubt."""
     if separator == ",":
         return ""
-    rows = without_comments(data)
     signs = [sign for sign in ",." if sign.encode() in rows]
     return None if len(signs) > 1 else "".join(signs)
 
 
 def normalise(data: bytes, separator: str) -> bytes | None:
-    """Return rows without comments, blanks, empty lines, CR and decimal commas.
+    """Return rows without blanks, empty lines, CR and decimal commas.
 
     Each step is left out where a search, which costs next to nothing, finds nothing to do. None
     where a stray carriage return is left.
     """
-    data = without_comments(data)
     if b"\r" in data:
         data = data.replace(b"\r\n", b"\n")
         if b"\r" in data:
@@ -58,7 +56,7 @@ def _without_blanks(data: bytes, separator: bytes) -> bytes:
 
 
 def parse(data: bytes, separator: str, columns: int) -> FloatArray | None:
-    """Return the (rows, columns) numbers of whole lines, or None where the strict parser decides.
+    """Return the (rows, columns) numbers of rows, or None where the strict parser decides.
 
     polars reads a missing field as null, which becomes NaN here; it raises at anything else that
     is no number.

@@ -12,12 +12,13 @@ from rotemina.sim.units import UnitError, canonical, per_si, quantity
 # In the order in which they are looked for: a comma may also be a decimal sign, a blank a filler.
 SEPARATORS = (";", "\t", ",", " ")
 EXAMPLE = "t [s], x [mm], y [mm]"
+_TAPS = tuple(tap.value for tap in Tap)
 
 # ASCII digits with one sign, one point, one exponent: no "1_000", no "0x10", no "nan".
 NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
 _NOT_FINITE = re.compile(r"[+-]?(?:nan|inf|infinity)", re.IGNORECASE)
 _COLUMN = re.compile(r"([^\[\]]+)\[([^\[\]]*)\]")
-_BLANK_SEPARATED = re.compile(r"[^\[\]\s]+[ \t]*(?:\[[^\[\]]*\])?")
+_BLANKS_AFTER_UNIT = re.compile(r"(?<=\])[ \t]+")
 _AXIS_NAME = re.compile(r"[^\s,;\[\]\"'#=+@\-.][^,;\[\]\"#\x00-\x1f\x7f]*(?<!\s)")
 
 
@@ -39,7 +40,7 @@ class Column:
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """How the rows of a file are to be read: the separator of fields and the columns, time first."""
+    """How rows are to be read: the separator of fields and the columns, time first."""
 
     separator: str
     columns: tuple[Column, ...]
@@ -72,14 +73,14 @@ class Layout:
 def split_fields(line: str, separator: str) -> list[str]:
     """Split one line into fields without the blanks around them."""
     if separator == " ":
-        return line.split()
+        return re.split(r"[ \t]+", line.strip(BLANKS))
     return [field.strip(BLANKS) for field in line.split(separator)]
 
 
 def looks_like_header(line: str) -> bool:
     """Tell a header from a row of numbers, by its first field."""
     first = re.split(r"[\s;,]", line.strip(BLANKS), maxsplit=1)[0]
-    return first[:1].isalpha() and _NOT_FINITE.fullmatch(first) is None or '"' in first
+    return '"' in first or (first[:1].isalpha() and _NOT_FINITE.fullmatch(first) is None)
 
 
 def header_separator(line: str) -> str:
@@ -88,10 +89,20 @@ def header_separator(line: str) -> str:
     return next((sign for sign in (";", ",", "\t") if sign in outside), " ")
 
 
+def row_separator(line: str, count: int) -> str | None:
+    """Return the separator that makes ``count`` numbers of a row, or None if none does."""
+    for sign in SEPARATORS:
+        fields = split_fields(line, sign)
+        numbers = fields if sign == "," else [field.replace(",", ".", 1) for field in fields]
+        if len(fields) == count and all(NUMBER.fullmatch(number) for number in numbers):
+            return sign
+    return None
+
+
 def split_headings(line: str, separator: str) -> list[str]:
     """Split a header row into headings; a heading may hold a blank before its unit."""
     if separator == " ":
-        return [heading.strip(BLANKS) for heading in _BLANK_SEPARATED.findall(line)]
+        return _BLANKS_AFTER_UNIT.split(line.strip(BLANKS))
     return split_fields(line, separator)
 
 
@@ -125,7 +136,8 @@ def _parse_column(heading: str, where: str, *, first: bool) -> Column:
     match = _COLUMN.fullmatch(heading)
     if match is None:
         raise RecordError(
-            f"{where}: heading {heading[:40]!r} is no 'axis.channel [unit]'; write such as {EXAMPLE}"
+            f"{where}: heading {heading[:40]!r} is no 'axis.channel [unit]'; "
+            f"write such as {EXAMPLE}"
         )
     name, unit_text = match[1].strip(BLANKS), match[2].strip(BLANKS)
     try:
@@ -144,10 +156,9 @@ def _parse_column(heading: str, where: str, *, first: bool) -> Column:
 def _parse_channel(name: str, where: str) -> Channel:
     axis, dot, tap = name.rpartition(".")
     axis, tap = (axis, tap) if dot else (name, Tap.CMD.value)
-    if tap not in Tap:
+    if tap not in _TAPS:
         raise RecordError(
-            f"{where}: unknown channel {tap[:40]!r} in {name[:40]!r}; "
-            f"use one of {' '.join(member.value for member in Tap)}"
+            f"{where}: unknown channel {tap[:40]!r} in {name[:40]!r}; use one of {' '.join(_TAPS)}"
         )
     check_axis_name(axis, where)
     return Channel(axis, Tap(tap))
@@ -155,7 +166,7 @@ def _parse_channel(name: str, where: str) -> Channel:
 
 def check_axis_name(axis: str, where: str) -> None:
     """Refuse an axis name that a header could not carry, or that a spreadsheet would calculate."""
-    if _AXIS_NAME.fullmatch(axis) is None or looks_like_header(axis) is False:
+    if _AXIS_NAME.fullmatch(axis) is None:
         raise RecordError(
             f"{where}: {axis[:40]!r} cannot name an axis; begin with a letter, "
             "without separators, brackets, quotes or '#'"
@@ -163,13 +174,7 @@ def check_axis_name(axis: str, where: str) -> None:
 
 
 def _check_unit(channel: Channel | None, unit: str, where: str) -> None:
-    allowed = (
-        ("s",)
-        if channel is None
-        else ("V",)
-        if channel.tap in VOLTAGE_TAPS
-        else ("m", "rad")
-    )
+    allowed = ("s",) if channel is None else ("V",) if channel.tap in VOLTAGE_TAPS else ("m", "rad")
     if quantity(unit) not in allowed:
         raise RecordError(
             f"{where}: {channel or 't'} cannot be in [{unit}]; use a unit of {' or '.join(allowed)}"

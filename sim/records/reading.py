@@ -1,7 +1,7 @@
 """Import of record and trajectory files."""
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from os import PathLike, fspath
 
 import numpy as np
@@ -9,7 +9,6 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.records.layout import (
     EXAMPLE,
-    SEPARATORS,
     Column,
     Layout,
     header_separator,
@@ -19,6 +18,160 @@ from rotemina.sim.records.layout import (
 )
 from rotemina.sim.records.metadata import VERSION_KEY, add_comment
 from rotemina.sim.records.record import Record, RecordError
-from rotemina.sim.records.rows import SMALL_BLOCK_BYTES, RowParser, decode_line
+from rotemina.sim.records.rows import RowParser, decode_line
 from rotemina.sim.records.source import LIMITS, Block, Limits, open_blocks
 from rotemina.sim.robot.model import Robot
+
+_COMMENT_LINE = re.compile(rb"^[ \t]*#[^\n]*", re.MULTILINE)
+_FIRST_LINE = re.compile(rb"^[ \t\r]*[^# \t\r\n][^\n]*", re.MULTILINE)
+
+
+def read_record(
+    path: str | PathLike[str],
+    *,
+    columns: str | None = None,
+    robot: Robot | None = None,
+    limits: Limits = LIMITS,
+) -> Record:
+    """Import a record or trajectory, plain or compressed.
+
+    Parameters
+    ----------
+    path : of the file.
+    columns : what the columns are, such as ``"t [s], x [mm], y.meas [um]"``, for a file without a
+        header row; where there is one, both must agree.
+    robot : if given, the axes must be its axes, and lengths or angles as it says. A command beyond
+        an axis' range is read all the same: it may be looked at, not played.
+    limits : bounds of the file.
+
+    Raises
+    ------
+    RecordError
+        If anything in the file is refused; nothing is loaded then. The message is
+        ``file:line:column: what, value, bound, what to do``, with the line counted from 1 and the
+        column by name or number.
+    """
+    name = fspath(path)
+    named = None if columns is None else parse_columns(columns, "columns", robot)
+    with open_blocks(path, limits) as raw_blocks:
+        comments = _Comments(name, limits)
+        blocks = comments.collect(raw_blocks)
+        layout, first = _find_layout(name, blocks, named, robot)
+        parser = RowParser(name, layout, small_block_bytes=limits.small_block_bytes)
+        parts = [parser.parse(first)]
+        count = parts[0].size
+        for block in blocks:
+            parts.append(parser.parse(block))
+            count += parts[-1].size
+            if count > limits.values:
+                raise RecordError(
+                    f"{name}:{block.first_line}: more than {limits.values} values; split the file"
+                )
+    if count == 0:
+        raise RecordError(f"{name}:{first.first_line}: no rows of numbers; the record is empty")
+    time_s, values = _assemble(parts)
+    return Record(time_s, layout.channels, values, layout.axis_units, comments.metadata)
+
+
+class _Comments:
+    """Collects the metadata of the blocks that pass."""
+
+    def __init__(self, name: str, limits: Limits) -> None:
+        self._name = name
+        self._bytes_left = limits.comment_bytes
+        self._limits = limits
+        self._metadata: dict[str, str] = {}
+
+    @property
+    def metadata(self) -> dict[str, str]:
+        """What the lines said, without the format's version."""
+        return {key: value for key, value in self._metadata.items() if key != VERSION_KEY}
+
+    def collect(self, blocks: Iterator[Block]) -> Iterator[Block]:
+        """Give on each block after reading its comment lines."""
+        for block in blocks:
+            if b"#" in block.data:
+                self._read(block)
+            yield block
+
+    def _read(self, block: Block) -> None:
+        line, counted = block.first_line, 0
+        for match in _COMMENT_LINE.finditer(block.data):
+            line += block.data.count(b"\n", counted, match.start())
+            counted = match.start()
+            self._bytes_left -= len(match[0]) + 1
+            if self._bytes_left < 0:
+                raise RecordError(
+                    f"{self._name}:{line}: more than {self._limits.comment_bytes} bytes of "
+                    "comments; shorten them"
+                )
+            text = decode_line(match[0], self._name, line)
+            add_comment(self._metadata, text, f"{self._name}:{line}")
+
+
+def _find_layout(
+    name: str, blocks: Iterator[Block], named: tuple[Column, ...] | None, robot: Robot | None
+) -> tuple[Layout, Block]:
+    """Return the layout and what is left of the block in which it was found."""
+    line = 1
+    for block in blocks:
+        match = _FIRST_LINE.search(block.data)
+        if match is None:
+            line = block.first_line
+            continue
+        line = block.line_of(match.start())
+        text = decode_line(match[0], name, line)
+        if looks_like_header(text):
+            layout = _layout_of_header(text, f"{name}:{line}", named, robot)
+            return layout, Block(line + 1, block.data[match.end() + 1 :])
+        layout = _layout_of_row(text, f"{name}:{line}", named)
+        return layout, Block(line, block.data[match.start() :])
+    raise RecordError(f"{name}:{line}: no header and no rows of numbers; the record is empty")
+
+
+def _layout_of_header(
+    text: str, where: str, named: tuple[Column, ...] | None, robot: Robot | None
+) -> Layout:
+    columns = parse_columns(text, where, robot)
+    if named is not None and named != columns:
+        pairs = zip(columns, named, strict=False)
+        index = next(
+            (index for index, (found, asked) in enumerate(pairs) if found != asked),
+            min(len(columns), len(named)),
+        )
+        found, asked = (
+            repr(each[index].heading) if index < len(each) else "no column"
+            for each in (columns, named)
+        )
+        raise RecordError(
+            f"{where}:{index + 1}: the header names {found} where you named {asked}; "
+            "name the same or leave it to the header"
+        )
+    return Layout(header_separator(text), columns)
+
+
+def _layout_of_row(text: str, where: str, named: tuple[Column, ...] | None) -> Layout:
+    if named is None:
+        raise RecordError(
+            f"{where}:1: the file has no header row; name its columns, such as '{EXAMPLE}'"
+        )
+    # Where no separator fits, the row parser finds what is wrong with this row.
+    return Layout(row_separator(text, len(named)) or header_separator(text), named)
+
+
+def _assemble(parts: list[FloatArray]) -> tuple[FloatArray, FloatArray]:
+    """Join (rows, columns) blocks into time and values; each signal is contiguous.
+
+    The blocks are given up one by one, so that the whole is not held twice.
+    """
+    rows, columns = sum(map(len, parts)), parts[0].shape[1]
+    time_s = np.empty(rows)
+    values = np.empty((rows, columns - 1), order="F")
+    start = 0
+    for index, part in enumerate(parts):
+        stop = start + len(part)
+        time_s[start:stop] = part[:, 0]
+        values[start:stop] = part[:, 1:]
+        parts[index] = part[:0]
+        start = stop
+    return time_s, values

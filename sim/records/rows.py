@@ -1,8 +1,8 @@
 """The rows of a record file: numbers, one time and one value per channel each.
 
-Two parsers read them. :meth:`RowParser.parse_strictly` is plain Python, defines the format and finds
-the line and column of an error. :meth:`RowParser.parse` does the same for whole blocks at once with
-polars and hands any block that is not beyond doubt to the strict one.
+Two parsers read them. :meth:`RowParser.parse_strictly` is plain Python, defines the format and
+finds the line and column of an error. :meth:`RowParser.parse` does the same for whole blocks at
+once with polars and hands any block that is not beyond doubt to the strict one.
 """
 
 from math import inf, isfinite
@@ -11,11 +11,9 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.records.layout import NUMBER, Layout, split_fields
+from rotemina.sim.records.metadata import BLANKS
 from rotemina.sim.records.record import RecordError
-from rotemina.sim.records.source import Block
-
-# Below this size plain Python is done before polars is even imported.
-SMALL_BLOCK_BYTES = 200_000
+from rotemina.sim.records.source import LIMITS, Block
 
 
 class RowParser:
@@ -29,7 +27,7 @@ class RowParser:
     """
 
     def __init__(
-        self, name: str, layout: Layout, *, small_block_bytes: int = SMALL_BLOCK_BYTES
+        self, name: str, layout: Layout, *, small_block_bytes: int = LIMITS.small_block_bytes
     ) -> None:
         self._name = name
         self._layout = layout
@@ -59,10 +57,11 @@ class RowParser:
         """Return what the strict parser would, or None where it has to decide."""
         from rotemina.sim.records import fast  # polars takes its time to import
 
-        sign = fast.decimal_sign(block.data, self._layout.separator)
+        data = fast.without_comments(block.data)
+        sign = fast.decimal_sign(data, self._layout.separator)
         if sign is None or (sign and self._decimal_sign not in ("", sign)):
             return None
-        rows = fast.parse(block.data, self._layout.separator, len(self._layout.columns))
+        rows = fast.parse(data, self._layout.separator, len(self._layout.columns))
         if rows is None:
             return None
         for index, divisor in enumerate(self._per_si):
@@ -77,10 +76,12 @@ class RowParser:
     def parse_strictly(self, block: Block) -> FloatArray:
         """Return the same as :meth:`parse`, row by row in plain Python; refuse as it does."""
         rows: list[list[float]] = []
+        # A line of tabs is a row of missing values where tabs separate.
+        blanks = " " if self._layout.separator == "\t" else BLANKS
         last_time_s = self._last_time_s
         for line, data in enumerate(block.data.split(b"\n")[:-1], start=block.first_line):
             text = decode_line(data, self._name, line)
-            if not text or text.startswith("#"):
+            if not text.strip(blanks) or text.lstrip(BLANKS).startswith("#"):
                 continue
             row = self._parse_row(text, line)
             if row[0] <= last_time_s:
@@ -152,7 +153,7 @@ class RowParser:
 
 
 def decode_line(data: bytes, name: str, line: int) -> str:
-    """Return one line as text, without its line end and the blanks around.
+    """Return one line as text, without its line end.
 
     Raises
     ------
@@ -169,15 +170,16 @@ def decode_line(data: bytes, name: str, line: int) -> str:
     text = text.removesuffix("\r")
     if "\r" in text:
         raise RecordError(
-            f"{name}:{line}: a carriage return stands inside of the line; "
-            "end lines with LF or CRLF"
+            f"{name}:{line}: a carriage return stands inside of the line; end lines with LF or CRLF"
         )
-    return text.strip(" \t")
+    return text
 
 
 def _what_is_wrong(field: str) -> str:
     if not field:
-        return "the value is missing; a sensor dropout is a finite wrong value, never an empty field"
+        return (
+            "the value is missing; a sensor dropout is a finite wrong value, never an empty field"
+        )
     if field.lower().lstrip("+-") in ("nan", "inf", "infinity"):
         return f"value {_shown(field)} is not finite; write a finite number"
     return f"value {_shown(field)} is no plain decimal number; write such as -12.5 or 3e-6"

@@ -32,6 +32,8 @@ class Limits:
     values : most numbers, which need 8 bytes each.
     comment_bytes : most that all ``#`` lines may hold together.
     block_bytes : how much is read and parsed at a time; a choice of speed, not a bound.
+    small_block_bytes : up to here a block is parsed in plain Python, which is done before polars
+        is even imported; a choice of speed as well.
     """
 
     line_bytes: int = 1_000_000
@@ -39,6 +41,7 @@ class Limits:
     values: int = 500_000_000
     comment_bytes: int = 16_000_000
     block_bytes: int = 16_000_000
+    small_block_bytes: int = 200_000
 
 
 LIMITS = Limits()
@@ -69,7 +72,7 @@ def open_blocks(path: str | PathLike[str], limits: Limits = LIMITS) -> Iterator[
     try:
         if not stat.S_ISREG(Path(name).stat().st_mode):
             raise RecordError(f"{name}: it is a folder or a device; name a record file")
-        file = open(name, "rb")  # noqa: SIM115 (closed below; opening errors are ours to word)
+        file = Path(name).open("rb")  # noqa: SIM115 (closed below)
     except FileNotFoundError as error:
         raise RecordError(f"{name}: there is no such file; check its name and folder") from error
     except PermissionError as error:
@@ -104,7 +107,7 @@ def _blocks(name: str, file: BinaryIO, limits: Limits) -> Iterator[Block]:
 def _whole_lines(name: str, line: int, stream: BinaryIO, limits: Limits) -> bytes:
     data = _read(name, line, stream.read, limits.block_bytes)
     if data and not data.endswith(b"\n"):
-        # One byte more than a line may have, LF included: _check_text then sees that it is too long.
+        # One byte more than a line may have, LF included, so that _check_text can see the excess.
         data += _read(name, line, stream.readline, limits.line_bytes + 1)
     return data
 

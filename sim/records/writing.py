@@ -1,0 +1,141 @@
+"""Export of record and trajectory files."""
+
+import gzip
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from os import PathLike, fspath
+from pathlib import Path
+from typing import BinaryIO, cast
+from uuid import uuid4
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.records.layout import Column, Layout, check_axis_name, check_commands
+from rotemina.sim.records.metadata import comment_lines
+from rotemina.sim.records.record import VOLTAGE_TAPS, Record, RecordError
+from rotemina.sim.records.source import LIMITS
+from rotemina.sim.units import UnitError, canonical, quantity
+
+_ROWS_AT_A_TIME = 65_536
+_COMPRESSION = 6
+
+
+def write_record(
+    record: Record,
+    path: str | PathLike[str],
+    *,
+    units: Mapping[str, str] | None = None,
+    header: bool = True,
+) -> None:
+    """Export a record with commas, ``.`` and as many digits as float64 needs to come back.
+
+    The file appears whole or not at all: it is written beside its place and then renamed, over a
+    file that is there already.
+
+    Parameters
+    ----------
+    record : what to write.
+    path : of the file; compressed if the name ends in ``.gz``.
+    units : mapping axis -> unit of its positions, such as ``{"x": "um"}``; SI where left out.
+    header : whether to write the metadata and the header row, or numbers alone.
+
+    Raises
+    ------
+    RecordError
+        If the file cannot be written, a unit does not fit, or the record would not read back.
+    """
+    name = fspath(path)
+    layout = _layout(record, units or {})
+    head = _head(record, layout) if header else b""
+    with _replaced(name) as file:
+        file.write(head)
+        for start in range(0, len(record.time_s), _ROWS_AT_A_TIME):
+            _write_rows(file, record, layout, slice(start, start + _ROWS_AT_A_TIME))
+
+
+def _layout(record: Record, units: Mapping[str, str]) -> Layout:
+    check_commands(record.columns, "record")
+    for axis in record.axes:
+        check_axis_name(axis, "record")
+    for axis, unit in units.items():
+        _check_unit(record, axis, unit)
+    columns = [Column(None, "s")]
+    for channel in record.columns:
+        si_unit = "V" if channel.tap in VOLTAGE_TAPS else record.units[channel.axis]
+        wanted = si_unit if si_unit == "V" else canonical(units.get(channel.axis, si_unit))
+        columns.append(Column(channel, wanted))
+    return Layout(",", tuple(columns))
+
+
+def _check_unit(record: Record, axis: str, unit: str) -> None:
+    if axis not in record.axes:
+        raise RecordError(
+            f"units: the record has no axis {axis!r}; its axes are {' '.join(record.axes)}"
+        )
+    try:
+        kind = quantity(unit)
+    except UnitError as error:
+        raise RecordError(f"units:{axis}: {error}") from error
+    if kind != record.units[axis]:
+        raise RecordError(
+            f"units:{axis}: {unit!r} cannot show units of {record.units[axis]}; use one of those"
+        )
+
+
+def _head(record: Record, layout: Layout) -> bytes:
+    headings = ",".join(column.heading for column in layout.columns)
+    lines = [*comment_lines(record.metadata, LIMITS.line_bytes), headings]
+    return "".join(line + "\n" for line in lines).encode()
+
+
+def _write_rows(file: BinaryIO, record: Record, layout: Layout, rows: slice) -> None:
+    import polars as pl  # takes its time to import; a window that exports nothing goes without
+
+    signals = [record.time_s[rows], *record.values[rows].T]
+    table = pl.DataFrame(
+        {
+            str(index): _converted(signal, column, factor)
+            for index, (signal, column, factor) in enumerate(
+                zip(signals, layout.columns, layout.per_si, strict=True)
+            )
+        }
+    )
+    table.write_csv(file, include_header=False)
+
+
+def _converted(signal: FloatArray, column: Column, factor: float) -> FloatArray:
+    if factor == 1.0:
+        return np.ascontiguousarray(signal)
+    with np.errstate(over="ignore"):
+        values = signal * factor
+    if not np.isfinite(values).all():
+        raise RecordError(f"record:{column}: too large for [{column.unit}]; choose a larger unit")
+    return values
+
+
+@contextmanager
+def _replaced(name: str) -> Iterator[BinaryIO]:
+    """Open a file that takes the place of ``name`` when it is complete, and only then."""
+    place = Path(os.path.realpath(name))
+    draft = place.with_name(f".{place.name[:100]}.{uuid4().hex}.part")
+    try:
+        if place.is_dir():
+            raise RecordError(f"{name}: it is a folder; name a file in it")
+        with draft.open("xb") as file:
+            if name.endswith(".gz"):
+                with gzip.GzipFile("", "wb", _COMPRESSION, file, mtime=0) as compressed:
+                    yield cast(BinaryIO, compressed)
+            else:
+                yield file
+            file.flush()
+            os.fsync(file.fileno())
+        draft.replace(place)
+    except OSError as error:
+        raise RecordError(
+            f"{name}: it cannot be written ({error.strerror or error}); "
+            "choose another folder or make room"
+        ) from error
+    finally:
+        draft.unlink(missing_ok=True)
