@@ -73,7 +73,9 @@ def compare(robot: Robot, record: Record, *, fit: Collection[str] = ()) -> Compa
     """
     for name in fit:
         if name not in FITTABLE:
-            raise InputError(f"--fit: {name!r} cannot be re-fitted; choose from {', '.join(FITTABLE)}")
+            raise InputError(
+                f"--fit: {name!r} cannot be re-fitted; choose from {', '.join(FITTABLE)}"
+            )
     response = nominal_response(robot, record)
     pairs = [
         (axis, tap)

@@ -6,6 +6,8 @@ from scipy import signal as dsp
 from rotemina.sim.arrays import FloatArray
 
 _ALIKE = 0.5  # correlation below which two signals have no common shift
+_CONVERGED = 1e-3  # of a sample
+_MOST_STEPS = 20
 
 
 def delay(time_s: FloatArray, model: FloatArray, real: FloatArray) -> float | None:
@@ -29,20 +31,27 @@ def delay(time_s: FloatArray, model: FloatArray, real: FloatArray) -> float | No
     correlation = dsp.correlate(measured, modelled, method="fft")[near]
     if correlation.max() < _ALIKE * scale:
         return None
-    lag = int(lags[near][np.argmax(correlation)])
-    return lag * step + _refine(modelled, measured, lag, step)
+    start = float(lags[near][np.argmax(correlation)]) * step
+    return _refine(grid, modelled, measured, start)
 
 
-def _refine(model: FloatArray, real: FloatArray, lag: int, step: float) -> float:
-    if lag >= 0:
-        shifted, measured = model[: len(model) - lag], real[lag:]
-    else:
-        shifted, measured = model[-lag:], real[:lag]
-    slope = np.gradient(shifted, step)
-    matrix = np.column_stack([np.ones_like(shifted), shifted, -slope])
-    weights = np.linalg.norm(matrix, axis=0)
-    if np.any(weights == 0.0):
-        return 0.0
-    solution, *_ = np.linalg.lstsq(matrix / weights, measured, rcond=None)
-    gain, shift = solution[1] / weights[1], solution[2] / weights[2]
-    return float(np.clip(shift / gain, -step, step)) if gain > 0 else 0.0
+def _refine(time_s: FloatArray, model: FloatArray, real: FloatArray, start_s: float) -> float:
+    """Gauss–Newton from a lag in whole samples; stays there where it does not converge."""
+    step, longest = time_s[1] - time_s[0], 0.25 * (time_s[-1] - time_s[0])
+    slope = np.gradient(model, step)
+    lag = start_s
+    for _ in range(_MOST_STEPS):
+        seen = (time_s - lag >= time_s[0]) & (time_s - lag <= time_s[-1])
+        moved, steep = (np.interp(time_s[seen] - lag, time_s, x) for x in (model, slope))
+        matrix = np.column_stack([np.ones_like(moved), moved, -steep])
+        weights = np.linalg.norm(matrix, axis=0)
+        if np.any(weights == 0.0):
+            return start_s
+        solution, *_ = np.linalg.lstsq(matrix / weights, real[seen], rcond=None)
+        gain, shift = solution[1:] / weights[1:]
+        if gain <= 0 or abs(lag + shift / gain) > longest:
+            return start_s
+        lag += float(shift / gain)
+        if abs(shift / gain) < _CONVERGED * step:
+            return lag
+    return start_s

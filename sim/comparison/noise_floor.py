@@ -1,6 +1,7 @@
 """The noise floor of a tap: declared by its sensor, or measured in the record and labelled so."""
 
 from dataclasses import replace
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -103,7 +104,7 @@ def _at_rest(record: Record, axis: str, tap: Tap) -> float | None:
 def _holds(command: FloatArray) -> list[tuple[int, int]]:
     edges = np.flatnonzero(np.diff(command) != 0.0) + 1
     bounds = np.concatenate([[0], edges, [len(command)]])
-    return [(int(a), int(b)) for a, b in zip(bounds[:-1], bounds[1:], strict=True)]
+    return [(a, b) for a, b in pairwise(bounds.tolist())]
 
 
 def _about_line(signal: FloatArray) -> FloatArray:

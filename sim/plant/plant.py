@@ -64,9 +64,10 @@ class Plant:
         return cls(robot, axes, groups_of(robot), loops)
 
     def open_loop_inputs(self, command: FloatArray) -> FloatArray:
-        """Inputs (n, axes) that ``command`` (n, axes) asks for: V for piezos, else the command."""
+        """Return the inputs (n, axes) that ``command`` asks for: V for piezos, else the command."""
         scale = [a.gain if isinstance(a, PiezoAxis) else 1.0 for a in self.robot.axes.values()]
-        return np.asarray(command / np.array(scale))
+        with np.errstate(over="ignore"):  # found, and said, after the run
+            return np.asarray(command / np.array(scale))
 
     def at_rest(self, time_s: float, command: FloatArray) -> PlantState:
         """Return the state in equilibrium with ``command`` (axes,), before its first sample.
@@ -117,7 +118,7 @@ class Plant:
         Raises
         ------
         PlantError
-            If the response leaves what a float can hold (an unstable loop), with axis and time.
+            If the response leaves what a float can hold, with axis and time.
         """
         history = len(state.time_s) if state.started else 0
         count = history + len(time_s)
@@ -138,7 +139,9 @@ class Plant:
         for group in self.groups:
             self._run(group, stack, history, state)
         self._check(stack, history)
-        motion = Motion(*(array[history:] for array in (stack.position, stack.velocity, stack.inputs)))
+        motion = Motion(
+            *(array[history:] for array in (stack.position, stack.velocity, stack.inputs))
+        )
         return motion, self._after(stack)
 
     def _run(self, group: Group, stack: "_Stack", history: int, state: PlantState) -> None:
@@ -160,7 +163,7 @@ class Plant:
             np.ascontiguousarray(stack.command[:, index]),
             np.ascontiguousarray(stack.add[:, index]),
             np.array([_loop_code(loop) for loop in loops], dtype=np.int64),
-            np.array([(l.kp, l.kv, l.limit) if l else (0.0, 0.0, 0.0) for l in loops]),
+            np.array([_loop_gains(loop) for loop in loops]),
             inputs,
             states,
             x,
@@ -175,7 +178,8 @@ class Plant:
         for axis in self.robot.axes.values():
             static_gain = 1.0 if isinstance(axis, StepperAxis) else axis.gain
             gains.append(static_gain if axis.static else 0.0)
-        return np.asarray(inputs * np.array(gains))
+        static = np.array(gains)
+        return np.where(static != 0.0, inputs, 0.0) * static
 
     def _index(self, group: Group) -> IntArray:
         return np.array([self.axes.index(name) for name in group.axes], dtype=np.int64)
@@ -200,8 +204,8 @@ class Plant:
         row = int(np.argmax(~finite.all(axis=1)))
         axis = self.axes[int(np.argmax(~finite[row]))]
         raise PlantError(
-            f"axis {axis}: the response grows without bound, beyond what a number can hold at "
-            f"t = {stack.time_s[row]:.6g} s; check the controller's gains against the sample rate"
+            f"axis {axis}: the response grows beyond what a number can hold at "
+            f"t = {stack.time_s[row]:.6g} s; check the commands and the controller's gains"
         )
 
 
@@ -225,3 +229,7 @@ def _loop_code(loop: CascadeController | None) -> int:
     if loop is None:
         return kernel.NO_LOOP
     return kernel.STATE_VELOCITY if loop.velocity == "state" else kernel.BACKWARD_VELOCITY
+
+
+def _loop_gains(loop: CascadeController | None) -> tuple[float, float, float]:
+    return (loop.kp, loop.kv, loop.limit) if loop else (0.0, 0.0, 0.0)

@@ -1,7 +1,7 @@
 """The nominal response to a record's commands, with what came before its first row."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,6 +11,8 @@ from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import ForceAxis, Robot, StepperAxis
 
 _FIRST_ROWS = 5  # rows from which position and velocity at the start are taken
+_SETTLED = 1e-12  # change from period to period, over the motion, that counts as steady
+_MOST_PERIODS = 50
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,9 +70,13 @@ class _Run:
 def _check_axes(robot: Robot, record: Record) -> None:
     for axis in record.axes:
         if axis not in robot.axes:
-            raise PlantError(f"axis {axis!r} of the record: robot {robot.name!r} has {list(robot.axes)}")
+            raise PlantError(
+                f"axis {axis!r} of the record: robot {robot.name!r} has {list(robot.axes)}"
+            )
         if not record.has(axis, Tap.CMD):
-            raise PlantError(f"axis {axis!r} of the record: it has no {axis}.cmd column to drive the model")
+            raise PlantError(
+                f"axis {axis!r} of the record: it has no {axis}.cmd column to drive the model"
+            )
 
 
 def _commands(plant: Plant, record: Record, drive: Tap) -> _Run:
@@ -100,28 +106,43 @@ def _commands(plant: Plant, record: Record, drive: Tap) -> _Run:
 
 
 def _steady(plant: Plant, run: _Run, period_samples: int | None) -> Motion:
-    """Run one period before the record, then the record itself."""
+    """Run the first period before the record until it repeats itself, then the record itself."""
     rows = len(run.time_s)
     period = min(period_samples or rows, rows)
+    lead = _lead(run, period)
+    state = plant.at_rest(lead.time_s[0], run.command[0])
+    before = state
+    for _ in range(_MOST_PERIODS):
+        motion, after = plant.advance(
+            state, lead.time_s, lead.command, add=lead.add, inputs=lead.inputs
+        )
+        settled = np.abs(after.position[-1] - before.position[-1]) <= _SETTLED * np.ptp(
+            motion.position, axis=0
+        )
+        if settled.all():
+            break
+        before, state = after, _moved(after, lead.time_s[0] - run.time_s[0])
+    motion, _ = plant.advance(after, run.time_s, run.command, add=run.add, inputs=run.inputs)
+    return motion
+
+
+def _lead(run: _Run, period: int) -> _Run:
+    """Return the first period, moved to end where the record begins."""
+    rows = len(run.time_s)
     if period < rows:
         length = run.time_s[period] - run.time_s[0]
     else:
         length = (run.time_s[-1] - run.time_s[0]) * rows / max(rows - 1, 1)
-    before = slice(0, period)
-    time_s = np.concatenate([run.time_s[before] - length, run.time_s])
-    state = plant.at_rest(time_s[0], run.command[0])
-    motion, _ = plant.advance(
-        state,
-        time_s,
-        np.concatenate([run.command[before], run.command]),
-        add=np.concatenate([run.add[before], run.add]),
-        inputs=np.concatenate([run.inputs[before], run.inputs]),
-    )
-    return Motion(*(array[period:] for array in motion))
+    first = slice(0, period)
+    return _Run(run.time_s[first] - length, run.command[first], run.add[first], run.inputs[first])
+
+
+def _moved(state: PlantState, by_s: float) -> PlantState:
+    return replace(state, time_s=state.time_s + by_s)
 
 
 def _measured_start(plant: Plant, record: Record, rest: PlantState, run: _Run) -> PlantState:
-    """Take position and velocity from a line through the first measured rows."""
+    """Take position and velocity from a parabola through the first measured rows."""
     position, velocity = rest.position[0].copy(), rest.velocity[0].copy()
     rows = min(_FIRST_ROWS, len(record.time_s))
     since = record.time_s[:rows] - record.time_s[0]
@@ -131,9 +152,9 @@ def _measured_start(plant: Plant, record: Record, rest: PlantState, run: _Run) -
             continue
         offset = plant.robot.axes[name].offset if tap is Tap.MEAS else 0.0
         first = record.signal(name, tap)[:rows] - offset
-        line = np.polynomial.polynomial.polyfit(since, first, 1 if rows > 2 else 0)
-        position[column] = line[0]
-        velocity[column] = line[1] if len(line) > 1 else 0.0
+        curve = np.polynomial.Polynomial.fit(since, first, min(2, rows - 1))
+        position[column] = curve(0.0)
+        velocity[column] = curve.deriv()(0.0)
     return plant.at(run.time_s[0], run.inputs[0], position, velocity)
 
 

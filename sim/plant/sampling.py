@@ -14,7 +14,7 @@ from scipy.linalg import expm
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.plant.group import Group
 
-TICK_S = 1e-12  # sample times are told apart to this
+TICK_S = 1e-15  # finest difference of sample times that is told from rounding
 _BATCH = 20_000  # matrix exponentials held at once
 
 

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from rotemina.sim.robot.matrices import inertia_matrices
 from rotemina.sim.robot.model import (
     VOLTAGE_SLACK,
     Axis,
@@ -13,7 +14,6 @@ from rotemina.sim.robot.model import (
     Robot,
     StepperAxis,
 )
-from rotemina.sim.robot.matrices import inertia_matrices
 
 # A range may exceed what the voltage reaches by this share of it: drives saturate there, but a
 # larger difference is a slip of the unit or of the decimal point.
@@ -156,7 +156,11 @@ def _definiteness(robot: Robot) -> Iterator[Problem]:
     names, mass, damping, stiffness = inertia_matrices(robot)
     if not names:
         return
-    for matrix, letter, strict in ((mass, "M", True), (damping, "D", False), (stiffness, "C", False)):
+    for matrix, letter, strict in (
+        (mass, "M", True),
+        (damping, "D", False),
+        (stiffness, "C", False),
+    ):
         scale = 1.0 / np.sqrt(np.where(np.diag(matrix) > 0, np.diag(matrix), 1.0))
         smallest = float(np.linalg.eigvalsh(matrix * np.outer(scale, scale))[0])
         if smallest < (1e-9 if strict else -1e-9):

@@ -62,9 +62,7 @@ _SCHEMA = TypeAdapter(_RobotFile)
 def shipped_robots() -> tuple[str, ...]:
     """Return the names of the robots that the program carries, sorted."""
     folder = resources.files(SHIPPED)
-    return tuple(
-        sorted(item.name[:-5] for item in folder.iterdir() if item.name.endswith(".toml"))
-    )
+    return tuple(sorted(item.name[:-5] for item in folder.iterdir() if item.name.endswith(".toml")))
 
 
 def load_robot(name_or_file: str | Path) -> Robot:

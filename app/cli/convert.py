@@ -1,0 +1,78 @@
+"""``rotemina convert``: read a trajectory or record, and write it in another shape."""
+
+import argparse
+from pathlib import Path
+
+from rotemina.app.cli.files import add_columns, add_robot, robot_of
+from rotemina.sim.errors import InputError
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.records.record import Record
+from rotemina.sim.records.resampling import induced_velocity, resample
+from rotemina.sim.records.writing import write_record
+from rotemina.sim.units import canonical, quantity, symbol, to_unit
+
+
+def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Add the subcommand."""
+    parser = commands.add_parser(
+        "convert",
+        help="convert a trajectory or record: units, sampling, header",
+        description="Read a trajectory or record and write it again: in other units, resampled, "
+        "or as plain columns without a header.",
+    )
+    parser.add_argument("source", type=Path, metavar="IN")
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="OUT")
+    add_robot(parser)
+    add_columns(parser)
+    parser.add_argument(
+        "--units",
+        type=lambda text: [part.strip() for part in text.split(",") if part.strip()],
+        default=[],
+        metavar="um,urad",
+        help="units of lengths and angles in the output (default: m, rad)",
+    )
+    parser.add_argument("--no-header", action="store_true", help="write the numbers alone")
+    parser.add_argument("--resample", type=float, metavar="HZ", help="resample at this rate")
+    parser.add_argument(
+        "--method",
+        choices=("hold", "linear", "cubic"),
+        default="hold",
+        help="how values between rows are found (default: hold, as a device does)",
+    )
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Convert one file, and say what resampling does to the speeds."""
+    record = read_record(options.source, columns=options.columns, robot=robot_of(options))
+    if options.resample is not None:
+        converted = resample(record, options.resample, options.method)
+        print(_velocities(record, converted))
+        record = converted
+    write_record(
+        record,
+        options.output,
+        units=_axis_units(record, options.units),
+        header=not options.no_header,
+    )
+    print(f"{options.output}: {len(record.time_s)} rows, {record.duration_s:.6g} s")
+    return 0
+
+
+def _axis_units(record: Record, names: list[str]) -> dict[str, str]:
+    chosen = {quantity(name): canonical(name) for name in names}
+    for kind in chosen:
+        if kind not in ("m", "rad"):
+            raise InputError(f"--units {chosen[kind]}: a position's unit is a length or an angle")
+    return {axis: chosen[unit] for axis, unit in record.units.items() if unit in chosen}
+
+
+def _velocities(before: Record, after: Record) -> str:
+    """Say the fastest command of each axis before and after resampling."""
+    fast, faster = induced_velocity(before), induced_velocity(after)
+    lines = ["fastest command, before → after resampling:"]
+    for axis in fast:
+        unit = "mm" if after.units[axis] == "m" else "mrad"
+        speeds = (f"{to_unit(speed, unit):.4g}" for speed in (fast[axis], faster[axis]))
+        lines.append(f"  {axis}: {' → '.join(speeds)} {symbol(unit)}/s")
+    return "\n".join(lines)

@@ -1,0 +1,46 @@
+"""The command ``rotemina``: the window, and subcommands that do its work without one.
+
+Exit status: 0 done · 2 bad input, one clear line on stderr · 130 interrupted · 1 a fault of the
+program.
+"""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from importlib.metadata import version
+
+from rotemina.app.cli import compare, convert, play, window
+from rotemina.sim.errors import InputError
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line and return its exit status."""
+    parser = build_parser()
+    options = parser.parse_args(arguments)
+    try:
+        return int(options.run(options))
+    except InputError as error:
+        print(f"rotemina: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("rotemina: interrupted", file=sys.stderr)
+        return 130
+
+
+def build_parser() -> argparse.ArgumentParser:
+    """Return the parser of the whole command line; without a subcommand the window opens."""
+    parser = argparse.ArgumentParser(
+        prog="rotemina",
+        description="Control, simulation and sim-to-real diagnosis of the RoTeMiNa robot. "
+        "Without a subcommand the operator's window opens.",
+    )
+    parser.add_argument("--version", action="version", version=f"rotemina {version('rotemina')}")
+    window.add_options(parser)
+    commands = parser.add_subparsers(title="subcommands", metavar="")
+    for module in (play, compare, convert):
+        module.add_parser(commands)
+    return parser
+
+
+if __name__ == "__main__":
+    sys.exit(main())

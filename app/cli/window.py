@@ -1,0 +1,34 @@
+"""``rotemina`` without a subcommand: the operator's window, or its main job where no display is."""
+
+import argparse
+from pathlib import Path
+
+from rotemina.app.cli.files import add_robot
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the window to the top level."""
+    add_robot(parser)
+    parser.add_argument(
+        "--offscreen",
+        action="store_true",
+        help="do the window's main job without a display: play the example trajectory on the "
+        "simulator, compare model and real, and leave picture and report in a folder",
+    )
+    parser.add_argument(
+        "--output",
+        type=Path,
+        default=Path("rotemina-run"),
+        metavar="DIR",
+        help="where the picture and the report of a run without a display go "
+        "(default: rotemina-run)",
+    )
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Open the window, or run offscreen where there is no display."""
+    # Qt is loaded only when a window is wanted: the subcommands work without its libraries.
+    from rotemina.app.shell.start import start
+
+    return start(options.robot, offscreen=options.offscreen, output=options.output)

@@ -1,0 +1,93 @@
+"""A picture of a comparison: model and real on the left, what is left between them on the right."""
+
+from pathlib import Path
+
+import matplotlib as mpl
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.comparison.comparison import Comparison, TapComparison
+from rotemina.sim.decimation import envelope
+from rotemina.sim.errors import InputError
+from rotemina.sim.records.record import Tap
+from rotemina.sim.units import symbol, to_unit
+
+FORMATS = (".svg", ".png", ".pdf")
+MODEL_COLOUR, REAL_COLOUR, GAP_COLOUR = "#2f6fb5", "#d1642c", "#5b5b66"
+_BUCKETS = 1200
+_ROW_INCHES = 2.1
+
+
+def save_figure(comparison: Comparison, path: Path) -> None:
+    """Write the picture; its format follows from the name's ending (.svg, .png or .pdf).
+
+    Raises
+    ------
+    InputError
+        If the ending is another one or the file cannot be written.
+    """
+    if path.suffix.lower() not in FORMATS:
+        raise InputError(f"{path}: a picture's name ends in {', '.join(FORMATS)}")
+    rows = len(comparison.taps)
+    figure = Figure(figsize=(11.0, 0.9 + _ROW_INCHES * rows), layout="constrained")
+    grid = figure.subplots(rows, 2, sharex=True, squeeze=False)
+    for (signals, gap), tap in zip(grid, comparison.taps, strict=True):
+        _draw_row(signals, gap, comparison, tap)
+    grid[-1][0].set_xlabel("time [s]")
+    grid[-1][1].set_xlabel("time [s]")
+    handles, labels = grid[0][0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper right", ncols=2, frameon=False)
+    try:
+        # A fixed salt and no date: the same comparison gives the same file.
+        with mpl.rc_context({"svg.hashsalt": "rotemina", "svg.fonttype": "none"}):
+            figure.savefig(path, dpi=120, metadata=_NO_DATE.get(path.suffix.lower()))
+    except OSError as error:
+        raise InputError(f"{path}: the picture cannot be written: {error.strerror}") from error
+
+
+_NO_DATE = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
+
+
+def drawing_unit(si_unit: str, largest: float) -> str:
+    """Return the unit in which a signal of this size (SI) reads best."""
+    if si_unit == "rad":
+        return "mrad" if largest >= 0.1 else "urad"
+    if si_unit == "m":
+        return "mm" if largest >= 1e-3 else "um" if largest >= 1e-6 else "nm"
+    return si_unit
+
+
+def _draw_row(signals: Axes, gap: Axes, comparison: Comparison, tap: TapComparison) -> None:
+    time_s = comparison.record.time_s - comparison.record.time_s[0]
+    real = comparison.record.signal(tap.axis, Tap(tap.tap))
+    model = comparison.response.signal(tap.axis, Tap(tap.tap))
+    unit = drawing_unit(tap.unit, float(abs(real).max()))
+    _line(signals, time_s, to_unit(real, unit), REAL_COLOUR, "real")
+    _line(signals, time_s, to_unit(model, unit), MODEL_COLOUR, "model")
+    signals.set_ylabel(f"{_plain(tap.axis)} {tap.tap} [{symbol(unit)}]")
+    gap_unit = drawing_unit(tap.unit, tap.peak)
+    _line(gap, time_s, to_unit(real - model, gap_unit), GAP_COLOUR, "real − model")
+    gap.set_ylabel(f"real − model [{symbol(gap_unit)}]")
+    gap.set_title(_caption(tap, gap_unit), fontsize=9, loc="left")
+    for axes in (signals, gap):
+        axes.grid(visible=True, linewidth=0.4, alpha=0.6)
+        axes.margins(x=0.0)
+
+
+def _line(axes: Axes, time_s: FloatArray, values: FloatArray, colour: str, label: str) -> None:
+    axes.plot(*envelope(time_s, values, _BUCKETS), color=colour, linewidth=0.9, label=label)
+
+
+def _caption(tap: TapComparison, unit: str) -> str:
+    text = f"rms {to_unit(tap.rms, unit):.4g} {symbol(unit)}"
+    if tap.relative_error is not None:
+        text += f" · relative error {100 * tap.relative_error:.3g} %"
+    if tap.noise_floor is not None:
+        text += f" · noise floor {to_unit(tap.noise_floor, unit):.3g} {symbol(unit)}"
+    return text
+
+
+def _plain(name: str) -> str:
+    """Keep matplotlib from reading a name as mathematics."""
+    return name.replace("$", r"\$")
