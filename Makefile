@@ -53,20 +53,21 @@ clean:  ## remove .venv and everything else that was generated
 help:  ## list these targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1	\2/p' Makefile | expand -t 18
 
-# Python itself, then what Python can check: its version, venv and the libraries of Qt.
+# Python itself (python3-minimal alone lacks ctypes), then what Python can check: its version,
+# venv and the libraries of Qt.
 system:
-	@command -v $(PYTHON) >/dev/null 2>&1 || { $(INSTALL_PYTHON); }
+	@$(PYTHON) -c 'import ctypes' 2>/dev/null || { $(INSTALL_PYTHON); }
 	@$(PYTHON) -I -B app/system_check.py --install $(QT_PLATFORM)
 
 APT_GET := apt-get install -y --no-install-recommends python3 python3-venv
 define INSTALL_PYTHON
-if [ "$(PYTHON)" != python3 ]; then echo 'There is no command "$(PYTHON)".' >&2; exit 1; fi; \
-if ! command -v apt-get >/dev/null; then echo 'Python 3.11 or newer is missing.' >&2; exit 1; fi; \
+if [ "$(PYTHON)" != python3 ]; then echo 'PYTHON=$(PYTHON) is no complete Python.' >&2; exit 1; fi; \
+if ! command -v apt-get >/dev/null; then echo 'Missing: Python >= 3.11.' >&2; exit 1; fi; \
 if [ "$$(id -u)" = 0 ]; then root='env'; \
 elif sudo -n true 2>/dev/null; then root='sudo -n env'; \
 elif command -v sudo >/dev/null; then \
-	echo 'Python is missing; install it with: sudo apt-get update && sudo $(APT_GET)' >&2; exit 1; \
-else echo "Python is missing; install it with: su -c 'apt-get update && $(APT_GET)'" >&2; exit 1; fi; \
+	echo 'Missing: Python. Install with: sudo apt-get update && sudo $(APT_GET)' >&2; exit 1; \
+else echo "Missing: Python. Install with: su -c 'apt-get update && $(APT_GET)'" >&2; exit 1; fi; \
 echo 'Installing python3 and python3-venv'; \
 $$root apt-get -qq update </dev/null; \
 $$root DEBIAN_FRONTEND=noninteractive $(APT_GET) -qq </dev/null >/dev/null || \
