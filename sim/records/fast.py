@@ -9,6 +9,7 @@ import numpy as np
 import polars as pl
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.records.source import count_lines
 
 _COMMENT_LINES = re.compile(rb"^[ \t]*#[^\n]*\n", re.MULTILINE)
 
@@ -27,10 +28,9 @@ def decimal_sign(rows: bytes, separator: str) -> str | None:
 
 
 def normalise(data: bytes, separator: str) -> bytes | None:
-    """Return rows without blanks, empty lines, CR and decimal commas.
+    """Return rows without blanks, CR and decimal commas; None where a stray CR is left.
 
-    Each step is left out where a search, which costs next to nothing, finds nothing to do. None
-    where a stray carriage return is left.
+    Each step is left out where a search, which costs next to nothing, finds nothing to do.
     """
     if b"\r" in data:
         data = data.replace(b"\r\n", b"\n")
@@ -42,9 +42,7 @@ def normalise(data: bytes, separator: str) -> bytes | None:
         data = data.replace(b"\t", b" ")
     if b" " in data:
         data = _without_blanks(data, separator.encode())
-    while b"\n\n" in data:
-        data = data.replace(b"\n\n", b"\n")
-    return data.removeprefix(b"\n")
+    return data
 
 
 def _without_blanks(data: bytes, separator: bytes) -> bytes:
@@ -55,15 +53,32 @@ def _without_blanks(data: bytes, separator: bytes) -> bytes:
     return data.removeprefix(b" ")
 
 
+def _without_empty_lines(data: bytes) -> bytes:
+    while b"\n\n" in data:
+        data = data.replace(b"\n\n", b"\n")
+    return data.removeprefix(b"\n")
+
+
 def parse(data: bytes, separator: str, columns: int) -> FloatArray | None:
-    """Return the (rows, columns) numbers of rows, or None where the strict parser decides.
+    """Return the (rows, columns) numbers of rows, or None where the strict parser decides."""
+    rows = normalise(data, separator)
+    if rows is None:
+        return None
+    numbers = _read_numbers(rows, separator, columns)
+    if numbers is None:
+        # Searched for last, because it is the one search that takes its time.
+        shorter = _without_empty_lines(rows)
+        if len(shorter) < len(rows):
+            numbers = _read_numbers(shorter, separator, columns)
+    return numbers
+
+
+def _read_numbers(rows: bytes, separator: str, columns: int) -> FloatArray | None:
+    """Return (rows, columns) finite numbers, or None if there is anything else.
 
     polars reads a missing field as null, which becomes NaN here; it raises at anything else that
     is no number.
     """
-    rows = normalise(data, separator)
-    if rows is None:
-        return None
     if not rows:
         return np.empty((0, columns))
     schema = {str(index): pl.Float64 for index in range(columns)}
@@ -74,5 +89,5 @@ def parse(data: bytes, separator: str, columns: int) -> FloatArray | None:
     except pl.exceptions.PolarsError:
         return None
     numbers = table.to_numpy(order="fortran", writable=True)
-    expected = (rows.count(b"\n"), columns)
-    return numbers if numbers.shape == expected and np.isfinite(numbers).all() else None
+    whole = numbers.shape == (count_lines(rows), columns)
+    return numbers if whole and np.isfinite(numbers).all() else None

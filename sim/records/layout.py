@@ -91,12 +91,16 @@ def header_separator(line: str) -> str:
 
 def row_separator(line: str, count: int) -> str | None:
     """Return the separator that makes ``count`` numbers of a row, or None if none does."""
-    for sign in SEPARATORS:
-        fields = split_fields(line, sign)
-        numbers = fields if sign == "," else [field.replace(",", ".", 1) for field in fields]
-        if len(fields) == count and all(NUMBER.fullmatch(number) for number in numbers):
-            return sign
-    return None
+    signs = (sign for sign in SEPARATORS if splits_into_numbers(line, sign, count))
+    return next(signs, None)
+
+
+def splits_into_numbers(line: str, separator: str, count: int) -> bool:
+    """Tell whether a separator makes ``count`` numbers of a row, with either decimal sign."""
+    fields = split_fields(line, separator)
+    if separator != ",":
+        fields = [field.replace(",", ".", 1) for field in fields]
+    return len(fields) == count and all(NUMBER.fullmatch(field) for field in fields)
 
 
 def split_headings(line: str, separator: str) -> list[str]:

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterator
+from itertools import chain
 from os import PathLike, fspath
 
 import numpy as np
@@ -58,9 +59,9 @@ def read_record(
         blocks = comments.collect(raw_blocks)
         layout, first = _find_layout(name, blocks, named, robot)
         parser = RowParser(name, layout, small_block_bytes=limits.small_block_bytes)
-        parts = [parser.parse(first)]
-        count = parts[0].size
-        for block in blocks:
+        parts: list[FloatArray] = []
+        count = 0
+        for block in chain([first], blocks):
             parts.append(parser.parse(block))
             count += parts[-1].size
             if count > limits.values:

@@ -1,0 +1,85 @@
+import gzip
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from rotemina.sim.records.preview import preview
+from rotemina.sim.records.record import RecordError
+from rotemina.sim.records.source import Limits
+
+WriteFile = Callable[..., Path]
+
+
+@pytest.mark.parametrize(
+    ("content", "separator", "headings", "first_row"),
+    [
+        ("# a: b\nt [s], x [mm]\n0,1\n", ",", ("t [s]", "x [mm]"), ("0", "1")),
+        ("t [s] x [mm]\n0 1\n", " ", ("t [s]", "x [mm]"), ("0", "1")),
+        ("time;pos\n0;1,5\n", ";", ("time", "pos"), ("0", "1,5")),
+        ("time pos other\n0 1 2\n", " ", ("time", "pos", "other"), ("0", "1", "2")),
+        ('"t","x"\n0,1\n', ",", ('"t"', '"x"'), ("0", "1")),
+        ("0,1,2\n", ",", (), ("0", "1", "2")),
+        ("0, 1, 2\n", ",", (), ("0", "1", "2")),
+        ("0;1,5;2\n", ";", (), ("0", "1,5", "2")),
+        ("0\t1,5\n", "\t", (), ("0", "1,5")),
+        ("\n 0,0   1,5\n 1,0   2,5\n", " ", (), ("0,0", "1,5")),
+        # The first row alone would also fit a comma.
+        ("0,5 1\n1 2\n", " ", (), ("0,5", "1")),
+        ("1.5\n2.5\n", " ", (), ("1.5",)),
+    ],
+)
+def test_what_a_file_looks_like(
+    content: str,
+    separator: str,
+    headings: tuple[str, ...],
+    first_row: tuple[str, ...],
+    write_file: WriteFile,
+) -> None:
+    found = preview(write_file(content))
+    assert (found.separator, found.headings, found.rows[0]) == (separator, headings, first_row)
+    assert found.has_header == bool(headings)
+    assert found.column_count == len(first_row)
+
+
+def test_only_the_beginning_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "long.csv.gz"
+    rows = "".join(f"{step},1\n" for step in range(100_000)).encode()
+    # What comes later is damaged, which nobody sees who does not read it.
+    path.write_bytes(gzip.compress(b"t [s],x [m]\n" + rows)[:-20])
+    found = preview(path)
+    assert [row[0] for row in found.rows] == [str(step) for step in range(20)]
+    assert len(preview(path, rows=3).rows) == 3
+
+
+def test_odd_rows_are_shown_as_they_are(write_file: WriteFile) -> None:
+    found = preview(write_file("t [s],x [m]\n0\n1,2,3\nnan,off\n"))
+    assert found.rows == (("0",), ("1", "2", "3"), ("nan", "off"))
+
+
+def test_the_fingerprint_tells_shapes_apart(write_file: WriteFile) -> None:
+    contents = {
+        "plain": "0,1,2\n",
+        "longer": "5,6,7\n6,7,8\n",
+        "wider": "0,1,2,3\n",
+        "semicolons": "0;1;2\n",
+        "header": "t [s],x [m],y [m]\n0,1,2\n",
+        "other header": "t [s],x [m],z [m]\n0,1,2\n",
+    }
+    prints = {
+        name: preview(write_file(content, f"{name}.csv")).fingerprint
+        for name, content in contents.items()
+    }
+    assert prints["plain"] == prints["longer"] == "comma:3:no header"
+    assert len(set(prints.values())) == 5
+
+
+def test_what_cannot_be_shown(write_file: WriteFile, tmp_path: Path) -> None:
+    with pytest.raises(RecordError, match=r"a.csv: no header and no rows"):
+        preview(write_file("# comment\n\n", "a.csv"))
+    with pytest.raises(RecordError, match="binary or UTF-16"):
+        preview(write_file(b"\0\1", "b.csv"))
+    with pytest.raises(RecordError, match="longer than 10 bytes"):
+        preview(write_file("0,1234567890\n", "c.csv"), limits=Limits(line_bytes=10))
+    with pytest.raises(RecordError, match="no such file"):
+        preview(tmp_path / "absent.csv")

@@ -1,0 +1,211 @@
+"""Each refusal names the file, the line, the column and the reason."""
+
+import gzip
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.records.record import RecordError
+from rotemina.sim.records.source import Limits
+from rotemina.sim.robot.model import Robot, StepperAxis
+
+WriteFile = Callable[..., Path]
+
+HEAD = "# mode: open_loop\nt [s],x.cmd [mm],x.meas [mm]\n0,1,1\n"
+GOOD = HEAD + "1,2,2\n"
+PACKED = gzip.compress(GOOD.encode())
+
+# file's content -> where (after the file's name) and what the error says
+REFUSED: dict[str, tuple[str | bytes, str, str]] = {
+    "time stands still": (HEAD + "0,2,2\n", ":4:t", "time 0.0 s does not increase after 0.0 s"),
+    "time goes back": (GOOD + "0.5,2,2\n", ":5:t", "time 0.5 s does not increase after 1.0 s"),
+    "empty value": (HEAD + "1,,2\n", ":4:x.cmd", "value is missing"),
+    "empty last value": (HEAD + "1,2,\n", ":4:x.meas", "value is missing"),
+    "empty time": (HEAD + ",2,2\n", ":4:t", "value is missing"),
+    "only separators": (HEAD + ",,\n", ":4:t", "value is missing"),
+    "blank value": (HEAD + "1, ,2\n", ":4:x.cmd", "value is missing"),
+    "nan": (HEAD + "1,2,nan\n", ":4:x.meas", "value 'nan' is not finite"),
+    "NaN": (HEAD + "1,NaN,2\n", ":4:x.cmd", "value 'NaN' is not finite"),
+    "inf": (HEAD + "1,-inf,2\n", ":4:x.cmd", "value '-inf' is not finite"),
+    "infinity": (HEAD + "1,Infinity,2\n", ":4:x.cmd", "value 'Infinity' is not finite"),
+    "overflow": (HEAD + "1,1e400,2\n", ":4:x.cmd", "value '1e400' exceeds"),
+    "underscore": (HEAD + "1,1_000,2\n", ":4:x.cmd", "value '1_000' is no plain decimal"),
+    "hexadecimal": (HEAD + "1,0x10,2\n", ":4:x.cmd", "value '0x10' is no plain decimal"),
+    "blank in a number": (HEAD + "1,1 234,2\n", ":4:x.cmd", "value '1 234' is no plain"),
+    "no-break space": (HEAD + "1,1\u00a0234,2\n", ":4:x.cmd", "is no plain decimal"),
+    "other digits": (HEAD + "1,\uff11,2\n", ":4:x.cmd", "is no plain decimal"),
+    "quoted number": (HEAD + '1,"2",2\n', ":4:x.cmd", "is no plain decimal"),
+    "Fortran exponent": (HEAD + "1,2d3,2\n", ":4:x.cmd", "value '2d3' is no plain decimal"),
+    "formula": (HEAD + "1,=1+1,2\n", ":4:x.cmd", "value '=1+1' is no plain decimal"),
+    "text": (HEAD + "1,off,2\n", ":4:x.cmd", "value 'off' is no plain decimal"),
+    "long text": (HEAD + f"1,{'9' * 3000},2\n", ":4:x.cmd", "999…' exceeds"),
+    "comment after numbers": (HEAD + "1,2,2 # why\n", ":4:x.meas", "'2 # why' is no plain"),
+    "row too short": (HEAD + "1,2\n2,3,3\n", ":4:x.meas", "the row has 2 fields where the header"),
+    "cut off": (HEAD + "1,2", ":4:x.meas", "was the file cut off?"),
+    "row too long": (HEAD + "1,2,3,4,5,6,7,8\n", ":4:4", "the row has 8 fields"),
+    "first row too long": ("t [s],x [m]\n0,1,2\n", ":2:3", "the row has 3 fields"),
+    "decimal commas": (HEAD + "1,0,2,0,2,0\n", ":4:4", "if the commas are decimal signs, sep"),
+    "other separator": (HEAD + "1;2;2\n", ":4:x.cmd", "the row has 1 fields"),
+    "two decimal signs": (
+        "t [s];x [m]\n0;0.5\n1;1,234\n",
+        ":3:x.cmd",
+        "value '1,234' has ',' where the numbers before have '.'",
+    ),
+    "thousands": ("t [s];x [m]\n0;1.234,5\n", ":2:x.cmd", "value '1.234,5'"),
+    "two commas": ("t [s];x [m]\n0;1,234,5\n", ":2:x.cmd", "value '1,234,5' is no plain"),
+    "row of tabs": ("t [s]\tx [m]\n0\t1\n\t\n", ":3:t", "value is missing"),
+    "stray tab": ("t [s]\tx [m]\n0\t\t1\n", ":2:3", "the row has 3 fields"),
+    "no header": ("0,1,2\n", ":1:1", "no header row; name its columns, such as 't [s], x [mm]"),
+    "header without time": ("x [m],y [m]\n0,1\n", ":1:1", "the first column, and only it, must"),
+    "time again": ("t [s],x [m],t [s]\n0,1,2\n", ":1:3", "the first column, and only it, must"),
+    "time alone": ("t [s]\n0\n", ":1", "no column beside time"),
+    "no unit": ("t [s],x\n0,1\n", ":1:2", "heading 'x' is no 'axis.channel [unit]'"),
+    "text after the unit": ("t [s],x [m] y\n0,1\n", ":1:2", "is no 'axis.channel [unit]'"),
+    "quoted header": ('"t [s]","x [m]"\n0,1\n', ":1:1", "is no 'axis.channel [unit]'"),
+    "empty heading": ("t [s],x [m],\n0,1,\n", ":1:3", "heading '' is no"),
+    "no axis": ("t [s],.cmd [m]\n0,1\n", ":1:2", "'' cannot name an axis"),
+    "axis is a formula": ("t [s],=x [m]\n0,1\n", ":1:2", "'=x' cannot name an axis"),
+    "unknown unit": ("t [s],x [furlong]\n0,1\n", ":1:2", "unknown unit 'furlong'; use one of m"),
+    "unknown time unit": ("t [min],x [m]\n0,1\n", ":1:1", "unknown unit 'min'"),
+    "time in m": ("t [m],x [m]\n0,1\n", ":1:1", "t cannot be in [m]; use a unit of s"),
+    "position in V": (
+        "t [s],x.meas [V]\n0,1\n",
+        ":1:2",
+        "x.meas cannot be in [V]; use a unit of m",
+    ),
+    "voltage in m": ("t [s],x.u [m]\n0,1\n", ":1:2", "x.u cannot be in [m]; use a unit of V"),
+    "m and rad": ("t [s],x [m],x.ref [rad]\n0,1,1\n", ":1:3", "x.ref is in [rad] but 'x' is in"),
+    "unknown channel": ("t [s],x.mes [m]\n0,1\n", ":1:2", "unknown channel 'mes' in 'x.mes'; use"),
+    "column twice": ("t [s],x [m],x.cmd [um]\n0,1,1\n", ":1:3", "x.cmd is already column 2"),
+    "no command": ("t [s],x.meas [m]\n0,1\n", ":1", "has x.meas but no x.cmd; add it"),
+    "header alone": ("t [s],x [m]\n", ":2", "no rows of numbers"),
+    "header and comments": ("t [s],x [m]\n\n# end\n", ":2", "no rows of numbers"),
+    "comments alone": ("# mode: open_loop\n", ":1", "no header and no rows"),
+    "empty": ("", "", "the file is empty"),
+    "empty gzip": (gzip.compress(b""), "", "the file is empty"),
+    "Latin-1": (HEAD.encode() + b"1,\xb5,2\n", ":4:byte 3", "is not UTF-8"),
+    "Latin-1 header": ("t [s],x [µm]\n0,1\n".encode("latin-1"), ":1:byte 10", "is not UTF-8"),
+    "Latin-1 comment": (GOOD.encode() + b"# \xb5\n", ":5:byte 3", "is not UTF-8"),
+    "UTF-16": (GOOD.encode("utf-16"), ":1", "binary or UTF-16"),
+    "binary": (GOOD.encode() + b"\x7fELF\x00\x01", ":5", "binary or UTF-16"),
+    "gzip in gzip": (gzip.compress(PACKED), "", ""),
+    "CR alone": ("t [s],x [m]\r0,1\r1,2\r", ":1", "end lines with LF or CRLF"),
+    "CR in a row": (HEAD + "1,2\r,2\n", ":4", "end lines with LF or CRLF"),
+    "CR twice": (HEAD + "1,2,2\r\r\n", ":4", "end lines with LF or CRLF"),
+    "later version": ("# rotemina-record: 2\n" + GOOD, ":1:rotemina-record", "version must be 1"),
+    "mode": ("# mode: open\n" + GOOD, ":1:mode", "value 'open'; use open_loop or closed_loop"),
+    "mode twice": (GOOD + "# mode: closed_loop\n", ":5:mode", "'closed_loop' contradicts 'open_l"),
+    "history": (GOOD + "# history: rest\n", ":5:history", "value 'rest'; use unknown or periodic"),
+    "period 0": (GOOD + "# period_samples: 0\n", ":5:period_samples", "value '0'; use a positive"),
+    "period -5": (GOOD + "#period_samples:-5\n", ":5:period_samples", "value '-5'"),
+    "period 2.5": (GOOD + "#period_samples: 2.5\n", ":5:period_samples", "value '2.5'"),
+    "period 1_0": (GOOD + "#period_samples: 1_0\n", ":5:period_samples", "value '1_0'"),
+}
+
+
+@pytest.mark.parametrize(("content", "where", "what"), REFUSED.values(), ids=REFUSED.keys())
+def test_what_import_refuses(
+    content: str | bytes, where: str, what: str, write_file: WriteFile, limits: Limits
+) -> None:
+    path = write_file(content)
+    with pytest.raises(RecordError) as caught:
+        read_record(path, limits=limits)
+    message = str(caught.value)
+    assert message.startswith(f"{path}{where}: " if what else str(path)), message
+    assert what in message
+    assert len(message) < 400 + len(str(path))
+
+
+@pytest.mark.parametrize(
+    ("content", "what"),
+    [
+        (PACKED[:-9], "the compressed file ends early, after this line"),
+        (PACKED[:30], "the compressed file ends early, after this line"),
+        (PACKED[:-8] + bytes(8), "the compressed data are damaged after this line"),
+        (PACKED + b"more", "the compressed data are damaged after this line"),
+    ],
+)
+def test_a_damaged_compressed_file(
+    content: bytes, what: str, write_file: WriteFile, limits: Limits
+) -> None:
+    path = write_file(content, "run.csv.gz")
+    with pytest.raises(RecordError, match=rf"{re.escape(str(path))}:[1-5]: {what}"):
+        read_record(path, limits=limits)
+
+
+ROBOT = Robot(
+    name="bench", axes={"x": StepperAxis(kind="stepper", range=(0.0, 1.0), unit="m", static=True)}
+)
+
+
+@pytest.mark.parametrize(
+    ("header", "where", "what"),
+    [
+        ("t [s],y [mm]", ":1:2", "robot 'bench' has no axis 'y'; its axes are x"),
+        ("t [s],x [urad]", ":1:2", "x.cmd is in [urad] but robot 'bench' moves 'x' in units of m"),
+        ("t [s],x [mm],q.cmd [m]", ":1:3", "has no axis 'q'"),
+    ],
+)
+def test_what_does_not_fit_the_robot(
+    header: str, where: str, what: str, write_file: WriteFile
+) -> None:
+    path = write_file(f"{header}\n")
+    with pytest.raises(RecordError, match=re.escape(f"{path}{where}: ")) as caught:
+        read_record(path, robot=ROBOT)
+    assert what in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("content", "columns", "message"),
+    [
+        ("0,1\n", "t [s], x [mile]", "columns:2: 'x': unknown unit 'mile'"),
+        ("0,1\n", "t [s], y [m]", "columns:2: robot 'bench' has no axis 'y'"),
+        ("0,1\n", "", "columns:1: heading '' is no"),
+        ("0,1\n1,2,3\n", "t [s], x [m]", "run.csv:2:3: the row has 3 fields"),
+        ("0,1,2\n", "t [s], x [m]", "run.csv:1:3: the row has 3 fields"),
+        ("0,1\n", "t [s], x [m], x.u [V]", "run.csv:1:x.u: the row has 2 fields"),
+        ("0,off\n", "t [s], x [m]", "run.csv:1:x.cmd: value 'off'"),
+        ("nan,1\n", "t [s], x [m]", "run.csv:1:t: value 'nan' is not finite"),
+        ("0 1 2\n", "t [s], x [m]", "run.csv:1:3: the row has 3 fields"),
+        ("t [s],x [mm]\n0,1\n", "t [s], x [m]", "run.csv:1:2: the header names 'x.cmd [mm]' where"),
+        ("t [s],x [m]\n0,1\n", "t [s], x [m], x.u [V]", "run.csv:1:3: the header names no column"),
+        ("time,pos\n0,1\n", "t [s], x [m]", "run.csv:1:1: heading 'time' is no"),
+    ],
+)
+def test_named_columns_that_do_not_fit(
+    content: str, columns: str, message: str, write_file: WriteFile, limits: Limits
+) -> None:
+    path = write_file(content)
+    with pytest.raises(RecordError) as caught:
+        read_record(path, columns=columns, robot=ROBOT, limits=limits)
+    assert message in str(caught.value)
+
+
+def test_the_line_counts_comments_and_empty_lines(write_file: WriteFile, limits: Limits) -> None:
+    rows = "".join(f"{second},1,1\n# c{second}: x\n\r\n" for second in range(1, 40))
+    path = write_file(HEAD + rows + "99,1,oops\n")
+    with pytest.raises(RecordError, match=f"{re.escape(str(path))}:121:x.meas: value 'oops'"):
+        read_record(path, limits=limits)
+
+
+def test_what_is_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(RecordError, match=r"absent.csv: there is no such file"):
+        read_record(tmp_path / "absent.csv")
+    with pytest.raises(RecordError, match="a folder or a device"):
+        read_record(tmp_path)
+    with pytest.raises(RecordError, match="a folder or a device"):
+        read_record("/dev/null")
+    with pytest.raises(RecordError, match="cannot be opened"):
+        read_record("nul\0byte")
+
+    def refuse(*_: object) -> None:
+        raise PermissionError(13, "Permission denied")
+
+    path = tmp_path / "locked.csv"
+    path.write_text(GOOD)
+    monkeypatch.setattr(Path, "open", refuse)
+    with pytest.raises(RecordError, match=r"locked.csv: no permission to read it"):
+        read_record(path)

@@ -1,0 +1,65 @@
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rotemina.sim import units
+from rotemina.sim.units import UnitError
+
+ALL_UNITS = [unit for si in ("m", "rad", "V", "s") for unit in units.units_of(si)]
+
+
+@pytest.mark.parametrize("text", ["581.7", "0.1", "64.99927", "3", "-7.3e-5", "123456.789"])
+@pytest.mark.parametrize(("unit", "exponent"), [("mm", -3), ("um", -6), ("nm", -9), ("urad", -6)])
+def test_a_decimal_unit_gives_the_nearest_float64(text: str, unit: str, exponent: int) -> None:
+    mantissa, _, power = text.partition("e")
+    nearest = float(f"{mantissa}e{int(power or 0) + exponent}")
+    # The text itself is rounded once to a float64, the division rounds a second time.
+    assert abs(units.from_unit(float(text), unit) - nearest) <= math.ulp(nearest)
+    if float(text).is_integer():
+        assert units.from_unit(float(text), unit) == nearest
+
+
+@pytest.mark.parametrize("unit", ["m", "rad", "V", "s"])
+@given(value=st.floats(allow_nan=False))
+def test_an_si_unit_changes_no_bit(unit: str, value: float) -> None:
+    assert units.from_unit(value, unit).tobytes() == np.float64(value).tobytes()
+    assert units.to_unit(value, unit).tobytes() == np.float64(value).tobytes()
+
+
+@pytest.mark.parametrize("unit", ALL_UNITS)
+@given(value=st.floats(-1e290, 1e290))
+def test_there_and_back_is_within_two_ulp(unit: str, value: float) -> None:
+    back = float(units.from_unit(units.to_unit(value, unit), unit))
+    assert abs(back - value) <= 2 * math.ulp(value)
+
+
+def test_angles_convert_by_their_definition() -> None:
+    assert units.from_unit(180.0, "deg") == pytest.approx(math.pi, rel=1e-15)
+    assert units.from_unit(3600.0, "arcsec") == pytest.approx(math.radians(1.0), rel=1e-15)
+    assert units.to_unit(1e-3, "mrad") == 1.0
+
+
+def test_arrays_keep_their_shape() -> None:
+    assert units.from_unit(np.array([[1.0, 2.0]]), "mm").tolist() == [[1e-3, 2e-3]]
+
+
+@pytest.mark.parametrize("spelling", ["um", "µm", "μm"])
+def test_micro_may_be_spelt_three_ways(spelling: str) -> None:
+    assert units.canonical(spelling) == "um"
+    assert units.symbol(spelling) == "\N{MICRO SIGN}m"
+
+
+@pytest.mark.parametrize("unit", ["", "M", "mV", "km", "um ", "inch", "Rad"])
+def test_an_unknown_unit_is_refused_with_what_there_is(unit: str) -> None:
+    with pytest.raises(UnitError, match=r"unknown unit .* use one of m mm um nm"):
+        units.quantity(unit)
+
+
+def test_a_menu_begins_with_the_si_unit() -> None:
+    assert units.units_of("m") == ("m", "mm", "um", "nm")
+    assert units.units_of("rad")[0] == "rad"
+    with pytest.raises(UnitError, match="'mm' is no SI unit"):
+        units.units_of("mm")
