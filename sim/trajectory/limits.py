@@ -1,0 +1,297 @@
+"""The limits of a machine's axes: one rule for single targets and for whole trajectories.
+
+Every path that moves an axis (jog, click, playback, script) asks here. An axis without a declared
+bound is not checked against it.
+"""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from math import isfinite
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.errors import InputError
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.model import (
+    VOLTAGE_SLACK,
+    Axis,
+    CascadeController,
+    ForceAxis,
+    PiezoAxis,
+    Robot,
+    StepperAxis,
+)
+from rotemina.sim.trajectory.kinematics import accelerations, jump_speeds
+from rotemina.sim.trajectory.wording import readable
+
+RANGE_SLACK = 1e-9  # of the range's length: units are converted with rounding
+RATE_SLACK = 1e-6  # relative, of speed and acceleration
+
+
+class OutOfLimitsError(InputError):
+    """A target or trajectory that the machine must not be given."""
+
+
+class TrajectoryError(InputError):
+    """A trajectory that this robot cannot play, whatever its limits."""
+
+
+class Quantity(StrEnum):
+    """What a bound limits."""
+
+    RANGE = "range"
+    VOLTAGE = "voltage"
+    SPEED = "speed"
+    ACCELERATION = "acceleration"
+
+
+@dataclass(frozen=True, slots=True)
+class Violation:
+    """The worst excess of one axis over one bound; ``value`` and ``bound`` in ``unit`` (SI).
+
+    ``time_s`` is on the trajectory's own time; the bound is signed like the value.
+    """
+
+    axis: str
+    quantity: Quantity
+    time_s: float
+    value: float
+    bound: float
+    unit: str
+
+    @property
+    def message(self) -> str:
+        """What is wrong, where, value, bound and what to do."""
+        value = readable(self.value, self.unit, scale=self.bound)
+        bound = readable(self.bound, self.unit)
+        what = "position" if self.quantity is Quantity.RANGE else self.quantity
+        return (
+            f"axis {self.axis}: {what} {value} at t = {self.time_s:.6g} s is beyond the limit "
+            f"{bound}; {self._advice()}"
+        )
+
+    def _advice(self) -> str:
+        if self.quantity is Quantity.RANGE:
+            return "move or shrink the trajectory so that it stays inside the axis range"
+        if self.quantity is Quantity.VOLTAGE:
+            return "move or shrink the trajectory so that the amplifier can follow"
+        ratio = self.value / self.bound
+        factor = ratio if self.quantity is Quantity.SPEED else ratio**0.5
+        return f"stretch its time by a factor of {factor:.3g} or more, or smooth it there"
+
+
+def controller_of(axis: Axis) -> CascadeController | None:
+    """Return the controller that an axis runs under, or None: it is driven open loop."""
+    return None if isinstance(axis, StepperAxis) else axis.controller
+
+
+def check_target(robot: Robot, axis: str, position: float) -> None:
+    """Refuse a target that axis must not be sent to; ``position`` in m or rad.
+
+    Raises
+    ------
+    OutOfLimitsError
+        If the robot has no such axis, the position is no finite number, lies outside the range,
+        or needs a voltage that the amplifier must not put out.
+    """
+    if axis not in robot.axes:
+        raise OutOfLimitsError(
+            f"axis {axis!r}: robot {robot.name!r} has no such axis; use one of {list(robot.axes)}"
+        )
+    if not isfinite(position):
+        raise OutOfLimitsError(f"axis {axis}: the target {position} is not a finite number")
+    model, unit = robot.axes[axis], robot.unit(axis) or ""
+    low, high = model.range
+    if _outside(position, low, high) > RANGE_SLACK * model.span:
+        raise OutOfLimitsError(
+            f"axis {axis}: target {readable(position, unit, scale=high)} is outside its range "
+            f"{readable(low, unit, scale=high)} to {readable(high, unit)}; choose a target inside"
+        )
+    bounds = voltage_bounds(model)
+    if bounds is None or not isinstance(model, PiezoAxis):
+        return
+    voltage = position / model.gain
+    if _outside(voltage, *bounds) > _voltage_slack(bounds):
+        raise OutOfLimitsError(
+            f"axis {axis}: target {readable(position, unit)} needs {voltage:.6g} V, outside the "
+            f"amplifier's {bounds[0]:.6g} V to {bounds[1]:.6g} V; choose a target nearer to rest"
+        )
+
+
+def check_trajectory(robot: Robot, trajectory: Record) -> None:
+    """Refuse a trajectory that exceeds a limit.
+
+    Raises
+    ------
+    TrajectoryError
+        If the trajectory is not one for this robot.
+    OutOfLimitsError
+        Naming every axis and quantity that is exceeded.
+    """
+    violations = find_violations(robot, trajectory)
+    if violations:
+        raise OutOfLimitsError("\n".join(violation.message for violation in violations))
+
+
+def find_violations(robot: Robot, trajectory: Record) -> tuple[Violation, ...]:
+    """Return the worst excess of each axis and quantity; none where the trajectory may run.
+
+    Only ``cmd`` channels count. The robot is taken to rest at the first command before the
+    trajectory and at the last one after it.
+
+    Raises
+    ------
+    TrajectoryError
+        As :func:`commands_of`.
+    """
+    found: list[Violation] = []
+    for name, command in commands_of(robot, trajectory).items():
+        axis, unit = robot.axes[name], trajectory.units[name]
+        time_s = trajectory.time_s
+        for violation in (
+            _range_violation(name, axis, unit, time_s, command),
+            _voltage_violation(name, axis, time_s, command),
+            _speed_violation(name, axis, unit, time_s, command),
+            _acceleration_violation(name, axis, unit, time_s, command),
+        ):
+            if violation is not None:
+                found.append(violation)
+    return tuple(found)
+
+
+def commands_of(robot: Robot, trajectory: Record) -> dict[str, FloatArray]:
+    """Return the (n,) commands of each axis that a trajectory moves, m or rad.
+
+    Raises
+    ------
+    TrajectoryError
+        If it has no commands, names an axis that the robot lacks, gives one in the wrong
+        quantity, or moves an axis by a force that no controller holds.
+    """
+    names = [channel.axis for channel in trajectory.columns if channel.tap is Tap.CMD]
+    if not names:
+        raise TrajectoryError(
+            "trajectory: it has no set-point column (axis.cmd); a trajectory needs one at least"
+        )
+    for name in names:
+        _check_axis(robot, name, trajectory.units[name])
+    return {name: trajectory.signal(name, Tap.CMD) for name in names}
+
+
+def _check_axis(robot: Robot, name: str, unit: str) -> None:
+    if name not in robot.axes:
+        raise TrajectoryError(
+            f"trajectory: robot {robot.name!r} has no axis {name!r}, only {list(robot.axes)}; "
+            "rename the column or choose the robot it was made for"
+        )
+    expected = robot.unit(name)
+    if expected is not None and unit != expected:
+        raise TrajectoryError(
+            f"trajectory: axis {name} is given in {unit}, but the robot's moves in {expected}"
+        )
+    axis = robot.axes[name]
+    if isinstance(axis, ForceAxis) and axis.controller is None:
+        raise TrajectoryError(
+            f"trajectory: axis {name} is moved by a force and has no controller in the robot "
+            f"file, so nothing would make it follow; add [axis.{name}.controller]"
+        )
+
+
+def voltage_bounds(axis: Axis) -> tuple[float, float] | None:
+    """Return the voltages between which ``cmd/gain`` must lie, V; None where no such rule binds.
+
+    Under a controller the voltage is not ``cmd/gain``, and the controller's limit clips it.
+    """
+    if not isinstance(axis, PiezoAxis) or axis.controller is not None:
+        return None
+    return axis.voltage_range
+
+
+def resolution_of(axis: Axis) -> float:
+    """Return what commands may be rounded to, m or rad: the sensor's resolution, or 0."""
+    return axis.sensor.resolution if axis.sensor is not None else 0.0
+
+
+def _outside(value: float, low: float, high: float) -> float:
+    return max(low - value, value - high)
+
+
+def _voltage_slack(bounds: tuple[float, float]) -> float:
+    return VOLTAGE_SLACK * max(abs(bounds[0]), abs(bounds[1]))
+
+
+def _worst_outside(
+    values: FloatArray, bounds: tuple[float, float], slack: float
+) -> tuple[int, float] | None:
+    """Return row and bound of the value farthest outside ``bounds``, or None."""
+    excess = np.maximum(bounds[0] - values, values - bounds[1])
+    row = int(np.argmax(excess))
+    if excess[row] <= slack:
+        return None
+    return row, bounds[0] if values[row] < bounds[0] else bounds[1]
+
+
+def _range_violation(
+    name: str, axis: Axis, unit: str, time_s: FloatArray, command: FloatArray
+) -> Violation | None:
+    worst = _worst_outside(command, axis.range, RANGE_SLACK * axis.span)
+    if worst is None:
+        return None
+    row, bound = worst
+    return Violation(name, Quantity.RANGE, float(time_s[row]), float(command[row]), bound, unit)
+
+
+def _voltage_violation(
+    name: str, axis: Axis, time_s: FloatArray, command: FloatArray
+) -> Violation | None:
+    bounds = voltage_bounds(axis)
+    if bounds is None or not isinstance(axis, PiezoAxis):
+        return None
+    voltage = command / axis.gain
+    worst = _worst_outside(voltage, bounds, _voltage_slack(bounds))
+    if worst is None:
+        return None
+    row, bound = worst
+    return Violation(name, Quantity.VOLTAGE, float(time_s[row]), float(voltage[row]), bound, "V")
+
+
+def _speed_violation(
+    name: str, axis: Axis, unit: str, time_s: FloatArray, command: FloatArray
+) -> Violation | None:
+    if axis.max_speed is None or len(time_s) < 2:
+        return None
+    speed = jump_speeds(time_s, command)
+    rounding = resolution_of(axis) + _float_rounding(command)
+    allowed = axis.max_speed * (1.0 + RATE_SLACK) + rounding / np.diff(time_s)
+    excess = np.abs(speed) - allowed
+    row = int(np.argmax(excess))
+    if excess[row] <= 0:
+        return None
+    value = float(speed[row])
+    bound = float(np.copysign(axis.max_speed, value))
+    return Violation(name, Quantity.SPEED, float(time_s[row + 1]), value, bound, f"{unit}/s")
+
+
+def _acceleration_violation(
+    name: str, axis: Axis, unit: str, time_s: FloatArray, command: FloatArray
+) -> Violation | None:
+    if axis.max_acceleration is None or len(time_s) < 2:
+        return None
+    seen = accelerations(time_s, command, resolution_of(axis), axis.max_acceleration)
+    # Four roundings enter a second difference: two of the middle command, one of each other.
+    rounding = 4.0 * (resolution_of(axis) + _float_rounding(command)) / seen.window_s**2
+    allowed = axis.max_acceleration * (1.0 + RATE_SLACK) + rounding
+    excess = np.abs(seen.value) - allowed
+    row = int(np.argmax(excess))
+    if excess[row] <= 0:
+        return None
+    value = float(seen.value[row])
+    bound = float(np.copysign(axis.max_acceleration, value))
+    return Violation(
+        name, Quantity.ACCELERATION, float(seen.time_s[row]), value, bound, f"{unit}/s²"
+    )
+
+
+def _float_rounding(command: FloatArray) -> float:
+    return 4.0 * float(np.finfo(np.float64).eps) * float(np.abs(command).max())
