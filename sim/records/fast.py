@@ -14,9 +14,9 @@ from rotemina.sim.records.source import count_lines
 _COMMENT_LINES = re.compile(rb"^[ \t]*#[^\n]*\n", re.MULTILINE)
 
 
-def without_comments(data: bytes) -> bytes:
-    """Return whole lines without those that begin with ``#``."""
-    return _COMMENT_LINES.sub(b"", data) if b"#" in data else data
+def without_comments(data: bytes) -> tuple[bytes, int]:
+    """Return whole lines without those that begin with ``#``, and how many those were."""
+    return _COMMENT_LINES.subn(b"", data) if b"#" in data else (data, 0)
 
 
 def decimal_sign(rows: bytes, separator: str) -> str | None:
@@ -59,22 +59,22 @@ def _without_empty_lines(data: bytes) -> bytes:
     return data.removeprefix(b"\n")
 
 
-def parse(data: bytes, separator: str, columns: int) -> FloatArray | None:
+def parse(data: bytes, lines: int, separator: str, columns: int) -> FloatArray | None:
     """Return the (rows, columns) numbers of rows, or None where the strict parser decides."""
     rows = normalise(data, separator)
     if rows is None:
         return None
-    numbers = _read_numbers(rows, separator, columns)
+    numbers = _read_numbers(rows, lines, separator, columns)
     if numbers is None:
         # Searched for last, because it is the one search that takes its time.
         shorter = _without_empty_lines(rows)
         if len(shorter) < len(rows):
-            numbers = _read_numbers(shorter, separator, columns)
+            numbers = _read_numbers(shorter, count_lines(shorter), separator, columns)
     return numbers
 
 
-def _read_numbers(rows: bytes, separator: str, columns: int) -> FloatArray | None:
-    """Return (rows, columns) finite numbers, or None if there is anything else.
+def _read_numbers(rows: bytes, lines: int, separator: str, columns: int) -> FloatArray | None:
+    """Return (lines, columns) finite numbers, or None if there is anything else.
 
     polars reads a missing field as null, which becomes NaN here; it raises at anything else that
     is no number.
@@ -89,5 +89,5 @@ def _read_numbers(rows: bytes, separator: str, columns: int) -> FloatArray | Non
     except pl.exceptions.PolarsError:
         return None
     numbers = table.to_numpy(order="fortran", writable=True)
-    whole = numbers.shape == (count_lines(rows), columns)
+    whole = numbers.shape == (lines, columns)
     return numbers if whole and np.isfinite(numbers).all() else None

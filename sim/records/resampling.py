@@ -72,8 +72,9 @@ def _grid(record: Record, rate_hz: float) -> FloatArray:
             f"resampling: {steps:.3g} rows at {rate_hz:.6g} Hz exceed {LIMITS.values} values; "
             "lower the rate"
         )
-    time_s = record.time_s[0] + np.arange(floor(steps) + 1) / rate_hz
-    return np.minimum(time_s, record.time_s[-1])
+    time_s: FloatArray = record.time_s[0] + np.arange(floor(steps) + 1) / rate_hz
+    time_s[-1] = min(time_s[-1], record.time_s[-1])
+    return time_s
 
 
 def _hold(rows_s: FloatArray, signal: FloatArray, grid_s: FloatArray) -> FloatArray:

@@ -57,11 +57,12 @@ class RowParser:
         """Return what the strict parser would, or None where it has to decide."""
         from rotemina.sim.records import fast  # polars takes its time to import
 
-        data = fast.without_comments(block.data)
+        data, comments = fast.without_comments(block.data)
         sign = fast.decimal_sign(data, self._layout.separator)
         if sign is None or (sign and self._decimal_sign not in ("", sign)):
             return None
-        rows = fast.parse(data, self._layout.separator, len(self._layout.columns))
+        lines = block.lines - comments
+        rows = fast.parse(data, lines, self._layout.separator, len(self._layout.columns))
         if rows is None:
             return None
         for index, divisor in enumerate(self._per_si):

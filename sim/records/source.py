@@ -10,7 +10,7 @@ import stat
 import zlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from os import PathLike, fspath
 from pathlib import Path
 from typing import BinaryIO, cast
@@ -52,15 +52,17 @@ LIMITS = Limits()
 
 @dataclass(frozen=True, slots=True)
 class Block:
-    """Whole lines of a file, each ended by LF, and the 1-based number of the first."""
+    """Whole lines of a file, each ended by LF.
+
+    Attributes: ``first_line`` is the 1-based number of the first, ``lines`` how many there are.
+    """
 
     first_line: int
     data: bytes
+    lines: int = field(init=False)
 
-    @property
-    def lines(self) -> int:
-        """How many lines there are."""
-        return count_lines(self.data)
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "lines", count_lines(self.data))
 
     def line_of(self, offset: int) -> int:
         """Return the number of the line that holds the byte at ``offset``."""

@@ -105,7 +105,7 @@ def test_any_bytes_end_the_same(junk: bytes, at: int) -> None:
 
 @given(numbers)
 def test_every_decimal_number_is_rounded_as_python_does(text: str) -> None:
-    parsed = fast.parse(f"0,{text}\n".encode(), ",", 2)
+    parsed = fast.parse(f"0,{text}\n".encode(), 1, ",", 2)
     value = float(text)
     if abs(value) == float("inf"):
         assert parsed is None

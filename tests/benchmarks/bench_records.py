@@ -1,0 +1,133 @@
+"""Import and export of 1 000 000 rows by 13 columns, beside pandas, polars and pyarrow.
+
+Run it as ``python tests/benchmarks/bench_records.py [ROWS]``, with the extra ``bench`` installed.
+All take turns in one run, so that a slow moment of the machine meets them all. ``pandas`` writes
+through its slow but only writer, so it has one turn.
+"""
+
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import polars as pl
+import pyarrow as pa
+import pyarrow.csv
+
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records.writing import write_record
+
+ROWS = 1_000_000
+CHANNELS = 12
+TURNS = 3
+
+MEMORY_PROBE = """
+import sys
+import psutil
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.records.writing import write_record
+task, source, target = sys.argv[1:]
+def peak_bytes():
+    if sys.platform == "win32":
+        return psutil.Process().memory_info().peak_wset
+    if sys.platform == "darwin":
+        import resource
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    # Not ru_maxrss, which on Linux begins with the peak of the parent process.
+    status = open("/proc/self/status").read()
+    return 1024 * int(status.split("VmHWM:")[1].split()[0])
+before = psutil.Process().memory_info().rss
+record = read_record(source)
+if task == "export":
+    write_record(record, target)
+print(peak_bytes() - before)
+"""
+
+
+def main() -> None:
+    """Measure and print."""
+    rows = int(sys.argv[1]) if len(sys.argv) > 1 else ROWS
+    with tempfile.TemporaryDirectory() as folder:
+        source, target = Path(folder, "source.csv"), Path(folder, "target.csv")
+        record = make_record(rows)
+        write_record(record, source)
+        print(f"{rows} rows x {CHANNELS + 1} columns, {source.stat().st_size / 1e6:.0f} MB of text")
+        report("import", measure(importers(source)))
+        report("export", measure(exporters(record, target)))
+        for task in ("import", "export"):
+            growth = peak_growth(task, source, target)
+            array = 8 * rows * (CHANNELS + 1)
+            print(
+                f"peak memory, {task:16} {growth / 1e6:7.0f} MB {growth / array:6.2f} x the array"
+            )
+
+
+def make_record(rows: int) -> Record:
+    """Return noise of full precision in twelve channels at 1 kHz."""
+    noise = np.random.default_rng(0).normal(scale=1e-5, size=(CHANNELS, rows))
+    axes = [f"a{number}" for number in range(CHANNELS)]
+    signals = {(axis, Tap.CMD): signal for axis, signal in zip(axes, noise, strict=True)}
+    return Record.from_signals(np.arange(rows) / 1000, signals, dict.fromkeys(axes, "m"))
+
+
+def importers(source: Path) -> Mapping[str, Callable[[], object]]:
+    """Return what reads the file: ours checks it, the others take it as it is."""
+    return {
+        "rotemina": lambda: read_record(source),
+        "polars": lambda: pl.read_csv(source, comment_prefix="#"),
+        "pyarrow": lambda: pa.csv.read_csv(source, pa.csv.ReadOptions(skip_rows=1)),
+        "pandas": lambda: pd.read_csv(source, comment="#"),
+    }
+
+
+def exporters(record: Record, target: Path) -> Mapping[str, Callable[[], object]]:
+    """Return what writes the same numbers from each library's own table."""
+    names = ["t [s]", *(f"{column} [m]" for column in record.columns)]
+    columns = [record.time_s, *record.values.T]
+    frame = pd.DataFrame(dict(zip(names, columns, strict=True)))
+    table = pl.DataFrame(dict(zip(names, columns, strict=True)))
+    arrow = pa.table(dict(zip(names, columns, strict=True)))
+    return {
+        "rotemina": lambda: write_record(record, target),
+        "polars": lambda: table.write_csv(target),
+        "pyarrow": lambda: pa.csv.write_csv(arrow, target),
+        "pandas": lambda: frame.to_csv(target, index=False),
+    }
+
+
+def measure(tasks: Mapping[str, Callable[[], object]]) -> dict[str, float]:
+    """Return the median seconds of each task, which take turns after one unmeasured round."""
+    seconds: dict[str, list[float]] = {name: [] for name in tasks}
+    slow = {"pandas"} if len(tasks) == 4 else set()
+    for turn in range(TURNS + 1):
+        for name, task in tasks.items():
+            if name in slow and turn != 1:
+                continue
+            start = time.perf_counter()
+            task()
+            if turn > 0:
+                seconds[name].append(time.perf_counter() - start)
+    return {name: statistics.median(each) for name, each in seconds.items()}
+
+
+def report(title: str, seconds: Mapping[str, float]) -> None:
+    """Print the seconds and their ratio to the fastest of the others."""
+    fastest = min(value for name, value in seconds.items() if name != "rotemina")
+    for name, value in seconds.items():
+        print(f"{title}, {name:22} {value:7.2f} s  {value / fastest:6.2f} x the fastest")
+
+
+def peak_growth(task: str, source: Path, target: Path) -> int:
+    """Return by how many bytes a process of its own grows at most, imports of code included."""
+    command = [sys.executable, "-c", MEMORY_PROBE, task, str(source), str(target)]
+    return int(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+
+
+if __name__ == "__main__":
+    main()
