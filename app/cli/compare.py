@@ -3,11 +3,12 @@
 import argparse
 from pathlib import Path
 
-from rotemina.app.cli.files import add_columns, add_robot, robot_of, write_json
-from rotemina.sim.comparison.comparison import FITTABLE, Comparison, TapComparison, compare
-from rotemina.sim.comparison.figure import drawing_unit, save_figure
+from rotemina.app.cli.options import add_columns, add_robot, robot_of
+from rotemina.app.files import write_json
+from rotemina.sim.comparison.comparison import FITTABLE, compare
+from rotemina.sim.comparison.figure import save_figure
+from rotemina.sim.comparison.table import table
 from rotemina.sim.records.reading import read_record
-from rotemina.sim.units import symbol, to_unit
 
 
 def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -45,39 +46,3 @@ def run(options: argparse.Namespace) -> int:
     if options.json != "-":
         print(table(comparison))
     return 0
-
-
-def table(comparison: Comparison) -> str:
-    """Return the figures as text, one line a tap, in units that read well."""
-    head = ("tap", "rms", "peak", "of range", "rel. error", "delay", "noise floor", "re-fitted")
-    rows = [head, *(_row(tap) for tap in comparison.taps)]
-    widths = [max(len(row[column]) for row in rows) for column in range(len(head))]
-    return "\n".join(
-        "  ".join(
-            cell.ljust(width) if column == 0 else cell.rjust(width)
-            for column, (cell, width) in enumerate(zip(row, widths, strict=True))
-        )
-        for row in rows
-    )
-
-
-def _row(tap: TapComparison) -> tuple[str, ...]:
-    def length(value: float | None) -> str:
-        if value is None:
-            return "–"
-        unit = drawing_unit(tap.unit, value)
-        return f"{to_unit(value, unit):.4g} {symbol(unit)}"
-
-    def percent(value: float | None) -> str:
-        return "–" if value is None else f"{100.0 * value:.4g} %"
-
-    return (
-        f"{tap.axis}.{tap.tap}",
-        length(tap.rms),
-        length(tap.peak),
-        percent(tap.share_of_range),
-        percent(tap.relative_error),
-        "–" if tap.delay_s is None else f"{1e3 * tap.delay_s:.3g} ms",
-        length(tap.noise_floor),
-        length(tap.rms_refitted),
-    )

@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from rotemina.app.cli.files import add_columns, add_robot, robot_of
+from rotemina.app.cli.options import add_columns, add_robot, robot_of
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record

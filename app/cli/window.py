@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from rotemina.app.cli.files import add_robot
+from rotemina.app.cli.options import add_robot
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

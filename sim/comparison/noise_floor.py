@@ -67,7 +67,7 @@ def _noise_gain(robot: Robot, axis: str, period_s: float) -> float | None:
     plant = Plant.of(replace(robot, axes={**robot.axes, axis: free}), closed_loop=True)
     column = plant.axes.index(axis)
     command = np.zeros((_IMPULSE_ROWS, len(plant.axes)))
-    time_s = period_s * np.arange(_IMPULSE_ROWS)
+    time_s = period_s * np.arange(_IMPULSE_ROWS, dtype=np.float64)
     quiet, _ = plant.advance(plant.at_rest(0.0, command[0]), time_s, command)
     state = plant.at_rest(0.0, command[0])
     differenced = 1.0 / (loop.kp * period_s) if loop.velocity == "backward" else 0.0

@@ -178,8 +178,8 @@ class Plant:
         for axis in self.robot.axes.values():
             static_gain = 1.0 if isinstance(axis, StepperAxis) else axis.gain
             gains.append(static_gain if axis.static else 0.0)
-        static = np.array(gains)
-        return np.where(static != 0.0, inputs, 0.0) * static
+        static: FloatArray = np.array(gains)
+        return np.asarray(np.where(static != 0.0, inputs, 0.0) * static)
 
     def _index(self, group: Group) -> IntArray:
         return np.array([self.axes.index(name) for name in group.axes], dtype=np.int64)

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import field, replace
 from importlib import resources
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, TypeAdapter, ValidationError
 from pydantic.dataclasses import dataclass
@@ -33,7 +33,14 @@ MAX_BYTES = 4_000_000
 SHIPPED = "rotemina.resources.robots"
 
 # Joint names of the RoTeMiNa chain whose quantity is known without a `unit` key.
-CONVENTIONAL_UNITS = {"x": "m", "y": "m", "z": "m", "zn": "m", "thx": "rad", "thy": "rad"}
+CONVENTIONAL_UNITS: Mapping[str, Literal["m", "rad"]] = {
+    "x": "m",
+    "y": "m",
+    "z": "m",
+    "zn": "m",
+    "thx": "rad",
+    "thy": "rad",
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)

@@ -1,6 +1,7 @@
 """Turn a schema error of a robot file into one sentence: key, value, bound."""
 
 import difflib
+from dataclasses import fields
 from typing import Any
 
 from pydantic import ValidationError
@@ -92,9 +93,9 @@ def _suggestion(path: list[str], kind: str | None) -> str:
 def _known_keys(path: list[str], kind: str | None) -> list[str]:
     parent = path[-2].split("[")[0] if len(path) > 1 else ""
     if parent in _TABLES:
-        return list(_TABLES[parent].__dataclass_fields__)
+        return [field.name for field in fields(_TABLES[parent])]
     if kind is not None:
-        return list(_KINDS[kind].__dataclass_fields__)
+        return [field.name for field in fields(_KINDS[kind])]
     if parent == "robot":
         return ["name", "axes", "stages", "pin_length", "piezo_lever_arm"]
     return ["robot", "axis", "coupling", "reference", "tool", "microscope", "keep_out"]

@@ -1,6 +1,5 @@
-"""Options and steps that several subcommands share: which robot, which record, where to."""
+"""Files that the program writes: whole or not at all."""
 
-import argparse
 import json
 import os
 import sys
@@ -9,30 +8,6 @@ from pathlib import Path
 from typing import Any
 
 from rotemina.sim.errors import InputError
-from rotemina.sim.robot.file import load_robot, shipped_robots
-from rotemina.sim.robot.model import Robot
-
-COLUMNS_HELP = "name the columns of a file without a header, e.g. 't [s], x [mm], thx [urad]'"
-
-
-def add_robot(parser: argparse.ArgumentParser) -> None:
-    """Add ``--robot``."""
-    parser.add_argument(
-        "--robot",
-        default="rotemina",
-        metavar="NAME_OR_FILE",
-        help=f"a robot file, or a shipped robot: {', '.join(shipped_robots())} (default: rotemina)",
-    )
-
-
-def add_columns(parser: argparse.ArgumentParser) -> None:
-    """Add ``--columns``."""
-    parser.add_argument("--columns", metavar="'t [s], …'", help=COLUMNS_HELP)
-
-
-def robot_of(options: argparse.Namespace) -> Robot:
-    """Load the robot that ``--robot`` names."""
-    return load_robot(options.robot)
 
 
 def write_json(value: dict[str, Any], target: str) -> None:

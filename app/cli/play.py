@@ -1,0 +1,72 @@
+"""``rotemina play``: play a trajectory on the simulator and write what was recorded."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from rotemina.app.cli.options import add_columns, add_robot, robot_of
+from rotemina.app.motion.player import play_offline
+from rotemina.sim.errors import InputError
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.records.writing import write_record
+from rotemina.sim.trajectory.dry_run import DryRun, dry_run
+
+
+def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Add the subcommand."""
+    parser = commands.add_parser(
+        "play",
+        help="play a trajectory on the simulator and write the record",
+        description="Check a trajectory against the robot's limits, play it on the simulator as "
+        "fast as the machine can, and write the record.",
+    )
+    parser.add_argument("trajectory", type=Path, metavar="TRAJECTORY")
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="RECORD",
+        help="where the record goes (default: TRAJECTORY-record.csv in this folder)",
+    )
+    add_robot(parser)
+    add_columns(parser)
+    parser.add_argument("--seed", type=int, default=0, help="of the sensors' noise (default: 0)")
+    parser.add_argument("--dry-run", action="store_true", help="only check it against the limits")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Check, play, and write the record."""
+    robot = robot_of(options)
+    trajectory = read_record(options.trajectory, columns=options.columns, robot=robot)
+    checked = dry_run(robot, trajectory)
+    if not checked.allowed:
+        raise InputError(f"{options.trajectory}: {checked.violations[0]}{_more(checked)}")
+    if options.dry_run:
+        print(f"{options.trajectory}: {checked.duration_s:.6g} s, {checked.rows} rows, in limits")
+        return 0
+    record = play_offline(robot, trajectory, seed=options.seed, progress=_progress())
+    output = options.output or Path(f"{_stem(options.trajectory)}-record.csv")
+    write_record(record, output)
+    print(f"{output}: {len(record.time_s)} rows, {record.duration_s:.6g} s")
+    return 0
+
+
+def _more(checked: DryRun) -> str:
+    others = len(checked.violations) - 1
+    return f" (and {others} more)" if others else ""
+
+
+def _stem(path: Path) -> str:
+    return path.name.removesuffix(".gz").rsplit(".", 1)[0]
+
+
+def _progress():
+    if not sys.stderr.isatty():
+        return None
+
+    def show(share: float) -> None:
+        end = "\n" if share >= 1.0 else ""
+        print(f"\rplaying {100 * share:3.0f} %", end=end, file=sys.stderr, flush=True)
+
+    return show

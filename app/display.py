@@ -1,0 +1,87 @@
+"""How numbers and names of axes are shown to people: units, digits, labels. Free of Qt."""
+
+import math
+from dataclasses import dataclass
+
+from rotemina.sim.robot.model import Axis, Robot
+from rotemina.sim.units import symbol, to_unit
+
+LABELS = {"x": "X", "y": "Y", "z": "Z", "thx": "θx", "thy": "θy", "zn": "Z nano"}
+_COARSE_M = 1e-3  # a range from here on reads better in mm
+
+
+@dataclass(frozen=True, slots=True)
+class Scale:
+    """The unit in which an axis is shown, and the digits that its sensor can tell."""
+
+    unit: str
+    decimals: int
+
+    @property
+    def symbol(self) -> str:
+        """The unit as screens write it, such as ``µm``."""
+        return symbol(self.unit)
+
+    def number(self, value: float) -> str:
+        """Return a position (SI) as digits, without its unit."""
+        return f"{to_unit(value, self.unit):.{self.decimals}f}"
+
+    def text(self, value: float) -> str:
+        """Return a position (SI) with its unit."""
+        return f"{self.number(value)} {self.symbol}"
+
+
+def axis_scale(axis: Axis) -> Scale:
+    """Choose unit and digits for an axis by its range and its sensor's resolution."""
+    if axis.unit == "rad":
+        unit = "urad"
+    else:
+        unit = "mm" if axis.span >= _COARSE_M else "um"
+    resolution = axis.sensor.resolution if axis.sensor else 0.0
+    resolution = resolution or axis.span / 1e5
+    decimals: int
+
+    @property
+    def symbol(self) -> str:
+        """The unit as screens write it, such as ``µm``."""
+        return symbol(self.unit)
+
+    def number(self, value: float) -> str:
+        """Return a position (SI) as digits, without its unit."""
+        return f"{to_unit(value, self.unit):.{self.decimals}f}"
+
+    def text(self, value: float) -> str:
+        """Return a position (SI) with its unit."""
+        return f"{self.number(value)} {self.symbol}"
+
+
+def axis_scale(axis: Axis) -> Scale:
+    """Choose unit and digits for an axis by its range and its sensor's resolution."""
+    if axis.unit == "rad":
+        unit = "urad"
+    else:
+        unit = "mm" if axis.span >= _COARSE_M else "um"
+    resolution = (
+        axis.sensor.resolution if axis.sensor and axis.sensor.resolution else axis.span / 1e5
+    )
+    decimals = math.ceil(-math.log10(float(to_unit(resolution, unit))) - 1e-9)
+    return Scale(unit, min(max(decimals, 0), 6))
+
+
+def label(axis: str) -> str:
+    """Return an axis' name as operators write it."""
+    return LABELS.get(axis, axis)
+
+
+def stages(robot: Robot) -> dict[str, tuple[str, ...]]:
+    """Return the axes by stage, in the robot's order; those in no stage come last."""
+    named = {stage: tuple(axes) for stage, axes in robot.stages.items()}
+    rest = tuple(name for name in robot.axes if not any(name in axes for axes in named.values()))
+    return {**named, "axes": rest} if rest else named
+
+
+def step_presets(unit: str, span: float) -> tuple[float, ...]:
+    """Return jog steps (SI) for an axis unit: decades from fine to a tenth of the range."""
+    finest = 1e-6 if unit == "rad" else 1e-8
+    decades = round(math.log10(span / 10 / finest))
+    return tuple(finest * 10**power for power in range(max(decades, 0) + 1))

@@ -1,0 +1,50 @@
+"""What a panel plugin may use: the base class, and the workbench that all panels share.
+
+A panel is a :class:`Panel` subclass named by an entry point of the group ``rotemina.panels``.
+It is made with the :class:`~rotemina.app.shell.workbench.Workbench` of the window: the robot, the
+motion session, the trajectory and the comparison in hand, and the signals that say when they
+change. A panel that cannot be loaded is named and left out; the window opens without it.
+"""
+
+from enum import StrEnum
+from typing import ClassVar
+
+from PySide6.QtWidgets import QWidget
+
+from rotemina.app.shell.workbench import Workbench
+
+API_VERSION = 1
+STALE_S = 0.5  # data older than this is shown as old
+
+
+class Area(StrEnum):
+    """Where a panel stands when the window is first opened."""
+
+    CENTRE = "centre"
+    LEFT = "left"
+    RIGHT = "right"
+    BOTTOM = "bottom"
+
+
+class Panel(QWidget):
+    """One panel of the window.
+
+    Attributes
+    ----------
+    title : str
+        Shown on its frame and in the menu.
+    area : Area
+    order : int
+        Panels of one area stand in this order.
+    api_version : int
+        The version of this interface that the panel was written for.
+    """
+
+    title: ClassVar[str] = ""
+    area: ClassVar[Area] = Area.RIGHT
+    order: ClassVar[int] = 100
+    api_version: ClassVar[int] = API_VERSION
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__()
+        self.workbench = workbench

@@ -1,0 +1,126 @@
+"""The dialog that names the columns of a file without a header; its answer is remembered."""
+
+from pathlib import Path
+
+from PySide6.QtWidgets import (
+    QComboBox,
+    QDialog,
+    QDialogButtonBox,
+    QHeaderView,
+    QLabel,
+    QTableWidget,
+    QTableWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.shell.workbench import Workbench
+from rotemina.sim.errors import InputError
+from rotemina.sim.records.layout import parse_columns
+from rotemina.sim.records.preview import Preview, preview
+from rotemina.sim.robot.model import Robot, StepperAxis
+from rotemina.sim.units import units_of
+
+TIMES = ("t [s]", "t [ms]", "t [us]")
+
+
+def columns_for(path: Path, workbench: Workbench, parent: QWidget) -> tuple[bool, str | None]:
+    """Return whether to go on, and the column names if the file has no header of its own.
+
+    The names last given to a file of the same shape are offered again.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read.
+    """
+    seen = preview(path)
+    if seen.has_header:
+        return True, None
+    key = f"columns.{seen.fingerprint}"
+    dialog = ColumnMappingDialog(path, seen, workbench.robot, parent)
+    dialog.set_columns(workbench.settings.get(key, ""))
+    if dialog.exec() != QDialog.DialogCode.Accepted:
+        return False, None
+    workbench.settings.set(key, dialog.columns)
+    return True, dialog.columns
+
+
+class ColumnMappingDialog(QDialog):
+    """The file's first rows with a choice over each column: what it is, and in which unit."""
+
+    def __init__(self, path: Path, seen: Preview, robot: Robot, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(f"Columns of {path.name}")
+        self._robot = robot
+        self._choices = [_choice(robot) for _ in range(seen.column_count)]
+        self._choices[0].setCurrentText("t [s]")
+        self._complaint = QLabel()
+        self._complaint.setProperty("bad", True)
+        self._complaint.setWordWrap(True)
+        self._buttons = QDialogButtonBox(
+            QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel
+        )
+        self._buttons.accepted.connect(self.accept)
+        self._buttons.rejected.connect(self.reject)
+        column = QVBoxLayout(self)
+        column.addWidget(QLabel("The file has no header. Say what each column holds:"))
+        column.addWidget(self._table(seen), 1)
+        column.addWidget(self._complaint)
+        column.addWidget(self._buttons)
+        for choice in self._choices:
+            choice.editTextChanged.connect(self._check)
+        self.resize(min(180 * seen.column_count + 60, 1100), 460)
+        self._check()
+
+    @property
+    def columns(self) -> str:
+        """What was chosen, as ``t [s], x [mm], …``."""
+        return ", ".join(choice.currentText().strip() for choice in self._choices)
+
+    def set_columns(self, columns: str) -> None:
+        """Offer names again that were given before; ignored where their count differs."""
+        names = [name.strip() for name in columns.split(",")]
+        if len(names) == len(self._choices):
+            for choice, name in zip(self._choices, names, strict=True):
+                choice.setCurrentText(name)
+
+    def _table(self, seen: Preview) -> QTableWidget:
+        table = QTableWidget(len(seen.rows) + 1, seen.column_count)
+        table.setEditTriggers(QTableWidget.EditTrigger.NoEditTriggers)
+        table.verticalHeader().hide()
+        table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Stretch)
+        for column, choice in enumerate(self._choices):
+            table.setHorizontalHeaderItem(column, QTableWidgetItem(f"column {column + 1}"))
+            table.setCellWidget(0, column, choice)
+        for row, fields in enumerate(seen.rows):
+            for column, field in enumerate(fields[: seen.column_count]):
+                table.setItem(row + 1, column, QTableWidgetItem(field))
+        table.resizeRowToContents(0)
+        return table
+
+    def _check(self) -> None:
+        try:
+            parse_columns(self.columns, "columns", self._robot)
+        except InputError as error:
+            self._complaint.setText(str(error))
+        else:
+            self._complaint.setText("")
+        self._buttons.button(QDialogButtonBox.StandardButton.Ok).setEnabled(
+            not self._complaint.text()
+        )
+
+
+def _choice(robot: Robot) -> QComboBox:
+    choice = QComboBox()
+    choice.setEditable(True)
+    choice.addItems(TIMES)
+    for name, axis in robot.axes.items():
+        for unit in units_of(axis.unit or "m"):
+            choice.addItem(f"{name} [{unit}]")
+        for unit in units_of(axis.unit or "m"):
+            choice.addItem(f"{name}.meas [{unit}]")
+        if not isinstance(axis, StepperAxis):
+            choice.addItem(f"{name}.u [V]")
+    choice.setCurrentText("")
+    return choice

@@ -1,0 +1,270 @@
+"""The window that hosts the panels: tool bar with the stop button, docks, notices, status."""
+
+from base64 import b64decode, b64encode
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+from PySide6.QtCore import QByteArray, Qt
+from PySide6.QtGui import QAction, QCloseEvent, QKeySequence
+from PySide6.QtWidgets import (
+    QApplication,
+    QDockWidget,
+    QFileDialog,
+    QLabel,
+    QMainWindow,
+    QMenu,
+    QMessageBox,
+    QPushButton,
+    QSizePolicy,
+    QTabWidget,
+    QToolBar,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.motion.state import SessionState
+from rotemina.app.panel import Area, Panel
+from rotemina.app.shell import theme as themes
+from rotemina.app.shell.column_mapping import columns_for
+from rotemina.app.shell.host import make_panels
+from rotemina.app.shell.notices import NoticeBar
+from rotemina.app.shell.status import StatusText
+from rotemina.app.shell.workbench import Level, Run, Workbench
+from rotemina.sim.errors import InputError
+
+LAYOUT_VERSION = 1
+FILES = "Records and trajectories (*.csv *.txt *.dat *.gz);;All files (*)"
+DOCK_AREAS = {
+    Area.LEFT: Qt.DockWidgetArea.LeftDockWidgetArea,
+    Area.RIGHT: Qt.DockWidgetArea.RightDockWidgetArea,
+    Area.BOTTOM: Qt.DockWidgetArea.BottomDockWidgetArea,
+}
+
+
+class Command(NamedTuple):
+    """One entry of a menu."""
+
+    menu: str
+    text: str
+    shortcut: str
+    run: Callable[[], object]
+    tip: str
+
+
+class MainWindow(QMainWindow):
+    """The operator's window around a workbench."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__()
+        self.workbench = workbench
+        self.setWindowTitle(f"RoTeMiNa – {workbench.robot.name}")
+        self.notices = NoticeBar()
+        self.panels, broken = make_panels(workbench)
+        self.docks: dict[str, QDockWidget] = {}
+        self._unsaved: Run | None = None
+        self._make_tool_bar()
+        self._make_docks()
+        self._make_menus()
+        self._make_status_bar()
+        self._restore()
+        workbench.noticed.connect(self.notices.show_notice)
+        workbench.refreshed.connect(self._refresh)
+        workbench.run_changed.connect(self._note_run)
+        for name, reason in broken.items():
+            workbench.notify(Level.ERROR, f"Panel {name!r} is left out: {reason}")
+
+    # --- parts ------------------------------------------------------------------------------------
+
+    def _make_tool_bar(self) -> None:
+        bar = QToolBar("Motion")
+        bar.setObjectName("motion")
+        bar.setMovable(False)
+        bar.toggleViewAction().setVisible(False)  # the stop button is always in sight
+        bar.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)
+        self.stop_button = QPushButton("STOP")
+        self.stop_button.setObjectName("stop")
+        self.stop_button.setToolTip(
+            "Stop all axes and hold (Esc). This is a stop by software, "
+            "not the machine's emergency switch."
+        )
+        self.stop_button.setShortcut(QKeySequence(Qt.Key.Key_Escape))
+        # On pressing, not on release: a stop must not wait for the finger to lift.
+        self.stop_button.pressed.connect(self.workbench.stop)
+        self._title = QLabel(self.workbench.robot.name)
+        self._title.setProperty("heading", True)
+        self._activity = QLabel()
+        space = QWidget()
+        space.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
+        for widget in (self._title, self._activity, space, self.stop_button):
+            bar.addWidget(widget)
+        self.addToolBar(bar)
+
+    def _make_docks(self) -> None:
+        centre = QWidget()
+        column = QVBoxLayout(centre)
+        column.setContentsMargins(6, 6, 6, 6)
+        column.addWidget(self.notices)
+        column.addWidget(self._central_panels(), 1)
+        self.setCentralWidget(centre)
+        self.setCorner(Qt.Corner.BottomLeftCorner, Qt.DockWidgetArea.LeftDockWidgetArea)
+        for name, panel in self.panels.items():
+            if panel.area is not Area.CENTRE:
+                self.docks[name] = self._dock(name, panel)
+        self._default_state = self.saveState(LAYOUT_VERSION)
+
+    def _central_panels(self) -> QWidget:
+        central = [panel for panel in self.panels.values() if panel.area is Area.CENTRE]
+        if len(central) == 1:
+            return central[0]
+        tabs = QTabWidget()
+        for panel in central:
+            tabs.addTab(panel, panel.title)
+        return tabs
+
+    def _dock(self, name: str, panel: Panel) -> QDockWidget:
+        dock = QDockWidget(panel.title)
+        dock.setObjectName(f"dock-{name}")
+        panel.setObjectName("panel")
+        panel.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        dock.setWidget(panel)
+        self.addDockWidget(DOCK_AREAS[panel.area], dock)
+        return dock
+
+    def _make_menus(self) -> None:
+        for command in self.commands():
+            menu = self._menu(command.menu)
+            action = QAction(command.text, self)
+            action.setShortcut(QKeySequence(command.shortcut))
+            action.setStatusTip(command.tip)
+            action.triggered.connect(lambda _=False, run=command.run: run())
+            menu.addAction(action)
+        view = self._menu("&View")
+        view.addSeparator()
+        for dock in self.docks.values():
+            view.addAction(dock.toggleViewAction())
+
+    def commands(self) -> list[Command]:
+        """Return every command of the menus."""
+        bench = self.workbench
+        return [
+            Command(
+                "&File", "Load &trajectory …", "Ctrl+T", self.ask_trajectory, "Load and dry-run"
+            ),
+            Command("&File", "&Open record …", "Ctrl+O", self.ask_record, "Compare with the model"),
+            Command("&File", "&Save record …", "Ctrl+S", self.ask_save, "Save the last record"),
+            Command("&File", "&Quit", "Ctrl+Q", self.close, "Stop and leave"),
+            Command("&Motion", "&Play trajectory", "Ctrl+P", bench.play, "Play the loaded one"),
+            Command("&Motion", "&Stop", "", bench.stop, "Stop all axes and hold (Esc)"),
+            Command("&Motion", "&Reconnect", "", bench.reconnect, "Connect after a failure"),
+            Command("&View", "&Light theme", "", lambda: self.use_theme("light"), ""),
+            Command("&View", "&Dark theme", "", lambda: self.use_theme("dark"), ""),
+            Command("&View", "&Restore the layout", "", self.reset_layout, "Bring all docks back"),
+        ]
+
+    def _menu(self, title: str) -> QMenu:
+        for action in self.menuBar().actions():
+            if action.text() == title:
+                return action.menu()
+        return self.menuBar().addMenu(title)
+
+    def _make_status_bar(self) -> None:
+        self._status = StatusText(self.workbench)
+        self.statusBar().addWidget(self._status, 1)
+        self.statusBar().setSizeGripEnabled(False)
+
+    # --- files ------------------------------------------------------------------------------------
+
+    def ask_trajectory(self) -> None:
+        """Ask for a trajectory file and load it."""
+        self._ask_and("Load trajectory", self.workbench.load_trajectory)
+
+    def ask_record(self) -> None:
+        """Ask for a record file and compare it with the model."""
+        self._ask_and("Open record", self.workbench.open_record)
+
+    def _ask_and(self, title: str, use: Callable[[Path, str | None], None]) -> None:
+        folder = self.workbench.settings.get("files.folder", "")
+        name, _ = QFileDialog.getOpenFileName(self, title, folder, FILES)
+        if name:
+            self.workbench.settings.set("files.folder", str(Path(name).parent))
+            self.use_file(Path(name), use)
+
+    def use_file(self, path: Path, use: Callable[[Path, str | None], None]) -> None:
+        """Hand a file on, with its columns named first where it has no header."""
+        try:
+            accepted, columns = columns_for(path, self.workbench, self)
+        except InputError as error:
+            self.workbench.notify(Level.ERROR, str(error))
+            return
+        if accepted:
+            use(path, columns)
+
+    def ask_save(self) -> None:
+        """Ask where to, and save the record in hand."""
+        if self.workbench.run is None:
+            self.workbench.notify(Level.WARNING, "There is no record to save: play or open one.")
+            return
+        folder = Path(self.workbench.settings.get("files.folder", ""))
+        name, _ = QFileDialog.getSaveFileName(
+            self, "Save record", str(folder / "record.csv"), "Records (*.csv *.csv.gz)"
+        )
+        if name:
+            self.workbench.save_record(Path(name))
+            self._unsaved = None
+
+    # --- layout and theme -------------------------------------------------------------------------
+
+    def use_theme(self, name: str) -> None:
+        """Change the colours and remember them."""
+        theme = themes.theme_named(name)
+        application = QApplication.instance()
+        assert isinstance(application, QApplication)
+        themes.apply(application, theme)
+        self.workbench.settings.set("window.theme", theme.name)
+        self.workbench.set_theme(theme)
+
+    def reset_layout(self) -> None:
+        """Bring every dock back to where it was at first."""
+        self.restoreState(self._default_state, LAYOUT_VERSION)
+        for dock in self.docks.values():
+            dock.show()
+
+    def _restore(self) -> None:
+        self.resize(1280, 800)
+        settings = self.workbench.settings
+        geometry, state = (settings.get(f"window.{key}", "") for key in ("geometry", "state"))
+        if geometry:
+            self.restoreGeometry(QByteArray(b64decode(geometry)))
+        if state:
+            self.restoreState(QByteArray(b64decode(state)), LAYOUT_VERSION)
+
+    def _remember(self) -> None:
+        kept = {"geometry": self.saveGeometry(), "state": self.saveState(LAYOUT_VERSION)}
+        for key, value in kept.items():
+            self.workbench.settings.set(f"window.{key}", b64encode(value.data()).decode("ascii"))
+
+    # --- what happens -----------------------------------------------------------------------------
+
+    def _refresh(self, state: SessionState) -> None:
+        self._activity.setText(StatusText.activity(state))
+
+    def _note_run(self, run: Run) -> None:
+        played = run.record.metadata.get("driver") is not None
+        self._unsaved = run if played else None
+
+    def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 (Qt's name)
+        """Stop, and ask first where a played record would be lost."""
+        if self._unsaved is not None and not self._may_discard():
+            event.ignore()
+            return
+        self.workbench.stop()
+        self._remember()
+        self.workbench.close()
+        event.accept()
+
+    def _may_discard(self) -> bool:
+        answer = QMessageBox.question(
+            self, "Quit", "The last played record is not saved. Quit without saving it?"
+        )
+        return answer == QMessageBox.StandardButton.Yes

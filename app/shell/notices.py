@@ -1,0 +1,70 @@
+"""Notices: what the operator must know, at the top of the window until it is read."""
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QSizePolicy,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.shell.workbench import Level
+
+MOST = 3  # older notices give way; the log keeps them all
+
+
+class Notice(QFrame):
+    """One message with a button that closes it."""
+
+    def __init__(self, level: Level, text: str) -> None:
+        super().__init__()
+        self.setObjectName("notice")
+        self.setProperty("level", str(level))
+        self.text = text
+        message = QLabel(text)
+        message.setWordWrap(True)
+        message.setTextFormat(Qt.TextFormat.PlainText)  # file names and values are not markup
+        message.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        message.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Minimum)
+        close = QToolButton()
+        close.setText("✕")
+        close.setAutoRaise(True)
+        close.setToolTip("Close this notice")
+        close.setAccessibleName("Close this notice")
+        close.clicked.connect(self.deleteLater)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(10, 4, 6, 4)
+        row.addWidget(message, 1)
+        row.addWidget(close, 0, Qt.AlignmentFlag.AlignTop)
+
+
+class NoticeBar(QWidget):
+    """The notices that are still open, newest first; takes no room when there is none."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._column = QVBoxLayout(self)
+        self._column.setContentsMargins(0, 0, 0, 0)
+        self._column.setSpacing(4)
+
+    def show_notice(self, level: Level, text: str) -> None:
+        """Add a notice on top; the same text is not shown twice."""
+        for open_notice in self.notices():
+            if open_notice.text == text:
+                self._remove(open_notice)
+        self._column.insertWidget(0, Notice(level, text))
+        for old in self.notices()[MOST:]:
+            self._remove(old)
+
+    def notices(self) -> list[Notice]:
+        """Return the open notices, newest first."""
+        items = (self._column.itemAt(index) for index in range(self._column.count()))
+        return [widget for item in items if isinstance(widget := item.widget(), Notice)]
+
+    def _remove(self, notice: Notice) -> None:
+        self._column.removeWidget(notice)
+        notice.hide()
+        notice.deleteLater()

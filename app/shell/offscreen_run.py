@@ -1,0 +1,105 @@
+"""The window's main job without a display: play, compare, and leave picture and report."""
+
+import json
+from pathlib import Path
+
+from PySide6.QtCore import QEventLoop, QTimer
+
+from rotemina.app.files import write_text
+from rotemina.app.motion.session import MotionSession
+from rotemina.app.settings import Settings
+from rotemina.app.shell.main_window import MainWindow
+from rotemina.app.shell.window_run import make_window
+from rotemina.app.shell.workbench import Level, Plan, Run
+from rotemina.sim.comparison.figure import save_figure
+from rotemina.sim.comparison.table import table
+from rotemina.sim.errors import InputError
+from rotemina.sim.records.record import Record
+from rotemina.sim.records.writing import write_record
+from rotemina.sim.robot.model import Robot
+from rotemina.sim.trajectory.dry_run import dry_run
+from rotemina.sim.trajectory.example import example_for
+
+TIME_LIMIT_MS = 120_000
+SIZE = (1280, 800)
+
+
+class OffscreenError(InputError):
+    """The run without a display could not be completed."""
+
+
+def run(robot: Robot, session: MotionSession, output: Path) -> int:
+    """Play the example trajectory in a window that nobody sees, and write what it shows.
+
+    Raises
+    ------
+    InputError
+        If the folder cannot be written or the trajectory cannot be played.
+    """
+    try:
+        output.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OffscreenError(f"{output}: the folder cannot be made: {error.strerror}") from error
+    settings = Settings(output / "settings.json")
+    window = make_window(robot, session, settings)
+    try:
+        window.resize(*SIZE)
+        window.show()
+        window.workbench.start()
+        finished = play(window, example_for(robot))
+        picture = output / "window.png"
+        if not window.grab().save(str(picture)):
+            raise OffscreenError(f"{picture}: the picture cannot be written")
+        _report(finished, output)
+    finally:
+        window.workbench.close()
+    return 0
+
+
+def play(window: MainWindow, trajectory: Record) -> Run:
+    """Plan and play a trajectory in a window, and wait for its comparison.
+
+    Raises
+    ------
+    OffscreenError
+        With the notice that the window shows, if anything goes wrong.
+    """
+    bench = window.workbench
+    loop = QEventLoop()
+    outcome: list[Run | str] = []
+
+    def finish(result: Run | str) -> None:
+        outcome.append(result)
+        loop.quit()
+
+    def noticed(level: Level, text: str) -> None:
+        if level in (Level.ERROR, Level.WARNING):
+            finish(text)
+
+    bench.noticed.connect(noticed)
+    bench.run_changed.connect(finish)
+    QTimer.singleShot(TIME_LIMIT_MS, loop, lambda: finish("no end within two minutes"))
+    name = trajectory.metadata.get("name", "example")
+    bench.set_plan(Plan(name, trajectory, dry_run(bench.robot, trajectory)))
+    bench.play()
+    if not outcome:
+        loop.exec()
+    bench.noticed.disconnect(noticed)
+    bench.run_changed.disconnect(finish)
+    if isinstance(outcome[0], str):
+        raise OffscreenError(outcome[0])
+    QTimer.singleShot(200, loop.quit)  # the panels draw what they have just been given
+    loop.exec()
+    return outcome[0]
+
+
+def _report(run: Run, output: Path) -> None:
+    comparison = run.comparison
+    write_record(run.record, output / "record.csv")
+    save_figure(comparison, output / "comparison.svg")
+    write_text(output / "comparison.json", json.dumps(comparison.as_json(), indent=1) + "\n")
+    text = f"{run.name}: {run.record.duration_s:.3f} s, {len(run.record.time_s)} samples\n\n"
+    write_text(output / "report.txt", text + table(comparison) + "\n")
+    print(table(comparison))
+    names = ("window.png", "comparison.svg", "report.txt", "comparison.json", "record.csv")
+    print(f"\nIn {output.resolve()}: {', '.join(names)}")

@@ -1,0 +1,92 @@
+"""A plot in the window's colours, cheap enough to be redrawn at every frame."""
+
+import pyqtgraph as pg
+from PySide6.QtGui import QColor
+from PySide6.QtWidgets import QWidget
+
+from rotemina.app.shell.theme import Theme
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.decimation import envelope
+
+AXIS_WIDTH = 68  # fixed, so that plots above each other line up and never shift
+_SHRINK = 0.35  # the scale is tightened when the signal fills less than this of it
+_MARGIN = 0.12
+
+
+class SignalPlot(pg.PlotWidget):
+    """Named curves over time, decimated to the width by lowest and highest values.
+
+    The vertical scale follows the signals, but only when they leave it or shrink far, so that
+    its numbers can be read.
+    """
+
+    def __init__(self, theme: Theme, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._curves: dict[str, pg.PlotCurveItem] = {}
+        self._colours: dict[str, str] = {}
+        self._scale: tuple[float, float] | None = None
+        self.setMenuEnabled(False)
+        self.hideButtons()
+        self.setAntialiasing(False)
+        item = self.getPlotItem()
+        item.setClipToView(False)
+        for side in ("left", "bottom"):
+            axis = item.getAxis(side)
+            axis.enableAutoSIPrefix(False)
+            axis.setStyle(tickLength=-5, hideOverlappingLabels=True)
+        item.getAxis("left").setWidth(AXIS_WIDTH)
+        item.showGrid(x=True, y=True, alpha=0.18)
+        self.set_theme(theme)
+
+    def add_curve(self, name: str, role: str, *, dashed: bool = False, width: int = 1) -> None:
+        """Add a curve in the theme's colour ``role``."""
+        curve = pg.PlotCurveItem(skipFiniteCheck=True)
+        curve.setSegmentedLineMode("off" if width > 1 else "auto")
+        self._curves[name] = curve
+        self._colours[name] = role
+        curve.setProperty("dashed", dashed)
+        curve.setProperty("width", width)
+        self.addItem(curve)
+        self._colour_curve(name)
+
+    def set_theme(self, theme: Theme) -> None:
+        """Change all colours."""
+        self._theme = theme
+        self.setBackground(QColor(theme.surface))
+        for side in ("left", "bottom"):
+            axis = self.getPlotItem().getAxis(side)
+            axis.setPen(QColor(theme.line))
+            axis.setTextPen(QColor(theme.quiet))
+        for name in self._curves:
+            self._colour_curve(name)
+
+    def show_signal(self, name: str, time_s: FloatArray, values: FloatArray) -> None:
+        """Draw a signal (n,), thinned to what the width can show."""
+        self._curves[name].setData(*envelope(time_s, values, max(self.width(), 200) // 2))
+
+    def clear_signal(self, name: str) -> None:
+        """Draw nothing for a curve."""
+        self._curves[name].setData([], [])
+
+    def set_time(self, start_s: float, end_s: float) -> None:
+        """Show this span of time."""
+        if self.viewRange()[0] != [start_s, end_s]:
+            self.setXRange(start_s, end_s, padding=0.0)
+
+    def follow(self, low: float, high: float, least: float) -> None:
+        """Make the vertical scale fit ``low … high``, at least ``least`` high."""
+        middle, height = (low + high) / 2, max(high - low, least)
+        if self._scale is not None:
+            bottom, top = self._scale
+            inside = bottom <= low and high <= top
+            if inside and height > _SHRINK * (top - bottom):
+                return
+        half = height * (0.5 + _MARGIN)
+        self._scale = (middle - half, middle + half)
+        self.setYRange(*self._scale, padding=0.0)
+
+    def _colour_curve(self, name: str) -> None:
+        curve = self._curves[name]
+        colour = QColor(getattr(self._theme, self._colours[name]))
+        style = pg.QtCore.Qt.PenStyle.DashLine if curve.property("dashed") else None
+        curve.setPen(pg.mkPen(colour, width=curve.property("width"), style=style))

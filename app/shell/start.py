@@ -1,0 +1,48 @@
+"""Starting the window: what the machine lacks is said in one line before Qt would abort."""
+
+import logging
+import os
+import sys
+from pathlib import Path
+
+from rotemina.app.motion.session import MotionSession
+from rotemina.app.settings import Settings
+from rotemina.app.shell.display import display_fault
+from rotemina.app.system_check import complaint, missing_libraries, platform_in_use
+from rotemina.drivers.simulator.driver import Simulator
+from rotemina.sim.robot.file import load_robot
+
+logger = logging.getLogger(__name__)
+
+
+def start(robot: str, *, offscreen: bool, output: Path) -> int:
+    """Open the window and run it until it is closed; return the exit status.
+
+    Parameters
+    ----------
+    robot : name of a shipped robot, or a robot file.
+    offscreen : do the main job without a display.
+    output : folder for the picture and report of a run without a display.
+
+    Raises
+    ------
+    RobotFileError
+        If the robot cannot be loaded.
+    """
+    logging.basicConfig(level=logging.WARNING, format="%(levelname)s %(name)s: %(message)s")
+    described = load_robot(robot)
+    reason = "--offscreen" if offscreen else display_fault()
+    if reason:
+        os.environ["QT_QPA_PLATFORM"] = "offscreen"
+    missing = missing_libraries(platform_in_use(os.environ))
+    if missing:
+        print(f"rotemina: {complaint(missing)}", file=sys.stderr)
+        return 1
+
+    from rotemina.app.shell import offscreen_run, window_run  # Qt is safe to load from here on
+
+    session = MotionSession(Simulator(described), described)
+    if not reason:
+        return window_run.run(described, session, Settings())
+    print(f"No window ({reason}): playing the example trajectory offscreen instead.")
+    return offscreen_run.run(described, session, output)

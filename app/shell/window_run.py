@@ -1,0 +1,47 @@
+"""The window on a display, until its user closes it."""
+
+import signal
+
+import pyqtgraph as pg
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QApplication
+
+from rotemina.app.motion.session import MotionSession
+from rotemina.app.settings import Settings
+from rotemina.app.shell import theme as themes
+from rotemina.app.shell.main_window import MainWindow
+from rotemina.app.shell.workbench import Workbench
+from rotemina.sim.robot.model import Robot
+
+DEFAULT_THEME = "dark"
+
+
+def make_application() -> QApplication:
+    """Return the one application object, made if there is none."""
+    application = QApplication.instance() or QApplication(["rotemina"])
+    assert isinstance(application, QApplication)
+    application.setApplicationName("RoTeMiNa")
+    pg.setConfigOptions(antialias=False, useOpenGL=False)
+    return application
+
+
+def make_window(robot: Robot, session: MotionSession, settings: Settings) -> MainWindow:
+    """Make the window with its workbench, in the theme last used; it is not shown yet."""
+    application = make_application()
+    theme = themes.theme_named(settings.get("window.theme", DEFAULT_THEME))
+    themes.apply(application, theme)
+    return MainWindow(Workbench(robot, session, settings, theme))
+
+
+def run(robot: Robot, session: MotionSession, settings: Settings) -> int:
+    """Show the window and run it; return the exit status."""
+    application = make_application()
+    window = make_window(robot, session, settings)
+    window.show()
+    window.workbench.start()
+    signal.signal(signal.SIGINT, lambda *_: window.close())
+    # Python handles signals only between its own instructions: this wakes it now and then.
+    wake = QTimer(application, interval=200)
+    wake.timeout.connect(lambda: None)
+    wake.start()
+    return application.exec()

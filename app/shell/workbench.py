@@ -1,0 +1,224 @@
+"""What all panels share: the robot, the motion session, and the trajectory and record in hand."""
+
+import logging
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from rotemina.app.motion.events import Event, Faulted, PlaybackFinished
+from rotemina.app.motion.session import MotionSession
+from rotemina.app.settings import Settings
+from rotemina.app.shell.background import Background
+from rotemina.app.shell.theme import Theme
+from rotemina.sim.comparison.comparison import Comparison, compare
+from rotemina.sim.errors import InputError
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.records.record import Record
+from rotemina.sim.records.writing import write_record
+from rotemina.sim.robot.model import Robot
+from rotemina.sim.trajectory.dry_run import DryRun, dry_run
+
+logger = logging.getLogger(__name__)
+
+FRAME_MS = 33  # screens are read at most this often
+
+
+class Level(StrEnum):
+    """How much a notice matters."""
+
+    INFO = "info"
+    GOOD = "good"
+    WARNING = "warning"
+    ERROR = "error"
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """A trajectory with its dry run: what would happen if it were played."""
+
+    name: str
+    trajectory: Record
+    dry_run: DryRun
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """A real record beside the model's answer to its commands."""
+
+    name: str
+    comparison: Comparison
+    completed: bool = True
+
+    @property
+    def record(self) -> Record:
+        """The real record."""
+        return self.comparison.record
+
+
+class Workbench(QObject):
+    """The window's state and its requests; every panel holds the same one.
+
+    Signals
+    -------
+    refreshed(SessionState) : once a frame, at most 30 a second.
+    plan_changed(Plan) : a trajectory was loaded and its dry run is done.
+    run_changed(Run) : a record was opened or a playback ended, and model and real are compared.
+    busy_changed(str) : what is being worked on in the background, or "".
+    noticed(Level, str) : something to tell the operator.
+    theme_changed(Theme)
+    """
+
+    refreshed = Signal(object)
+    plan_changed = Signal(object)
+    run_changed = Signal(object)
+    busy_changed = Signal(str)
+    noticed = Signal(object, str)
+    theme_changed = Signal(object)
+    _happened = Signal(object)
+
+    def __init__(
+        self, robot: Robot, session: MotionSession, settings: Settings, theme: Theme
+    ) -> None:
+        super().__init__()
+        self.robot = robot
+        self.session = session
+        self.settings = settings
+        self.theme = theme
+        self.plan: Plan | None = None
+        self.run: Run | None = None
+        self._background = Background(self)
+        self._happened.connect(self._on_event)
+        self._unsubscribe = session.subscribe(self._happened.emit)
+        self._frames = QTimer(self, interval=FRAME_MS)
+        self._frames.timeout.connect(lambda: self.refreshed.emit(self.session.snapshot()))
+
+    def start(self) -> None:
+        """Connect to the driver and begin to refresh the panels."""
+        self.session.start()
+        self._frames.start()
+
+    def close(self) -> None:
+        """Stop refreshing, end all work and disconnect."""
+        self._frames.stop()
+        self._unsubscribe()
+        self.session.close()
+        self._background.wait()
+
+    def notify(self, level: Level, text: str) -> None:
+        """Tell the operator something."""
+        logger.log(logging.WARNING if level in (Level.WARNING, Level.ERROR) else logging.INFO, text)
+        self.noticed.emit(level, text)
+
+    def set_theme(self, theme: Theme) -> None:
+        """Change the colours of everything."""
+        self.theme = theme
+        self.theme_changed.emit(theme)
+
+    # --- motion -----------------------------------------------------------------------------------
+
+    def stop(self) -> None:
+        """Stop all motion now; this waits for nothing."""
+        self.session.stop()
+
+    def go_to(self, targets: Mapping[str, float]) -> None:
+        """Move axes to positions (SI); a refusal becomes a notice."""
+        self._ask(lambda: self.session.go_to(targets))
+
+    def jog(self, axis: str, distance: float) -> None:
+        """Move one axis by a distance (SI) from its last target; a refusal becomes a notice."""
+        self._ask(lambda: self.session.jog(axis, distance))
+
+    def play(self) -> None:
+        """Play the planned trajectory; a refusal becomes a notice."""
+        plan = self.plan
+        if plan is None:
+            self.notify(Level.WARNING, "There is no trajectory to play: load one first.")
+        else:
+            self._ask(lambda: self.session.play(plan.trajectory))
+
+    def reconnect(self) -> None:
+        """Connect again after a failure; a refusal becomes a notice."""
+        self._ask(self.session.reconnect)
+
+    # --- files ------------------------------------------------------------------------------------
+
+    def load_trajectory(self, path: Path, columns: str | None = None) -> None:
+        """Read a trajectory and try it on the model; the plan changes only if all goes well."""
+
+        def work() -> Plan:
+            trajectory = read_record(path, columns=columns, robot=self.robot)
+            return Plan(path.name, trajectory, dry_run(self.robot, trajectory))
+
+        self._work("plan", f"Reading {path.name} …", work, self.set_plan)
+
+    def open_record(self, path: Path, columns: str | None = None) -> None:
+        """Read a record as "real" and compare it with the model."""
+
+        def work() -> Run:
+            record = read_record(path, columns=columns, robot=self.robot)
+            return Run(path.name, compare(self.robot, record))
+
+        self._work("run", f"Reading {path.name} …", work, self._set_run)
+
+    def save_record(self, path: Path) -> None:
+        """Write the record in hand to a file."""
+        run = self.run
+        if run is None:
+            self.notify(Level.WARNING, "There is no record to save: play or open one first.")
+            return
+
+        def done(_: None) -> None:
+            self.notify(Level.GOOD, f"Saved {path}")
+
+        self._work("save", f"Writing {path.name} …", lambda: write_record(run.record, path), done)
+
+    # --- inside -----------------------------------------------------------------------------------
+
+    def _ask(self, request: object) -> None:
+        try:
+            request()  # type: ignore[operator]
+        except (InputError, OSError, ValueError, RuntimeError) as error:
+            self.notify(Level.ERROR, str(error))
+
+    def _work(self, kind: str, doing: str, work: object, done: object) -> None:
+        def finished(answer: object) -> None:
+            self.busy_changed.emit("")
+            done(answer)  # type: ignore[operator]
+
+        def failed(message: str) -> None:
+            self.busy_changed.emit("")
+            self.notify(Level.ERROR, message)
+
+        self.busy_changed.emit(doing)
+        self._background.run(kind, work, finished, failed)  # type: ignore[arg-type]
+
+    def set_plan(self, plan: Plan) -> None:
+        """Take a trajectory in hand; one that breaks a limit is shown, but cannot be played."""
+        self.plan = plan
+        self.plan_changed.emit(plan)
+        if not plan.dry_run.allowed:
+            self.notify(Level.WARNING, f"{plan.name}: {plan.dry_run.violations[0]}")
+
+    def _set_run(self, run: Run) -> None:
+        self.run = run
+        self.run_changed.emit(run)
+
+    def _on_event(self, event: Event) -> None:
+        if isinstance(event, Faulted):
+            self.notify(Level.ERROR, event.message)
+        elif isinstance(event, PlaybackFinished):
+            self._compare_played(event)
+
+    def _compare_played(self, event: PlaybackFinished) -> None:
+        name = self.plan.name if self.plan else "playback"
+        if not event.completed:
+            self.notify(Level.WARNING, f"{name}: stopped after {event.record.duration_s:.2f} s.")
+        self._work(
+            "run",
+            "Comparing model and real …",
+            lambda: Run(name, compare(self.robot, event.record), event.completed),
+            self._set_run,
+        )

@@ -1,0 +1,138 @@
+"""Model and real of a whole run: figures of every tap, and the traces of the chosen one."""
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QPushButton,
+    QSplitter,
+    QTableWidget,
+    QTableWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.display import label
+from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.plot import SignalPlot
+from rotemina.app.shell.theme import Theme
+from rotemina.app.shell.workbench import Run, Workbench
+from rotemina.sim.comparison.comparison import TapComparison
+from rotemina.sim.comparison.figure import drawing_unit
+from rotemina.sim.comparison.table import HEAD, cells
+from rotemina.sim.records.record import Tap
+from rotemina.sim.units import symbol, to_unit
+
+EMPTY = "Play a trajectory, or open a record of the real machine, to see how far the model is."
+COLUMNS = ("tap", "rms", "of range", "rel. error", "delay", "noise floor")
+
+
+class ComparisonPanel(Panel):
+    """The last run: the real record beside the model's answer to the same commands."""
+
+    title = "Comparison of model and real"
+    area = Area.BOTTOM
+    order = 20
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__(workbench)
+        self.open = QPushButton("Open record …")
+        self.open.clicked.connect(lambda: self.window().ask_record())
+        self.save = QPushButton("Save record …")
+        self.save.clicked.connect(lambda: self.window().ask_save())
+        self.save.setEnabled(False)
+        self.summary = QLabel(EMPTY)
+        self.summary.setWordWrap(True)
+        self.table = _table()
+        self.table.itemSelectionChanged.connect(self._draw)
+        self.signals, self.gap = SignalPlot(workbench.theme), SignalPlot(workbench.theme)
+        self.signals.add_curve("real", "real")
+        self.signals.add_curve("model", "model")
+        self.gap.add_curve("gap", "text")
+        self.gap.setXLink(self.signals)
+        self.gap.getPlotItem().getAxis("bottom").setLabel("time [s]")
+        self._lay_out()
+        workbench.run_changed.connect(self._show_run)
+        workbench.theme_changed.connect(self._use_theme)
+
+    def _lay_out(self) -> None:
+        buttons = QHBoxLayout()
+        buttons.addWidget(self.open)
+        buttons.addWidget(self.save)
+        buttons.addWidget(self.summary, 1)
+        plots = QWidget()
+        column = QVBoxLayout(plots)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(2)
+        column.addWidget(self.signals, 1)
+        column.addWidget(self.gap, 1)
+        split = QSplitter(Qt.Orientation.Horizontal)
+        split.addWidget(self.table)
+        split.addWidget(plots)
+        split.setStretchFactor(0, 3)
+        split.setStretchFactor(1, 4)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(10, 8, 10, 8)
+        outer.addLayout(buttons)
+        outer.addWidget(split, 1)
+
+    def _show_run(self, run: Run) -> None:
+        record = run.record
+        state = "" if run.completed else ", stopped early"
+        self.summary.setText(
+            f"{run.name}: {record.duration_s:.3f} s, {len(record.time_s)} samples{state}"
+        )
+        self.save.setEnabled(True)
+        self.table.setRowCount(len(run.comparison.taps))
+        for row, tap in enumerate(run.comparison.taps):
+            for column, text in enumerate(_row(tap)):
+                item = QTableWidgetItem(text)
+                if column:
+                    item.setTextAlignment(
+                        Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+                    )
+                self.table.setItem(row, column, item)
+        self.table.selectRow(0)
+        self._draw()
+
+    def _draw(self) -> None:
+        run, row = self.workbench.run, self.table.currentRow()
+        if run is None or not 0 <= row < len(run.comparison.taps):
+            return
+        tap = run.comparison.taps[row]
+        record = run.record
+        real = record.signal(tap.axis, Tap(tap.tap))
+        model = run.comparison.response.signal(tap.axis, Tap(tap.tap))
+        time_s = record.time_s - record.time_s[0]
+        unit = drawing_unit(tap.unit, float(abs(real).max()))
+        gap_unit = drawing_unit(tap.unit, tap.peak)
+        self.signals.show_signal("real", time_s, to_unit(real, unit))
+        self.signals.show_signal("model", time_s, to_unit(model, unit))
+        self.gap.show_signal("gap", time_s, to_unit(real - model, gap_unit))
+        self.signals.set_time(0.0, max(record.duration_s, 1e-9))
+        self.signals.getPlotItem().getAxis("left").setLabel(f"{label(tap.axis)} [{symbol(unit)}]")
+        self.gap.getPlotItem().getAxis("left").setLabel(f"real − model [{symbol(gap_unit)}]")
+        self.signals.enableAutoRange(axis="y")
+        self.gap.enableAutoRange(axis="y")
+
+    def _use_theme(self, theme: Theme) -> None:
+        self.signals.set_theme(theme)
+        self.gap.set_theme(theme)
+
+
+def _table() -> QTableWidget:
+    table = QTableWidget(0, len(COLUMNS))
+    table.setHorizontalHeaderLabels(list(COLUMNS))
+    table.verticalHeader().hide()
+    table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+    table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+    table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+    table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Stretch)
+    return table
+
+
+def _row(tap: TapComparison) -> list[str]:
+    named = dict(zip(HEAD, cells(tap), strict=True))
+    return [f"{label(tap.axis)} {tap.tap}", *(named[column] for column in COLUMNS[1:])]
