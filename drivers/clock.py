@@ -1,0 +1,22 @@
+"""Clocks of the host, real or set by hand; both give ``host_time_s``."""
+
+from collections.abc import Callable
+
+Clock = Callable[[], float]
+
+
+class VirtualClock:
+    """A clock that stands still until it is moved: tests and fast playback run on it."""
+
+    def __init__(self, host_time_s: float = 0.0) -> None:
+        self._host_time_s = host_time_s
+
+    def __call__(self) -> float:
+        """Return the present ``host_time_s``."""
+        return self._host_time_s
+
+    def advance(self, seconds: float) -> None:
+        """Move on by ``seconds``, which must not be negative."""
+        if not seconds >= 0:
+            raise ValueError(f"a clock moves on, not by {seconds} s")
+        self._host_time_s += seconds

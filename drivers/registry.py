@@ -1,0 +1,61 @@
+"""Finding drivers and other plugins: installed entry points, the built-in ones among them."""
+
+import inspect
+from dataclasses import dataclass
+from importlib.metadata import EntryPoint, entry_points
+from typing import Any
+
+from rotemina.drivers.driver import Driver
+
+DRIVERS = "rotemina.drivers"
+
+
+@dataclass(frozen=True, slots=True)
+class Discovery:
+    """The classes ``found`` by name, and why others are ``broken`` and left out."""
+
+    found: dict[str, type[Any]]
+    broken: dict[str, str]
+
+
+def discover(group: str, base: type) -> Discovery:
+    """Load every entry point of a group; a bad one is named and left out, never raised.
+
+    A good one is a subclass of ``base`` that leaves nothing abstract and has the same
+    ``api_version``, where the base has one.
+    """
+    found: dict[str, type[Any]] = {}
+    broken: dict[str, str] = {}
+    for point in sorted(entry_points(group=group), key=lambda point: (point.name, point.value)):
+        if point.name in found:
+            broken[f"{point.name} ({point.value})"] = "another plugin already has this name"
+            continue
+        loaded = _load(point, base)
+        if isinstance(loaded, str):
+            broken[point.name] = loaded
+        else:
+            found[point.name] = loaded
+    return Discovery(found, broken)
+
+
+def discover_drivers() -> Discovery:
+    """Return the installed drivers, subclasses of :class:`rotemina.drivers.driver.Driver`."""
+    return discover(DRIVERS, Driver)
+
+
+def _load(point: EntryPoint, base: type) -> type[Any] | str:
+    """Return the class, or what is wrong with the entry point."""
+    try:
+        loaded = point.load()
+    except Exception as error:  # a plugin may raise anything; the program starts without it
+        return f"{point.value} cannot be imported: {type(error).__name__}: {error}"
+    if not isinstance(loaded, type) or not issubclass(loaded, base):
+        return f"{point.value} is no {base.__name__}"
+    wanted = getattr(base, "api_version", None)
+    version = getattr(loaded, "api_version", None)
+    if version != wanted:
+        return f"{point.value} is made for version {version} of the interface, this is {wanted}"
+    if inspect.isabstract(loaded):
+        missing = ", ".join(sorted(getattr(loaded, "__abstractmethods__", ())))
+        return f"{point.value} does not define {missing}"
+    return loaded

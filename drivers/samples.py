@@ -1,0 +1,118 @@
+"""What a device reports: its samples since it was last read, and its state."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Self
+
+import numpy as np
+
+from rotemina.drivers.errors import ProtocolError
+from rotemina.sim.arrays import FloatArray, IntArray, read_only
+
+
+class DeviceState(StrEnum):
+    """What a device is doing."""
+
+    CLOSED = "closed"
+    IDLE = "idle"
+    MOVING = "moving"
+    PLAYING = "playing"
+    FAULT = "fault"
+
+
+@dataclass(frozen=True, slots=True)
+class DeviceStatus:
+    """The device's state as its driver last knew it.
+
+    Attributes
+    ----------
+    state : DeviceState
+    progress : float
+        0 to 1: how much of the trajectory has been played; 1 after it ended by itself.
+    fault : str or None
+        Why the device is in ``FAULT``.
+    position_known : bool
+        False while the device cannot vouch for its position, for example before homing.
+    """
+
+    state: DeviceState
+    progress: float = 0.0
+    fault: str | None = None
+    position_known: bool = True
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Samples:
+    """Samples that a device took, oldest first; all arrays read-only.
+
+    Attributes
+    ----------
+    device_time_s : (n,) float64
+        Strictly increasing, also from one read to the next; zero at ``open``.
+    command : (n, axes) float64
+        Set-points really applied at each sample and held until the next, m or rad.
+    measured : (n, axes) float64
+        What the axes' sensors said, before the command of the same sample acted, m or rad.
+    inputs : (n, axes) float64
+        Amplifier outputs, V; NaN where a device has none (steppers) or does not tell.
+    playback_row : (n,) int64
+        Which row of the playing trajectory was applied at this sample; -1 for any other sample,
+        also for one between two rows.
+
+    Raises
+    ------
+    ProtocolError
+        If shapes disagree, time does not increase, or a time, command or reading is not finite.
+    """
+
+    device_time_s: FloatArray
+    command: FloatArray
+    measured: FloatArray
+    inputs: FloatArray
+    playback_row: IntArray
+
+    def __post_init__(self) -> None:
+        for name in ("device_time_s", "command", "measured", "inputs"):
+            array = np.ascontiguousarray(getattr(self, name), dtype=np.float64)
+            object.__setattr__(self, name, read_only(array))
+        rows = np.ascontiguousarray(self.playback_row, dtype=np.int64).view()
+        rows.flags.writeable = False
+        object.__setattr__(self, "playback_row", rows)
+        self._check()
+
+    def _check(self) -> None:
+        count = len(self)
+        shapes = {self.command.shape, self.measured.shape, self.inputs.shape}
+        if len(shapes) != 1 or self.command.shape[:1] != (count,) or self.command.ndim != 2:
+            raise ProtocolError(f"samples: arrays of shapes {sorted(shapes)} for {count} times")
+        if self.playback_row.shape != (count,):
+            raise ProtocolError(f"samples: {len(self.playback_row)} rows for {count} times")
+        if not np.isfinite(self.device_time_s).all() or (np.diff(self.device_time_s) <= 0).any():
+            raise ProtocolError("samples: the device's time does not increase")
+        if not (np.isfinite(self.command).all() and np.isfinite(self.measured).all()):
+            raise ProtocolError("samples: a command or reading is not a finite number")
+
+    @classmethod
+    def none(cls, axes: int) -> Self:
+        """Return no samples of a machine with so many axes."""
+        table = np.empty((0, axes))
+        return cls(np.empty(0), table, table, table, np.empty(0, dtype=np.int64))
+
+    @classmethod
+    def joined(cls, parts: Sequence[Self], axes: int) -> Self:
+        """Return consecutive samples as one."""
+        if not parts:
+            return cls.none(axes)
+        if len(parts) == 1:
+            return parts[0]
+        return cls(
+            np.concatenate([part.device_time_s for part in parts]),
+            np.concatenate([part.command for part in parts]),
+            np.concatenate([part.measured for part in parts]),
+            np.concatenate([part.inputs for part in parts]),
+            np.concatenate([part.playback_row for part in parts]),
+        )
+
+    def __len__(self) -> int:
+        return len(self.device_time_s)

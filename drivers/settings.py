@@ -1,0 +1,45 @@
+"""Settings of a driver: named, typed by their defaults, and refused where unknown."""
+
+from collections.abc import Mapping
+from math import isfinite
+
+from rotemina.sim.errors import InputError
+
+SettingValue = bool | int | float | str
+
+
+class SettingError(InputError):
+    """A setting that a driver does not know, or a value that it cannot take."""
+
+
+def resolve(
+    defaults: Mapping[str, SettingValue], given: Mapping[str, object], owner: str
+) -> dict[str, SettingValue]:
+    """Return ``defaults`` with what was ``given``; a whole number passes for a float.
+
+    Raises
+    ------
+    SettingError
+        With the name of an unknown setting, or of one whose value has the wrong type.
+    """
+    unknown = [name for name in given if name not in defaults]
+    if unknown:
+        known = ", ".join(defaults) or "none at all"
+        raise SettingError(f"{owner}: unknown setting {unknown[0]!r}; it knows {known}")
+    return {
+        name: _typed(f"{owner}: setting {name}", default, given.get(name, default))
+        for name, default in defaults.items()
+    }
+
+
+def _typed(where: str, default: SettingValue, value: object) -> SettingValue:
+    wanted = type(default)
+    if wanted is float and type(value) is int:
+        value = float(value)
+    if type(value) is not wanted or not isinstance(value, (bool, int, float, str)):
+        raise SettingError(
+            f"{where}: {value!r} is no {wanted.__name__}, like its default {default!r}"
+        )
+    if isinstance(value, float) and not isfinite(value):
+        raise SettingError(f"{where}: {value} is not a finite number")
+    return value

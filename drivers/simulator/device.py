@@ -1,0 +1,242 @@
+"""The simulated machine: it lives in device time and knows nothing of hosts or threads."""
+
+from dataclasses import replace
+from enum import Enum, auto
+from typing import NamedTuple
+
+import numpy as np
+
+from rotemina.drivers.samples import Samples
+from rotemina.drivers.simulator.schedule import Schedule
+from rotemina.drivers.simulator.setpoints import SetpointGenerator, SetpointLimits
+from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.sim.plant.plant import Plant
+from rotemina.sim.records.record import Record
+from rotemina.sim.robot.model import Robot, StepperAxis
+
+_CHUNK = 8192  # samples simulated at once: bounds memory, not the result
+
+
+class _Phase(Enum):
+    HOLD = auto()  # holding, or on the way to the targets of single moves
+    APPROACH = auto()  # on the way to the first row of a trajectory
+    SETTLE = auto()  # waiting there for the vibration to die away
+    ROWS = auto()  # playing
+
+
+class _Chunk(NamedTuple):
+    """Sampling instants (n,) of the device, commands (n, axes) and rows of a trajectory (n,).
+
+    ``elapsed_s`` (n,) is the time since the latest sample before: small, and so exact.
+    """
+
+    time_s: FloatArray
+    elapsed_s: FloatArray
+    command: FloatArray
+    row: IntArray
+
+
+class SimulatedDevice:
+    """The nominal plant with set-point generator, player and sensors.
+
+    Parameters
+    ----------
+    robot : Robot
+    tick_s : float
+        Interval between samples, and between set-points of single moves.
+    seed : int
+        Of the sensors' noise. Each playback starts a sequence of its own, so that it does not
+        depend on how long the device idled before.
+    settle_s : float
+        How long to wait at a trajectory's first row.
+    position : (axes,)
+        Where the machine stands at first, m or rad, inside the range.
+    time_s : float
+        Device time of the first sample.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        *,
+        tick_s: float,
+        seed: int,
+        settle_s: float,
+        position: FloatArray,
+        time_s: float = 0.0,
+    ) -> None:
+        self._plant = Plant.of(robot, closed_loop=True)
+        # The plant counts from the latest sample: its steps stay exact however long it runs.
+        self._state = self._plant.at_rest(0.0, position)
+        self._sensors = _Sensors(robot)
+        self._setpoints = SetpointGenerator(SetpointLimits.of(robot), tick_s, position)
+        self._tick_s = tick_s
+        self._seed = seed
+        self._settle_ticks = round(settle_s / tick_s)
+        self._noise = np.random.default_rng(seed)
+        self._phase = _Phase.HOLD
+        self._schedule: Schedule | None = None
+        self._instant = 0
+        self._row = -1
+        self._begin_s = 0.0
+        self._settled = 0
+        self._plays = 0
+        # Ticks are counted from an anchor: adding intervals up would let rounding grow.
+        self._anchor_s = time_s
+        self._ticks = -1
+
+    @property
+    def time_s(self) -> float:
+        """Device time of the latest sample; a tick before the first one at the very start."""
+        if self._phase is _Phase.ROWS and self._schedule is not None and self._instant:
+            since = self._schedule.instants(self._instant - 1, self._instant).time_s[0]
+            return float(self._begin_s + since)
+        return self._anchor_s + self._ticks * self._tick_s
+
+    @property
+    def command(self) -> FloatArray:
+        """The latest commands (axes,), m or rad."""
+        return self._setpoints.position
+
+    @property
+    def moving(self) -> bool:
+        """Whether a single move, or the halt after a stop, is under way."""
+        return self._setpoints.moving
+
+    @property
+    def playing(self) -> bool:
+        """Whether a trajectory is playing, its approach included."""
+        return self._phase is not _Phase.HOLD
+
+    @property
+    def progress(self) -> float:
+        """How much of the present or latest trajectory has been played, 0 to 1."""
+        return self._schedule.progress(self._instant) if self._schedule is not None else 0.0
+
+    def move_to(self, targets: dict[int, float]) -> None:
+        """Send axes, by their number, to targets."""
+        self._setpoints.retarget(targets)
+
+    def play(self, trajectory: Record) -> None:
+        """Approach the first row, settle, then play."""
+        under_control = any(self._plant.loops)
+        self._schedule = Schedule(
+            trajectory, self._plant.axes, self._tick_s, fill=not under_control
+        )
+        self._instant, self._row, self._settled = 0, -1, 0
+        self._setpoints.retarget(self._schedule.first)
+        self._phase = _Phase.APPROACH
+
+    def stop(self) -> None:
+        """Halt within the acceleration that the axes allow, from whatever is going on."""
+        if self._phase is _Phase.ROWS and self._schedule is not None and self._row >= 0:
+            velocity = self._schedule.velocity(self._row, len(self._plant.axes))
+            self._end_rows(velocity)
+        self._setpoints.stop()
+        self._phase = _Phase.HOLD
+
+    def advance(self, until_s: float) -> list[Samples]:
+        """Live on until the last sample that is not after ``until_s``; return what was sampled.
+
+        Raises
+        ------
+        PlantError
+            If the motion leaves what a number can hold.
+        """
+        parts: list[Samples] = []
+        while True:
+            chunk = self._next_chunk(until_s)
+            if not len(chunk.time_s):
+                return parts
+            parts.append(self._sample(chunk))
+
+    def _next_chunk(self, until_s: float) -> _Chunk:
+        if self._phase is _Phase.ROWS and self._schedule is not None:
+            return self._row_chunk(self._schedule, until_s)
+        since = (until_s - self._anchor_s) / self._tick_s
+        ticks = min(int(np.floor(since + 1e-6)) - self._ticks, _CHUNK)
+        return self._tick_chunk(max(ticks, 0))
+
+    def _tick_chunk(self, ticks: int) -> _Chunk:
+        """Take at most ``ticks`` ticks; a chunk ends where a phase does."""
+        if self._phase is _Phase.SETTLE:
+            ticks = min(ticks, self._settle_ticks - self._settled)
+        approach = self._phase is _Phase.APPROACH
+        command = self._setpoints.generate(ticks, until_rest=approach)
+        number = np.arange(self._ticks + 1, self._ticks + 1 + len(command), dtype=np.int64)
+        since = number - max(self._ticks, 0)
+        self._ticks += len(command)
+        if approach and len(command) and not self._setpoints.moving:
+            self._phase = _Phase.SETTLE
+        elif self._phase is _Phase.SETTLE:
+            self._settled += len(command)
+        if self._phase is _Phase.SETTLE and self._settled >= self._settle_ticks:
+            self._begin_rows()
+        return _Chunk(
+            (self._anchor_s + number * self._tick_s).astype(np.float64),
+            (since * self._tick_s).astype(np.float64),
+            command,
+            np.full(len(command), -1, dtype=np.int64),
+        )
+
+    def _begin_rows(self) -> None:
+        self._begin_s = self._anchor_s + (self._ticks + 1) * self._tick_s
+        self._phase = _Phase.ROWS
+        self._plays += 1
+
+    def _row_chunk(self, schedule: Schedule, until_s: float) -> _Chunk:
+        if self._instant == 0:
+            self._noise = np.random.default_rng([self._seed, self._plays])
+        instants = schedule.instants(self._instant, self._instant + _CHUNK)
+        due_s = until_s - self._begin_s + 1e-6 * self._tick_s
+        count = int(np.searchsorted(instants.time_s, due_s, side="right"))
+        time_s, row = instants.time_s[:count], instants.row[:count]
+        command = schedule.commands(row, self._setpoints.position)
+        elapsed_s = schedule.elapsed(self._instant, time_s)
+        if self._instant == 0:
+            elapsed_s = elapsed_s + self._tick_s
+        if count:
+            self._instant += count
+            self._row = int(row[-1])
+            if self._instant == schedule.count:
+                self._end_rows(np.zeros(len(self._plant.axes)))
+        own = np.where(instants.on_row[:count], row, -1)
+        return _Chunk(self._begin_s + time_s, elapsed_s, command, own)
+
+    def _end_rows(self, velocity: FloatArray) -> None:
+        """Go over to holding, from the latest row and with the speed of its commands."""
+        if self._schedule is None:
+            return
+        self._anchor_s, self._ticks = self.time_s, 0
+        rows = np.array([self._row], dtype=np.int64)
+        command = self._schedule.commands(rows, self._setpoints.position)[0]
+        self._setpoints.take_over(command, velocity)
+        self._phase = _Phase.HOLD
+
+    def _sample(self, chunk: _Chunk) -> Samples:
+        motion, state = self._plant.advance(self._state, chunk.elapsed_s, chunk.command)
+        self._state = replace(state, time_s=state.time_s - state.time_s[-1])
+        measured = self._sensors.read(motion.position, self._noise)
+        inputs = np.where(self._sensors.has_voltage, motion.inputs, np.nan)
+        return Samples(chunk.time_s, chunk.command, measured, inputs, chunk.row)
+
+
+class _Sensors:
+    """Readings of all axes: ``position + offset + noise``, rounded to each resolution."""
+
+    def __init__(self, robot: Robot) -> None:
+        axes = tuple(robot.axes.values())
+        sensors = [axis.sensor for axis in axes]
+        self.has_voltage = np.array([not isinstance(axis, StepperAxis) for axis in axes])
+        self._offset = np.array([axis.offset for axis in axes])
+        self._noise_rms = np.array([s.noise_rms if s else 0.0 for s in sensors])
+        self._resolution = np.array([s.resolution if s else 0.0 for s in sensors])
+
+    def read(self, position: FloatArray, noise: np.random.Generator) -> FloatArray:
+        """Return readings (n, axes) of true positions (n, axes), m or rad."""
+        reading = position + self._offset
+        reading += self._noise_rms * noise.standard_normal(position.shape)
+        rounded = self._resolution > 0
+        step = self._resolution[rounded]
+        reading[:, rounded] = np.rint(reading[:, rounded] / step) * step
+        return np.asarray(reading)

@@ -1,0 +1,161 @@
+"""The simulator: the nominal robot behind the same contract as a real device."""
+
+import time
+from collections import deque
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import ClassVar
+
+import numpy as np
+
+from rotemina.drivers.clock import Clock
+from rotemina.drivers.driver import TrajectoryPlayer
+from rotemina.drivers.errors import LimitError
+from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
+from rotemina.drivers.settings import SettingError, SettingValue
+from rotemina.drivers.simulator.device import SimulatedDevice
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.plant.plant import PlantError
+from rotemina.sim.records.record import Record
+from rotemina.sim.robot.model import ForceAxis, Robot
+
+MAX_RATE_HZ = 20_000.0
+MAX_READ_S = 5.0  # device time that one call simulates at most; the rest waits for the next
+
+
+class Simulator(TrajectoryPlayer):
+    """A machine that behaves as its robot file says.
+
+    Device time is the clock's time since ``open``; what happened since the last call is simulated
+    when a call asks for it, so the clock may be real or set by hand. A request takes effect at the
+    next tick after the clock's present. A robot with controllers runs under them. After being
+    closed and opened again, the machine stands where it was last commanded to.
+
+    Settings: ``sample_rate_hz`` of samples and set-points; ``seed`` of the sensors' noise;
+    ``settle_s`` at the first row of a trajectory; ``start_fraction`` of its range at which each
+    axis first stands.
+    """
+
+    name = "simulator"
+    virtual_time = True
+    default_settings: ClassVar[Mapping[str, SettingValue]] = MappingProxyType(
+        {"sample_rate_hz": 1000.0, "seed": 0, "settle_s": 0.5, "start_fraction": 0.5}
+    )
+
+    def __init__(
+        self,
+        robot: Robot,
+        settings: Mapping[str, object] | None = None,
+        *,
+        clock: Clock = time.monotonic,
+    ) -> None:
+        super().__init__(robot, settings, clock=clock)
+        self._tick_s = 1.0 / self._number("sample_rate_hz", 1.0, MAX_RATE_HZ)
+        self._settle_s = self._number("settle_s", 0.0, 60.0)
+        self._seed = int(self._number("seed", 0, 2**63))
+        for axis in robot.axes.values():
+            if isinstance(axis, ForceAxis) and axis.controller is None:
+                raise SettingError(
+                    f"simulator: robot {robot.name!r} has an axis moved by a force that no "
+                    "controller holds; give it one in the robot file"
+                )
+        self._position = self._start_position(self._number("start_fraction", 0.0, 1.0))
+        self._opened_at_s = 0.0
+        self._device: SimulatedDevice | None = None
+        self._fault: str | None = None
+        # Appended to by any thread, which a deque allows; emptied by the driver's own thread.
+        self._stops_s: deque[float] = deque()
+        self._unread: list[Samples] = []
+
+    def _number(self, name: str, least: float, greatest: float) -> float:
+        value = self.settings[name]
+        if isinstance(value, str) or not least <= value <= greatest:
+            raise SettingError(
+                f"simulator: setting {name} = {value!r} is not between {least:g} and {greatest:g}"
+            )
+        return value
+
+    def _start_position(self, fraction: float) -> FloatArray:
+        ranges = np.array([axis.range for axis in self.robot.axes.values()], dtype=np.float64)
+        low, high = ranges.T
+        return np.asarray(low + fraction * (high - low))
+
+    def _open(self) -> None:
+        self._opened_at_s = self.clock()
+        self._stops_s.clear()
+        self._unread.clear()
+        self._fault = None
+        self._device = self._made(self._position, 0.0)
+
+    def _made(self, position: FloatArray, time_s: float) -> SimulatedDevice:
+        return SimulatedDevice(
+            self.robot,
+            tick_s=self._tick_s,
+            seed=self._seed,
+            settle_s=self._settle_s,
+            position=position,
+            time_s=time_s,
+        )
+
+    def _close(self) -> None:
+        self._position = self._running.command
+        self._device = None
+
+    def _status(self) -> DeviceStatus:
+        device = self._running
+        if self._fault is not None:
+            return DeviceStatus(DeviceState.FAULT, device.progress, self._fault)
+        if device.playing:
+            return DeviceStatus(DeviceState.PLAYING, device.progress)
+        state = DeviceState.MOVING if device.moving else DeviceState.IDLE
+        return DeviceStatus(state, device.progress)
+
+    def _move_to(self, targets: dict[str, float]) -> None:
+        self._catch_up()
+        self._running.move_to({self.axes.index(axis): at for axis, at in targets.items()})
+
+    def _play(self, trajectory: Record) -> None:
+        if len(trajectory.time_s) > 1:
+            rate_hz = 1.0 / float(np.diff(trajectory.time_s).min())
+            if rate_hz > MAX_RATE_HZ * (1.0 + 1e-6):
+                raise LimitError(
+                    f"simulator: rows of the trajectory follow at {rate_hz:.6g} Hz; it plays "
+                    f"{MAX_RATE_HZ:g} Hz at most; resample the trajectory"
+                )
+        self._catch_up()
+        self._running.play(trajectory)
+
+    def _stop(self) -> None:
+        self._stops_s.append(self.clock() - self._opened_at_s)
+
+    def _clear_fault(self) -> None:
+        device = self._running
+        self._stops_s.clear()
+        self._device = self._made(device.command, self.clock() - self._opened_at_s)
+        self._fault = None
+
+    def _read(self) -> Samples:
+        self._catch_up()
+        samples = Samples.joined(self._unread, len(self.axes))
+        self._unread.clear()
+        return samples
+
+    @property
+    def _running(self) -> SimulatedDevice:
+        assert self._device is not None, "the base class calls hooks of an open device only"
+        return self._device
+
+    def _catch_up(self) -> None:
+        """Simulate up to the clock's present, with every stop at the time it was asked for."""
+        if self._fault is not None:
+            return
+        device = self._running
+        now_s = min(self.clock() - self._opened_at_s, device.time_s + MAX_READ_S)
+        try:
+            while self._stops_s and self._stops_s[0] <= now_s:
+                self._unread += device.advance(self._stops_s[0])
+                device.stop()
+                self._stops_s.popleft()
+            self._unread += device.advance(now_s)
+        except PlantError as error:
+            self._fault = str(error)
