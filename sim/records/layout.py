@@ -12,10 +12,11 @@ from rotemina.sim.units import UnitError, canonical, per_si, quantity
 # In the order in which they are looked for: a comma may also be a decimal sign, a blank a filler.
 SEPARATORS = (";", "\t", ",", " ")
 EXAMPLE = "t [s], x [mm], y [mm]"
+_LONGEST_NAME = 100
 _TAPS = tuple(tap.value for tap in Tap)
 
 # ASCII digits with one sign, one point, one exponent: no "1_000", no "0x10", no "nan".
-NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
+NUMBER = re.compile(r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
 _NOT_FINITE = re.compile(r"[+-]?(?:nan|inf|infinity)", re.IGNORECASE)
 _COLUMN = re.compile(r"([^\[\]]+)\[([^\[\]]*)\]")
 _BLANKS_AFTER_UNIT = re.compile(r"(?<=\])[ \t]+")
@@ -85,7 +86,7 @@ def looks_like_header(line: str) -> bool:
 
 def header_separator(line: str) -> str:
     """Return what separates the headings of a header row."""
-    outside = re.sub(r"\[[^\]]*\]", "", line)
+    outside = re.sub(r"\[[^\[\]]*\]", "", line)
     return next((sign for sign in (";", ",", "\t") if sign in outside), " ")
 
 
@@ -170,10 +171,11 @@ def _parse_channel(name: str, where: str) -> Channel:
 
 def check_axis_name(axis: str, where: str) -> None:
     """Refuse an axis name that a header could not carry, or that a spreadsheet would calculate."""
-    if _AXIS_NAME.fullmatch(axis) is None:
+    proper = _AXIS_NAME.fullmatch(axis) is not None and axis.isprintable()
+    if not proper or len(axis) > _LONGEST_NAME:
         raise RecordError(
-            f"{where}: {axis[:40]!r} cannot name an axis; begin with a letter, "
-            "without separators, brackets, quotes or '#'"
+            f"{where}: {axis[:40]!r} cannot name an axis; begin with a letter, and use "
+            f"no separators, brackets, quotes or '#' and at most {_LONGEST_NAME} characters"
         )
 
 
@@ -200,13 +202,10 @@ def _check_unique(columns: Sequence[Column], where: str) -> None:
 def _check_axes(columns: Iterable[Column], where: str) -> None:
     """Check that each axis has a command, and is a length or an angle in all its columns."""
     kinds: dict[str, str] = {}
-    commanded = set()
     positions = [column for column in columns if column.channel is not None]
     for number, column in enumerate(positions, start=2):
         assert column.channel is not None
         axis, tap = column.channel
-        if tap is Tap.CMD:
-            commanded.add(axis)
         if tap not in VOLTAGE_TAPS:
             kind = kinds.setdefault(axis, quantity(column.unit))
             if kind != quantity(column.unit):
@@ -220,8 +219,9 @@ def _check_axes(columns: Iterable[Column], where: str) -> None:
 def check_commands(channels: Iterable[Channel], where: str) -> None:
     """Refuse an axis without its command, the only channel that may not be missing."""
     channels = tuple(channels)
+    commanded = {axis for axis, tap in channels if tap is Tap.CMD}
     for axis, tap in channels:
-        if (axis, Tap.CMD) not in channels:
+        if axis not in commanded:
             raise RecordError(f"{where}: axis {axis!r} has {axis}.{tap} but no {axis}.cmd; add it")
 
 

@@ -32,25 +32,39 @@ def parse_comment(line: str) -> tuple[str, str] | None:
     return (key, value) if colon and key else None
 
 
-def add_comment(metadata: dict[str, str], line: str, where: str) -> None:
-    """Add what one ``#`` line says to ``metadata``.
+class Comments:
+    """The ``#`` lines of one file, as far as they were read."""
 
-    A key of the user that is given twice keeps both values, with ``"; "`` between them.
+    def __init__(self) -> None:
+        self._values: dict[str, list[str]] = {}
 
-    Raises
-    ------
-    RecordError
-        If the program reads the key and the value is none of its values, or contradicts another.
-    """
-    entry = parse_comment(line)
-    if entry is None:
-        return
-    key, value = entry
-    check_entry(key, value, where)
-    before = metadata.get(key, value)
-    if before != value and key in _RULES:
-        raise RecordError(f"{where}:{key}: {value!r} contradicts {before!r} above; keep one")
-    metadata[key] = value if before == value else f"{before}; {value}"
+    @property
+    def metadata(self) -> dict[str, str]:
+        """What the lines said, without the format's version.
+
+        A key of the user that came with several values has them all, with ``"; "`` between.
+        """
+        return {key: "; ".join(each) for key, each in self._values.items() if key != VERSION_KEY}
+
+    def add(self, line: str, where: str) -> None:
+        """Add what one line says.
+
+        Raises
+        ------
+        RecordError
+            If the program reads the key, and the value is none of its values or contradicts one
+            before.
+        """
+        entry = parse_comment(line)
+        if entry is None:
+            return
+        key, value = entry
+        check_entry(key, value, where)
+        values = self._values.setdefault(key, [])
+        if values and key in _RULES and value != values[-1]:
+            raise RecordError(f"{where}:{key}: {value!r} contradicts {values[-1]!r}; keep one")
+        if not values or value != values[-1]:
+            values.append(value)
 
 
 def check_entry(key: str, value: str, where: str) -> None:

@@ -17,7 +17,7 @@ from rotemina.sim.records.layout import (
     parse_columns,
     row_separator,
 )
-from rotemina.sim.records.metadata import VERSION_KEY, add_comment
+from rotemina.sim.records.metadata import Comments
 from rotemina.sim.records.record import Record, RecordError
 from rotemina.sim.records.rows import RowParser, decode_line
 from rotemina.sim.records.source import LIMITS, Block, Limits, open_blocks
@@ -55,8 +55,8 @@ def read_record(
     name = fspath(path)
     named = None if columns is None else parse_columns(columns, "columns", robot)
     with open_blocks(path, limits) as raw_blocks:
-        comments = _Comments(name, limits)
-        blocks = comments.collect(raw_blocks)
+        comments = Comments()
+        blocks = _collected(name, raw_blocks, comments, limits.comment_bytes)
         layout, first = _find_layout(name, blocks, named, robot)
         parser = RowParser(name, layout, small_block_bytes=limits.small_block_bytes)
         parts: list[FloatArray] = []
@@ -74,40 +74,28 @@ def read_record(
     return Record(time_s, layout.channels, values, layout.axis_units, comments.metadata)
 
 
-class _Comments:
-    """Collects the metadata of the blocks that pass."""
+def _collected(
+    name: str, blocks: Iterator[Block], comments: Comments, most_bytes: int
+) -> Iterator[Block]:
+    """Give on each block after collecting its comments."""
+    bytes_left = most_bytes
+    for block in blocks:
+        if b"#" in block.data:
+            bytes_left -= _collect(name, block, comments, bytes_left)
+        yield block
 
-    def __init__(self, name: str, limits: Limits) -> None:
-        self._name = name
-        self._bytes_left = limits.comment_bytes
-        self._limits = limits
-        self._metadata: dict[str, str] = {}
 
-    @property
-    def metadata(self) -> dict[str, str]:
-        """What the lines said, without the format's version."""
-        return {key: value for key, value in self._metadata.items() if key != VERSION_KEY}
-
-    def collect(self, blocks: Iterator[Block]) -> Iterator[Block]:
-        """Give on each block after reading its comment lines."""
-        for block in blocks:
-            if b"#" in block.data:
-                self._read(block)
-            yield block
-
-    def _read(self, block: Block) -> None:
-        line, counted = block.first_line, 0
-        for match in _COMMENT_LINE.finditer(block.data):
-            line += block.data.count(b"\n", counted, match.start())
-            counted = match.start()
-            self._bytes_left -= len(match[0]) + 1
-            if self._bytes_left < 0:
-                raise RecordError(
-                    f"{self._name}:{line}: more than {self._limits.comment_bytes} bytes of "
-                    "comments; shorten them"
-                )
-            text = decode_line(match[0], self._name, line)
-            add_comment(self._metadata, text, f"{self._name}:{line}")
+def _collect(name: str, block: Block, comments: Comments, most_bytes: int) -> int:
+    """Collect the comments of one block and return how many bytes they have."""
+    line, counted, collected = block.first_line, 0, 0
+    for match in _COMMENT_LINE.finditer(block.data):
+        line += block.data.count(b"\n", counted, match.start())
+        counted = match.start()
+        collected += len(match[0]) + 1
+        if collected > most_bytes:
+            raise RecordError(f"{name}:{line}: too many bytes of comments in all; shorten them")
+        comments.add(decode_line(match[0], name, line), f"{name}:{line}")
+    return collected
 
 
 def _find_layout(

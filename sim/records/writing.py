@@ -119,7 +119,7 @@ def _converted(signal: FloatArray, column: Column, factor: float) -> FloatArray:
 def _replaced(name: str) -> Iterator[BinaryIO]:
     """Open a file that takes the place of ``name`` when it is complete, and only then."""
     place = Path(os.path.realpath(name))
-    draft = place.with_name(f".{place.name[:100]}.{uuid4().hex}.part")
+    draft = place.with_name(f".{place.name[:40]}.{uuid4().hex}.part")
     try:
         if place.is_dir():
             raise RecordError(f"{name}: it is a folder; name a file in it")

@@ -3,6 +3,7 @@
 import gzip
 import tracemalloc
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -40,7 +41,7 @@ def test_a_block_tells_lines_from_offsets() -> None:
 
 
 @pytest.mark.parametrize("line_bytes", [20, 21, 40])
-@pytest.mark.parametrize("block_bytes", [10, 64, 1000])
+@pytest.mark.parametrize("block_bytes", [1, 10, 64, 1000])
 def test_a_line_may_be_as_long_as_stated(
     write_file: WriteFile, line_bytes: int, block_bytes: int
 ) -> None:
@@ -95,6 +96,33 @@ def test_an_expanding_file_is_given_up_early(tmp_path: Path, filler: bytes) -> N
     finally:
         tracemalloc.stop()
     assert peak_bytes < 3_000_000
+
+
+MANY = range(70_000)
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        HEAD + "0," + "1" * 900_000 + "x\n",
+        HEAD + "0," + "1," * 450_000 + "\n",
+        HEAD + "0," + " " * 900_000 + "#\n",
+        "t [s]," + "[" * 900_000 + "\n0,1\n",
+        "t [s] " + "x [m" * 200_000 + "\n0,1\n",
+        "x" * 900_000 + "\n",
+        "t [s]," + ",".join(f"a{number}[m]" for number in MANY) + "\n0\n",
+        "t [s]," + ",".join(f"a{number}.u[V]" for number in MANY) + "\n0\n",
+        "".join(f"#a:{number}\n" for number in range(300_000)) + HEAD,
+    ],
+    ids=["digits", "fields", "blanks", "brackets", "open", "word", "axes", "voltages", "key"],
+)
+def test_hostile_text_is_refused_in_linear_time(
+    content: str, write_file: WriteFile, limits: Limits
+) -> None:
+    # Anything quadratic in a megabyte would not end today.
+    with pytest.raises(RecordError) as caught:
+        read_record(write_file(content), limits=replace(limits, block_bytes=16_000_000))
+    assert len(str(caught.value)) < 500
 
 
 def test_values_are_bounded(write_file: WriteFile) -> None:
