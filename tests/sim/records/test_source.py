@@ -90,12 +90,21 @@ def test_an_expanding_file_is_given_up_early(tmp_path: Path, filler: bytes) -> N
     limits = Limits(expanded_bytes=2_000_000, comment_bytes=100_000, block_bytes=100_000)
     tracemalloc.start()
     try:
-        with pytest.raises(RecordError, match=r"expands to more than|bytes of comments"):
+        with pytest.raises(RecordError, match=r"expands to more than|too many bytes of comments"):
             read_record(path, limits=limits)
         _, peak_bytes = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()
     assert peak_bytes < 3_000_000
+
+
+@pytest.mark.parametrize("block_bytes", [1, 100, 10_000])
+def test_comments_are_bounded(write_file: WriteFile, block_bytes: int) -> None:
+    path = write_file("# a: b\n" * 10 + HEAD + "0,1\n# end")
+    enough = Limits(comment_bytes=76, block_bytes=block_bytes)
+    assert read_record(path, limits=enough).metadata == {"a": "b"}
+    with pytest.raises(RecordError, match=r"run.csv:13: too many bytes of comments"):
+        read_record(path, limits=Limits(comment_bytes=75, block_bytes=block_bytes))
 
 
 MANY = range(70_000)
