@@ -1,0 +1,265 @@
+"""A motion session: the one place through which a program moves a machine."""
+
+import logging
+import threading
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+from rotemina.app.motion.history import LiveHistory
+from rotemina.app.motion.mailbox import ClearFault, Mailbox, Move, Play, RefusedError
+from rotemina.app.motion.state import (
+    Callback,
+    CommandRefused,
+    Connection,
+    Event,
+    Faulted,
+    PlaybackFinished,
+    SessionState,
+)
+from rotemina.app.motion.worker import Worker
+from rotemina.drivers.clock import Clock
+from rotemina.drivers.driver import Driver, TrajectoryPlayer
+from rotemina.drivers.samples import DeviceState
+from rotemina.sim.records.record import Record
+from rotemina.sim.trajectory.limits import check_target, check_trajectory
+
+_LOG = logging.getLogger(__name__)
+
+
+class MotionSession:
+    """Owns a driver: one worker thread talks to it, and every motion passes through here.
+
+    A request is checked on the caller's thread and refused at once with the reason
+    (:class:`rotemina.sim.errors.InputError`), or queued for the worker. Whatever the device then
+    does is seen in :meth:`snapshot`, ``history`` and events. After a failure nothing moves until
+    :meth:`reconnect`.
+
+    Parameters
+    ----------
+    driver : Driver
+    history : LiveHistory, optional
+        Where samples go; a minute's worth by default.
+    clock : callable, optional
+        The host's time, s; the driver's by default.
+    period_s : float
+        How often the worker takes samples when nothing else calls it.
+    queue_size : int
+        How many commands may wait.
+    stale_after_s : float
+        Motion is refused when the latest sample is older.
+    """
+
+    def __init__(
+        self,
+        driver: Driver,
+        *,
+        history: LiveHistory | None = None,
+        clock: Clock | None = None,
+        period_s: float = 0.01,
+        queue_size: int = 16,
+        stale_after_s: float = 1.0,
+    ) -> None:
+        self.driver = driver
+        self.robot = driver.robot
+        self.history = history if history is not None else LiveHistory(driver.axes)
+        self._clock = clock if clock is not None else driver.clock
+        self._period_s = period_s
+        self._stale_after_s = stale_after_s
+        self._mailbox = Mailbox(queue_size)
+        self._worker = Worker(driver, self._mailbox, self.history, self._clock, self._emit)
+        self._thread: threading.Thread | None = None
+        self._closing = threading.Event()
+        # Guards what follows; never held while the driver is called.
+        self._lock = threading.Lock()
+        self._targets: dict[str, float] = {}
+        self._callbacks: list[Callback] = []
+        self._stop_latency_s: float | None = None
+
+    def start(self) -> None:
+        """Connect to the device and keep talking to it, on a thread of its own.
+
+        Raises
+        ------
+        RefusedError
+            If the session was started before.
+        """
+        if self._thread is not None:
+            raise RefusedError("the session was started before; make another one")
+        self._mailbox.request_connection()
+        self._thread = threading.Thread(target=self._run, name="motion session", daemon=True)
+        self._thread.start()
+
+    def close(self, timeout_s: float = 5.0) -> bool:
+        """Stop, let go of the device and end the worker; safe to call twice.
+
+        Returns whether the worker ended in time; one that hangs in a device is left behind.
+        """
+        self._closing.set()
+        self._mailbox.bell.set()
+        thread = self._thread
+        if thread is None:
+            self._worker.shut_down()
+            return True
+        if thread is not threading.current_thread():
+            thread.join(timeout_s)
+        return not thread.is_alive()
+
+    def connect(self) -> None:
+        """Ask the worker to connect; for a program that steps :meth:`run_once` itself."""
+        self._mailbox.request_connection()
+
+    def reconnect(self) -> None:
+        """Connect again after a failure; never happens by itself.
+
+        Raises
+        ------
+        RefusedError
+            If the session is connected.
+        """
+        if self._worker.state.connection in (Connection.CONNECTED, Connection.CONNECTING):
+            raise RefusedError("the device is connected")
+        self._mailbox.request_connection()
+
+    def run_once(self) -> None:
+        """Do one cycle of the worker's; only where no thread was started."""
+        self._worker.run_once()
+
+    def go_to(self, targets: Mapping[str, float]) -> None:
+        """Send axes to positions, m or rad; also in mid-move.
+
+        Raises
+        ------
+        OutOfLimitsError
+            If any target is beyond a limit; then no axis moves.
+        RefusedError
+            If no motion is possible now: not connected, a fault, a playback, a full queue.
+        """
+        with self._lock:
+            self._post_move(dict(targets))
+
+    def jog(self, axis: str, distance: float) -> None:
+        """Move one axis by a distance (m or rad) from where it was last sent.
+
+        Raises
+        ------
+        OutOfLimitsError, RefusedError
+            As :meth:`go_to`.
+        """
+        if axis not in self.robot.axes:
+            check_target(self.robot, axis, 0.0)
+        with self._lock:
+            self._refuse_if_locked()
+            start = self._targets.get(axis, self._worker.state.command.get(axis, float("nan")))
+            self._post_move({axis: start + distance})
+
+    def play(self, trajectory: Record) -> None:
+        """Play a trajectory; events tell how it ends, with the record.
+
+        Raises
+        ------
+        OutOfLimitsError, TrajectoryError
+            If it exceeds a limit or is not one for this robot.
+        RefusedError
+            If the device cannot play or is not at rest, or as :meth:`go_to`.
+        """
+        if not isinstance(self.driver, TrajectoryPlayer):
+            raise RefusedError(f"driver {self.driver.name!r} cannot play trajectories")
+        check_trajectory(self.robot, trajectory)
+        with self._lock:
+            self._refuse_if_locked()
+            if self._worker.state.activity is not DeviceState.IDLE or len(self._mailbox):
+                raise RefusedError("the machine is still moving; stop it or wait before playing")
+            self._mailbox.post(Play(trajectory))
+            self._targets.clear()
+
+    def stop(self) -> None:
+        """Halt every axis now; any thread, any time. Never waits and never raises.
+
+        Queued commands are dropped. The device is told from this very thread.
+        """
+        asked_s = self._clock()
+        self._mailbox.clear()
+        failure = None
+        try:
+            self.driver.stop()
+        except Exception as error:  # told by the worker: a stop button must not raise
+            failure = error
+        latency_s = self._clock() - asked_s
+        self._worker.stopped(asked_s, failure)
+        with self._lock:
+            self._stop_latency_s = latency_s
+            self._targets.clear()
+
+    def clear_fault(self) -> None:
+        """Acknowledge a device's fault; nothing happens without one.
+
+        Raises
+        ------
+        RefusedError
+            If the connection failed: reconnect instead.
+        """
+        state = self._worker.state
+        if state.connection is not Connection.CONNECTED:
+            raise RefusedError(state.locked or "not connected")
+        if state.fault is not None:
+            self._mailbox.post(ClearFault())
+
+    def snapshot(self) -> SessionState:
+        """Return the present state; any thread."""
+        state = self._worker.state
+        received_s = state.sample_host_time_s
+        age_s = None if received_s is None else self._clock() - received_s
+        locked = state.locked
+        if locked is None and age_s is not None and age_s > self._stale_after_s:
+            locked = f"the device has sent nothing for {age_s:.1f} s; wait, or reconnect"
+        return replace(
+            state,
+            age_s=age_s,
+            locked=locked,
+            queued=len(self._mailbox),
+            stop_latency_s=self._stop_latency_s,
+        )
+
+    def subscribe(self, callback: Callback) -> Callable[[], None]:
+        """Have events told to ``callback``, on the worker's thread; return how to end that."""
+        with self._lock:
+            self._callbacks.append(callback)
+
+        def unsubscribe() -> None:
+            with self._lock:
+                if callback in self._callbacks:
+                    self._callbacks.remove(callback)
+
+        return unsubscribe
+
+    def _post_move(self, targets: dict[str, float]) -> None:
+        self._refuse_if_locked()
+        for axis, position in targets.items():
+            check_target(self.robot, axis, position)
+        self._mailbox.post(Move(targets))
+        self._targets.update(targets)
+
+    def _refuse_if_locked(self) -> None:
+        state = self.snapshot()
+        if state.locked is not None:
+            raise RefusedError(f"motion is locked: {state.locked}")
+        if state.activity is DeviceState.PLAYING or self._mailbox.holds_play():
+            raise RefusedError("a trajectory is playing and owns every axis; stop it first")
+
+    def _emit(self, event: Event) -> None:
+        with self._lock:
+            if isinstance(event, CommandRefused | Faulted | PlaybackFinished):
+                self._targets.clear()
+            callbacks = tuple(self._callbacks)
+        for callback in callbacks:
+            try:
+                callback(event)
+            except Exception:  # a subscriber's mistake must not stop the machine's worker
+                _LOG.exception("a subscriber failed on %s", type(event).__name__)
+
+    def _run(self) -> None:
+        while not self._closing.is_set():
+            self._worker.run_once()
+            self._mailbox.bell.wait(self._period_s)
+            self._mailbox.bell.clear()
+        self._worker.shut_down()

@@ -1,0 +1,101 @@
+"""What a motion session shows and tells: its state, and the events on the way."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+from types import MappingProxyType
+
+from rotemina.drivers.samples import DeviceState
+from rotemina.sim.records.record import Record
+
+
+class Connection(StrEnum):
+    """How the session stands to its device."""
+
+    DISCONNECTED = "disconnected"
+    CONNECTING = "connecting"
+    CONNECTED = "connected"
+    FAILED = "failed"
+
+
+@dataclass(frozen=True, slots=True)
+class SessionState:
+    """One moment of a session.
+
+    Attributes
+    ----------
+    connection : Connection
+    activity : DeviceState
+        What the device does, ``closed`` while there is none.
+    measured, command, model : mapping axis -> float
+        Latest reading, command applied and answer of the nominal model, m or rad; empty before
+        the first sample. Values of a lost device stay, with their age.
+    device_time_s : float or None
+        Device time of the latest sample.
+    sample_host_time_s : float or None
+        Host time at which it was received.
+    age_s : float or None
+        How long ago that was when the snapshot was taken (host time).
+    progress : float
+        0 to 1, of the present or latest playback.
+    queued : int
+        Commands that wait for the worker.
+    position_known : bool
+    fault : str or None
+        The reason for the last failure or device fault; it stays until it is cleared.
+    locked : str or None
+        Why no motion is accepted now, or None.
+    stop_latency_s : float or None
+        How long the latest stop took to be handed to the device (host time).
+    standstill_s : float or None
+        From that stop until the device was seen at rest (host time); None while it still halts.
+    """
+
+    connection: Connection = Connection.DISCONNECTED
+    activity: DeviceState = DeviceState.CLOSED
+    measured: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
+    command: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
+    model: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
+    device_time_s: float | None = None
+    sample_host_time_s: float | None = None
+    age_s: float | None = None
+    progress: float = 0.0
+    queued: int = 0
+    position_known: bool = False
+    fault: str | None = None
+    locked: str | None = None
+    stop_latency_s: float | None = None
+    standstill_s: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class StateChanged:
+    """Connection, activity, fault or lock changed."""
+
+    state: SessionState
+
+
+@dataclass(frozen=True, slots=True)
+class Faulted:
+    """Motion is locked for this reason, until it is cleared or the device reconnected."""
+
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class CommandRefused:
+    """The device would not take a command that had been accepted; nothing moved."""
+
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class PlaybackFinished:
+    """A playback ended; ``record`` is what was played, None if that never began."""
+
+    record: Record | None
+    completed: bool
+
+
+Event = StateChanged | Faulted | CommandRefused | PlaybackFinished
+Callback = Callable[[Event], None]
