@@ -39,31 +39,6 @@ def axis_scale(axis: Axis) -> Scale:
         unit = "mm" if axis.span >= _COARSE_M else "um"
     resolution = axis.sensor.resolution if axis.sensor else 0.0
     resolution = resolution or axis.span / 1e5
-    decimals: int
-
-    @property
-    def symbol(self) -> str:
-        """The unit as screens write it, such as ``µm``."""
-        return symbol(self.unit)
-
-    def number(self, value: float) -> str:
-        """Return a position (SI) as digits, without its unit."""
-        return f"{to_unit(value, self.unit):.{self.decimals}f}"
-
-    def text(self, value: float) -> str:
-        """Return a position (SI) with its unit."""
-        return f"{self.number(value)} {self.symbol}"
-
-
-def axis_scale(axis: Axis) -> Scale:
-    """Choose unit and digits for an axis by its range and its sensor's resolution."""
-    if axis.unit == "rad":
-        unit = "urad"
-    else:
-        unit = "mm" if axis.span >= _COARSE_M else "um"
-    resolution = (
-        axis.sensor.resolution if axis.sensor and axis.sensor.resolution else axis.span / 1e5
-    )
     decimals = math.ceil(-math.log10(float(to_unit(resolution, unit))) - 1e-9)
     return Scale(unit, min(max(decimals, 0), 6))
 

@@ -250,8 +250,7 @@ class MainWindow(QMainWindow):
         self._activity.setText(StatusText.activity(state))
 
     def _note_run(self, run: Run) -> None:
-        played = run.record.metadata.get("driver") is not None
-        self._unsaved = run if played else None
+        self._unsaved = run if run.played else None
 
     def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 (Qt's name)
         """Stop, and ask first where a played record would be lost."""

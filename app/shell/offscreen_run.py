@@ -7,6 +7,7 @@ from PySide6.QtCore import QEventLoop, QTimer
 
 from rotemina.app.files import write_text
 from rotemina.app.motion.session import MotionSession
+from rotemina.app.motion.state import SessionState
 from rotemina.app.settings import Settings
 from rotemina.app.shell.main_window import MainWindow
 from rotemina.app.shell.window_run import make_window
@@ -16,7 +17,6 @@ from rotemina.sim.comparison.table import table
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.writing import write_record
-from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.dry_run import dry_run
 from rotemina.sim.trajectory.example import example_for
 
@@ -28,7 +28,7 @@ class OffscreenError(InputError):
     """The run without a display could not be completed."""
 
 
-def run(robot: Robot, session: MotionSession, output: Path) -> int:
+def run(session: MotionSession, output: Path) -> int:
     """Play the example trajectory in a window that nobody sees, and write what it shows.
 
     Raises
@@ -41,12 +41,12 @@ def run(robot: Robot, session: MotionSession, output: Path) -> int:
     except OSError as error:
         raise OffscreenError(f"{output}: the folder cannot be made: {error.strerror}") from error
     settings = Settings(output / "settings.json")
-    window = make_window(robot, session, settings)
+    window = make_window(session, settings)
     try:
         window.resize(*SIZE)
         window.show()
         window.workbench.start()
-        finished = play(window, example_for(robot))
+        finished = play(window, example_for(session.robot))
         picture = output / "window.png"
         if not window.grab().save(str(picture)):
             raise OffscreenError(f"{picture}: the picture cannot be written")
@@ -76,14 +76,18 @@ def play(window: MainWindow, trajectory: Record) -> Run:
         if level in (Level.ERROR, Level.WARNING):
             finish(text)
 
-    bench.noticed.connect(noticed)
-    bench.run_changed.connect(finish)
-    QTimer.singleShot(TIME_LIMIT_MS, loop, lambda: finish("no end within two minutes"))
+    def begin(state: SessionState) -> None:
+        if state.locked is None:
+            bench.refreshed.disconnect(begin)
+            bench.play()
+
     name = trajectory.metadata.get("name", "example")
     bench.set_plan(Plan(name, trajectory, dry_run(bench.robot, trajectory)))
-    bench.play()
-    if not outcome:
-        loop.exec()
+    bench.noticed.connect(noticed)
+    bench.run_changed.connect(finish)
+    bench.refreshed.connect(begin)
+    QTimer.singleShot(TIME_LIMIT_MS, loop, lambda: finish("no end within two minutes"))
+    loop.exec()
     bench.noticed.disconnect(noticed)
     bench.run_changed.disconnect(finish)
     if isinstance(outcome[0], str):

@@ -41,8 +41,8 @@ def start(robot: str, *, offscreen: bool, output: Path) -> int:
 
     from rotemina.app.shell import offscreen_run, window_run  # Qt is safe to load from here on
 
-    session = MotionSession(Simulator(described), described)
+    session = MotionSession(Simulator(described))
     if not reason:
-        return window_run.run(described, session, Settings())
+        return window_run.run(session, Settings())
     print(f"No window ({reason}): playing the example trajectory offscreen instead.")
-    return offscreen_run.run(described, session, output)
+    return offscreen_run.run(session, output)

@@ -5,6 +5,7 @@ from PySide6.QtWidgets import QLabel
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.workbench import Workbench
+from rotemina.drivers.samples import DeviceState
 
 
 class StatusText(QLabel):
@@ -14,6 +15,7 @@ class StatusText(QLabel):
         super().__init__()
         self.setTextFormat(Qt.TextFormat.PlainText)
         self._busy = ""
+        self._device = workbench.session.driver.name
         workbench.busy_changed.connect(self._set_busy)
         workbench.refreshed.connect(self._refresh)
 
@@ -22,7 +24,7 @@ class StatusText(QLabel):
         """Return what the robot is doing, in a word or two."""
         if state.fault:
             return "failed – motion is locked"
-        if state.activity == "playing":
+        if state.activity is DeviceState.PLAYING:
             return f"playing {100.0 * state.progress:.0f} %"
         return str(state.activity)
 
@@ -30,7 +32,7 @@ class StatusText(QLabel):
         self._busy = text
 
     def _refresh(self, state: SessionState) -> None:
-        parts = [f"{state.driver}: {state.connection}"]
+        parts = [f"{self._device}: {state.connection}"]
         if state.age_s is not None:
             parts.append(f"data {1e3 * state.age_s:.0f} ms old")
         if state.stop_latency_s is not None:

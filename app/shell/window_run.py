@@ -11,7 +11,6 @@ from rotemina.app.settings import Settings
 from rotemina.app.shell import theme as themes
 from rotemina.app.shell.main_window import MainWindow
 from rotemina.app.shell.workbench import Workbench
-from rotemina.sim.robot.model import Robot
 
 DEFAULT_THEME = "dark"
 
@@ -25,18 +24,18 @@ def make_application() -> QApplication:
     return application
 
 
-def make_window(robot: Robot, session: MotionSession, settings: Settings) -> MainWindow:
+def make_window(session: MotionSession, settings: Settings) -> MainWindow:
     """Make the window with its workbench, in the theme last used; it is not shown yet."""
     application = make_application()
     theme = themes.theme_named(settings.get("window.theme", DEFAULT_THEME))
     themes.apply(application, theme)
-    return MainWindow(Workbench(robot, session, settings, theme))
+    return MainWindow(Workbench(session, settings, theme))
 
 
-def run(robot: Robot, session: MotionSession, settings: Settings) -> int:
+def run(session: MotionSession, settings: Settings) -> int:
     """Show the window and run it; return the exit status."""
     application = make_application()
-    window = make_window(robot, session, settings)
+    window = make_window(session, settings)
     window.show()
     window.workbench.start()
     signal.signal(signal.SIGINT, lambda *_: window.close())

@@ -8,8 +8,8 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from rotemina.app.motion.events import Event, Faulted, PlaybackFinished
 from rotemina.app.motion.session import MotionSession
+from rotemina.app.motion.state import CommandRefused, Event, Faulted, PlaybackFinished
 from rotemina.app.settings import Settings
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.theme import Theme
@@ -18,7 +18,6 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.writing import write_record
-from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.dry_run import DryRun, dry_run
 
 logger = logging.getLogger(__name__)
@@ -46,11 +45,15 @@ class Plan:
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """A real record beside the model's answer to its commands."""
+    """A real record beside the model's answer to its commands.
+
+    ``played`` says that it was recorded here, so that no file holds it yet.
+    """
 
     name: str
     comparison: Comparison
     completed: bool = True
+    played: bool = False
 
     @property
     def record(self) -> Record:
@@ -79,12 +82,10 @@ class Workbench(QObject):
     theme_changed = Signal(object)
     _happened = Signal(object)
 
-    def __init__(
-        self, robot: Robot, session: MotionSession, settings: Settings, theme: Theme
-    ) -> None:
+    def __init__(self, session: MotionSession, settings: Settings, theme: Theme) -> None:
         super().__init__()
-        self.robot = robot
         self.session = session
+        self.robot = session.robot
         self.settings = settings
         self.theme = theme
         self.plan: Plan | None = None
@@ -207,18 +208,21 @@ class Workbench(QObject):
         self.run_changed.emit(run)
 
     def _on_event(self, event: Event) -> None:
-        if isinstance(event, Faulted):
+        if isinstance(event, Faulted | CommandRefused):
             self.notify(Level.ERROR, event.message)
         elif isinstance(event, PlaybackFinished):
-            self._compare_played(event)
+            self._compare_played(event.record, event.completed)
 
-    def _compare_played(self, event: PlaybackFinished) -> None:
+    def _compare_played(self, record: Record | None, completed: bool) -> None:
         name = self.plan.name if self.plan else "playback"
-        if not event.completed:
-            self.notify(Level.WARNING, f"{name}: stopped after {event.record.duration_s:.2f} s.")
+        if record is None:
+            self.notify(Level.WARNING, f"{name}: stopped before its first row was played.")
+            return
+        if not completed:
+            self.notify(Level.WARNING, f"{name}: stopped after {record.duration_s:.2f} s.")
         self._work(
             "run",
             "Comparing model and real …",
-            lambda: Run(name, compare(self.robot, event.record), event.completed),
+            lambda: Run(name, compare(self.robot, record), completed, played=True),
             self._set_run,
         )

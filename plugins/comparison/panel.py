@@ -25,6 +25,7 @@ from rotemina.sim.comparison.table import HEAD, cells
 from rotemina.sim.records.record import Tap
 from rotemina.sim.units import symbol, to_unit
 
+RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 EMPTY = "Play a trajectory, or open a record of the real machine, to see how far the model is."
 COLUMNS = ("tap", "rms", "of range", "rel. error", "delay", "noise floor")
 
@@ -90,9 +91,7 @@ class ComparisonPanel(Panel):
             for column, text in enumerate(_row(tap)):
                 item = QTableWidgetItem(text)
                 if column:
-                    item.setTextAlignment(
-                        Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
-                    )
+                    item.setTextAlignment(RIGHT)
                 self.table.setItem(row, column, item)
         self.table.selectRow(0)
         self._draw()

@@ -17,6 +17,7 @@ from rotemina.app.display import Scale, axis_scale, label
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.control.step_choice import StepChoice
 from rotemina.sim.units import from_unit
 
@@ -83,10 +84,10 @@ class AxisRow(QFrame):
 
     def refresh(self, state: SessionState) -> None:
         """Show the newest sample and lock what must not be used now."""
-        known = state.position_known and self._axis in state.position
+        known = state.position_known and self._axis in state.measured
         stale = state.age_s is None or state.age_s > STALE_S
         if known:
-            position, command = state.position[self._axis], state.command[self._axis]
+            position, command = state.measured[self._axis], state.command[self._axis]
             self._readout.setText(self._scale.text(position))
             self._command.setText(f"command {self._scale.text(command)}")
             self._bar.show_position(position, command)
@@ -95,8 +96,9 @@ class AxisRow(QFrame):
             self._command.setText("")
             self._bar.show_position(None, None)
         _set_property(self._readout, "stale", stale or not known)
+        free = state.locked is None and state.activity is not DeviceState.PLAYING
         for widget in (self.minus, self.plus, self.target, self.go):
-            widget.setEnabled(known and not stale and state.may_move)
+            widget.setEnabled(known and not stale and free)
 
     def _lay_out(self) -> None:
         name = QLabel(label(self._axis))

@@ -16,6 +16,7 @@ from rotemina.app.display import axis_scale, label
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.workbench import Plan, Workbench
+from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.trajectory.table import COLUMNS, cells
 
 EMPTY = "No trajectory is loaded. Load one to see what it asks of each axis before it is played."
@@ -88,8 +89,9 @@ class TrajectoryPanel(Panel):
 
     def _refresh(self, state: SessionState) -> None:
         plan = self.workbench.plan
-        self.play.setEnabled(plan is not None and plan.dry_run.allowed and state.may_move)
-        playing = state.activity == "playing"
+        playing = state.activity is DeviceState.PLAYING
+        ready = plan is not None and plan.dry_run.allowed
+        self.play.setEnabled(ready and state.locked is None and not playing)
         self.progress.setValue(round(1000 * state.progress) if playing else 0)
         if playing and plan is not None:
             left = (1.0 - state.progress) * plan.dry_run.duration_s

@@ -1,0 +1,53 @@
+"""Pictures of the window and of every panel, drawn without a display."""
+
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+os.environ["QT_QPA_PLATFORM"] = "offscreen"
+
+SIZES = ((1280, 800), (1920, 1080))
+
+
+def main(folder: Path) -> int:
+    """Write the pictures into ``folder`` and say how many; return the exit status."""
+    from PySide6.QtWidgets import QApplication
+
+    from rotemina.app.motion.session import MotionSession
+    from rotemina.app.settings import Settings
+    from rotemina.app.shell.offscreen_run import play
+    from rotemina.app.shell.window_run import make_window
+    from rotemina.drivers.simulator.driver import Simulator
+    from rotemina.sim.robot.file import load_robot
+    from rotemina.sim.trajectory.example import example_for
+
+    folder.mkdir(parents=True, exist_ok=True)
+    robot = load_robot("rotemina")
+    count = 0
+    with tempfile.TemporaryDirectory() as kept:
+        settings = Settings(Path(kept) / "settings.json")
+        window = make_window(MotionSession(Simulator(robot)), settings)
+        window.show()
+        window.workbench.start()
+        play(window, example_for(robot))
+        for theme in ("dark", "light"):
+            window.use_theme(theme)
+            for width, height in SIZES:
+                window.resize(width, height)
+                for _ in range(5):
+                    QApplication.processEvents()
+                name = f"{width}x{height}-{theme}"
+                window.grab().save(str(folder / f"window-{name}.png"))
+                count += 1
+                for panel_name, panel in window.panels.items():
+                    panel.grab().save(str(folder / f"{panel_name}-{name}.png"))
+                    count += 1
+        window.workbench.close()
+        window.hide()
+    print(f"{count} pictures in {folder}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(Path(sys.argv[1] if len(sys.argv) > 1 else "docs/screenshots")))

@@ -1,0 +1,170 @@
+"""The command line as its users meet it: results, exit status, one clear line on bad input."""
+
+import gzip
+import json
+import re
+import subprocess
+import sys
+from importlib import resources
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rotemina.app.cli.main import main
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records.writing import write_record
+
+HEADER = "t [s],x [mm],x.meas [mm]\n"
+ROWS = "0,20.0,20.0\n0.01,20.01,20.0\n0.02,20.02,20.01\n0.03,20.03,20.02\n"
+
+
+@pytest.fixture
+def in_tmp(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def tour():
+    shipped = resources.files("rotemina.resources.trajectories").joinpath("six_axis_tour.csv")
+    with resources.as_file(shipped) as path:
+        yield path
+
+
+def test_play_then_compare_finds_only_noise(in_tmp, tour, capsys):
+    assert main(["play", str(tour), "-o", "run.csv", "--seed", "3"]) == 0
+    assert main(["compare", "run.csv", "--json", "out.json", "--plot", "out.svg"]) == 0
+    form = json.loads(Path("out.json").read_text("utf-8"))
+    assert form["format"] == "rotemina-comparison 1"
+    measured = {tap["axis"]: tap for tap in form["taps"] if tap["tap"] == "meas"}
+    assert list(measured) == ["x", "y", "z", "thx", "thy", "zn"]
+    for axis in ("thx", "thy", "zn"):
+        assert measured[axis]["rms"] == pytest.approx(measured[axis]["noise_floor"], rel=0.1)
+    # An encoder at rest rounds to a constant: its hold may lie anywhere about its floor.
+    for axis in ("x", "y", "z"):
+        assert 0.3 < measured[axis]["rms"] / measured[axis]["noise_floor"] < 1.4
+    assert Path("out.svg").read_text("utf-8").startswith("<?xml")
+    assert "thx.meas" in capsys.readouterr().out
+
+
+def test_the_record_of_a_playback_has_the_trajectorys_rows(in_tmp, tour):
+    assert main(["play", str(tour)]) == 0
+    record, asked = read_record("six_axis_tour-record.csv"), read_record(tour)
+    np.testing.assert_allclose(record.time_s, asked.time_s, atol=1e-9)
+    for axis in asked.axes:
+        np.testing.assert_array_equal(record.signal(axis, Tap.CMD), asked.signal(axis, Tap.CMD))
+
+
+def test_the_same_seed_gives_the_same_record(in_tmp, tour):
+    for name, seed in (("a.csv", "5"), ("b.csv", "5"), ("c.csv", "6")):
+        assert main(["play", str(tour), "-o", name, "--seed", seed]) == 0
+    assert Path("a.csv").read_bytes() == Path("b.csv").read_bytes()
+    assert Path("a.csv").read_bytes() != Path("c.csv").read_bytes()
+
+
+def test_a_robot_under_a_controller_is_played_in_closed_loop(in_tmp):
+    time_s = np.arange(2001) / 1000
+    command = 0.05 + 0.02 * np.sin(np.pi * time_s) ** 2
+    trajectory = Record.from_signals(time_s, {("q", Tap.CMD): command}, {"q": "m"})
+    write_record(trajectory, "slow.csv")
+    assert main(["play", "slow.csv", "--robot", "emps", "-o", "run.csv"]) == 0
+    record = read_record("run.csv")
+    assert record.closed_loop
+    assert np.ptp(record.signal("q", Tap.U)) > 0.1
+    assert np.abs(record.signal("q", Tap.MEAS) - command).max() < 1e-3
+
+
+def test_json_goes_to_the_screen_alone_with_a_dash(in_tmp, capsys):
+    Path("r.csv").write_text(HEADER + ROWS, "utf-8")
+    assert main(["compare", "r.csv", "--json", "-"]) == 0
+    assert json.loads(capsys.readouterr().out)["taps"][0]["axis"] == "x"
+
+
+def test_convert_changes_units_rate_and_header(in_tmp, capsys):
+    Path("r.csv").write_text(HEADER + ROWS, "utf-8")
+    assert main(["convert", "r.csv", "-o", "um.csv.gz", "--units", "um"]) == 0
+    assert b"x.cmd [um]" in gzip.decompress(Path("um.csv.gz").read_bytes())
+    assert main(["convert", "r.csv", "-o", "fast.csv", "--resample", "1000"]) == 0
+    assert "x: 1 → 10 mm/s" in capsys.readouterr().out
+    assert len(read_record("fast.csv").time_s) == 31
+    assert main(["convert", "r.csv", "-o", "plain.txt", "--no-header"]) == 0
+    assert Path("plain.txt").read_text("utf-8").splitlines()[0][0].isdigit()
+    again = ["convert", "plain.txt", "-o", "again.csv", "--columns", "t [s], x [m], x.meas [m]"]
+    assert main(again) == 0
+    np.testing.assert_array_equal(read_record("again.csv").values, read_record("r.csv").values)
+
+
+BAD_FILES = {
+    "truncated": (HEADER + ROWS[:-8], r"r\.csv:5"),
+    "wrong unit": (HEADER.replace("[mm]", "[kg]") + ROWS, r"unknown unit 'kg'"),
+    "angle for a length": (HEADER.replace("mm", "urad") + ROWS, r"x"),
+    "decimal comma": (HEADER + "0,0,20,0,20,0\n", r"r\.csv:2.*decimal signs"),
+    "empty": ("", r"r\.csv"),
+    "no rows": (HEADER, r"r\.csv"),
+    "not a number": (HEADER + ROWS + "0.04,nan,20.0\n", r"r\.csv:6.*finite"),
+    "time backwards": (HEADER + ROWS + "0.02,20.0,20.0\n", r"r\.csv:6.*increase"),
+    "no header": (ROWS, r"columns"),
+    "unknown axis": (HEADER.replace("x", "w") + ROWS, r"w"),
+}
+
+
+@pytest.mark.parametrize("name", BAD_FILES)
+@pytest.mark.parametrize("command", ["compare", "play", "convert"])
+def test_a_bad_file_is_one_clear_line_and_status_2(in_tmp, capsys, name, command):
+    text, message = BAD_FILES[name]
+    Path("r.csv").write_text(text, "utf-8")
+    extra = ["-o", "out.csv"] if command == "convert" else []
+    assert main([command, "r.csv", *extra]) == 2
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert error.startswith("rotemina: r.csv")
+    assert re.search(message, error), error
+    assert [path.name for path in Path().iterdir()] == ["r.csv"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["compare", "missing.csv"], "missing.csv"),
+        (["compare", "."], "."),
+        (["compare", "r.csv", "--robot", "nobody"], "nobody: no such robot"),
+        (["compare", "r.csv", "--fit", "speed"], "'speed' cannot be re-fitted"),
+        (["compare", "r.csv", "--plot", "out.bmp"], "out.bmp: a picture's name ends in"),
+        (["compare", "r.csv", "--json", "no/such/folder/out.json"], "cannot be written"),
+        (["convert", "r.csv", "-o", "out.csv", "--units", "kg"], "unknown unit 'kg'"),
+        (["convert", "r.csv", "-o", "out.csv", "--units", "V"], "a length or an angle"),
+        (["convert", "r.csv", "-o", "out.csv", "--resample", "-5"], "-5"),
+    ],
+)
+def test_a_bad_request_is_one_clear_line_and_status_2(in_tmp, capsys, arguments, message):
+    Path("r.csv").write_text(HEADER + ROWS, "utf-8")
+    assert main(arguments) == 2
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert message in error
+    assert [path.name for path in Path().iterdir()] == ["r.csv"]
+
+
+def test_a_trajectory_beyond_a_limit_is_not_played(in_tmp, capsys):
+    Path("far.csv").write_text("t [s],x [mm]\n0,54.9\n1,55.3\n", "utf-8")
+    assert main(["play", "far.csv"]) == 2
+    error = capsys.readouterr().err
+    assert error.startswith("rotemina: far.csv: ")
+    assert "55" in error
+    assert not Path("far-record.csv").exists()
+    # It may be looked at all the same.
+    assert main(["convert", "far.csv", "-o", "copy.csv"]) == 0
+
+
+def test_a_dry_run_writes_nothing(in_tmp, tour, capsys):
+    assert main(["play", str(tour), "--dry-run"]) == 0
+    assert "in limits" in capsys.readouterr().out
+    assert not list(in_tmp.iterdir())
+
+
+def test_the_installed_command_answers():
+    command = Path(sys.executable).with_name("rotemina")
+    done = subprocess.run([command, "--version"], capture_output=True, text=True, check=True)
+    assert done.stdout.startswith("rotemina ")
