@@ -67,7 +67,8 @@ class Driver(ABC):
         super().__init_subclass__()
         for base in cls.__mro__[1:]:
             for name, member in vars(base).items():
-                if getattr(member, "__final__", False) and name in vars(cls):
+                # Compared as found: a class mixed in from elsewhere must not override either.
+                if getattr(member, "__final__", False) and getattr(cls, name) is not member:
                     raise TypeError(
                         f"{cls.__name__}.{name}: final in {base.__name__}; fill _{name}"
                     )

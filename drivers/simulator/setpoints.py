@@ -83,7 +83,9 @@ class SetpointGenerator:
 
     def stop(self) -> None:
         """Reduce every axis' speed to zero as fast as it may, and hold there."""
-        self._stopping[:] = True
+        still = self._velocity == 0.0
+        self._target[still] = self._position[still]
+        self._stopping[:] = ~still
 
     def generate(self, ticks: int, *, until_rest: bool = False) -> FloatArray:
         """Return the commands (ticks, axes) of the next ticks.

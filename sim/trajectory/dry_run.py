@@ -140,10 +140,15 @@ def _figures(
         peak_speed=speed,
         peak_acceleration=acceleration,
         bounds=Bounds(axis.range, axis.max_speed, axis.max_acceleration, voltage_bounds(axis)),
-        tracking_rms=None if error is None else float(np.sqrt(np.mean(error**2))),
+        tracking_rms=None if error is None else _rms(error),
         tracking_peak=None if error is None else _peak(error),
     )
 
 
 def _peak(values: FloatArray) -> float:
     return float(np.abs(values).max())
+
+
+def _rms(values: FloatArray) -> float:
+    peak = _peak(values)  # taken out first: the response of an unstable loop may have no square
+    return peak * float(np.sqrt(np.mean((values / peak) ** 2))) if peak > 0 else 0.0
