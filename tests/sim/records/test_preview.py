@@ -24,8 +24,9 @@ WriteFile = Callable[..., Path]
         ("0;1,5;2\n", ";", (), ("0", "1,5", "2")),
         ("0\t1,5\n", "\t", (), ("0", "1,5")),
         ("\n 0,0   1,5\n 1,0   2,5\n", " ", (), ("0,0", "1,5")),
-        # The first row alone would also fit a comma.
         ("0,5 1\n1 2\n", " ", (), ("0,5", "1")),
+        # The first row alone would also fit a comma.
+        ("0, 1\n1, 2,5\n", " ", (), ("0,", "1")),
         ("1.5\n2.5\n", " ", (), ("1.5",)),
     ],
 )

@@ -99,6 +99,7 @@ REFUSED: dict[str, tuple[str | bytes, str, str]] = {
     "mode": ("# mode: open\n" + GOOD, ":1:mode", "value 'open'; use open_loop or closed_loop"),
     "mode twice": (GOOD + "# mode: closed_loop\n", ":5:mode", "'closed_loop' contradicts 'open_l"),
     "history": (GOOD + "# history: rest\n", ":5:history", "value 'rest'; use unknown or periodic"),
+    "after comments": ("# a: b\n# c\n\n# d\n# mode: x\n" + GOOD, ":5:mode", "value 'x'"),
     "period 0": (GOOD + "# period_samples: 0\n", ":5:period_samples", "value '0'; use a positive"),
     "period -5": (GOOD + "#period_samples:-5\n", ":5:period_samples", "value '-5'"),
     "period 2.5": (GOOD + "#period_samples: 2.5\n", ":5:period_samples", "value '2.5'"),

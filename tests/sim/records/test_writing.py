@@ -121,6 +121,8 @@ def test_a_compressed_file_is_the_same_text_each_time(tmp_path: Path) -> None:
     packed = (tmp_path / "a.csv.gz").read_bytes()
     assert gzip.decompress(packed) == (tmp_path / "a.csv").read_bytes()
     assert packed == (tmp_path / "b.csv.gz").read_bytes()
+    time_stamp = packed[4:8]
+    assert time_stamp == bytes(4)
 
 
 def test_many_rows_are_written_in_order(tmp_path: Path) -> None:
@@ -219,6 +221,16 @@ def test_a_failed_export_keeps_the_file_that_was_there(
     monkeypatch.undo()
     write_record(make_record(note="new"), path)
     assert read_record(path).metadata == {"note": "new"}
+
+
+@pytest.mark.skipif(os.name == "nt", reason="an open file cannot be replaced there")
+def test_who_reads_the_old_file_goes_on_reading_it(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    write_record(make_record(), path)
+    with path.open() as old:
+        write_record(make_record(note="new"), path)
+        assert "new" not in old.read()
+    assert "new" in path.read_text()
 
 
 def test_where_no_file_can_be(tmp_path: Path) -> None:
