@@ -88,6 +88,7 @@ class MainWindow(QMainWindow):
             "Stop all axes and hold (Esc). This is a stop by software, "
             "not the machine's emergency switch."
         )
+        self.stop_button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.stop_button.setShortcut(QKeySequence(Qt.Key.Key_Escape))
         # On pressing, not on release: a stop must not wait for the finger to lift.
         self.stop_button.pressed.connect(self.workbench.stop)
@@ -107,10 +108,20 @@ class MainWindow(QMainWindow):
         column.addWidget(self.notices)
         column.addWidget(self._central_panels(), 1)
         self.setCentralWidget(centre)
+        self.setTabPosition(Qt.DockWidgetArea.BottomDockWidgetArea, QTabWidget.TabPosition.North)
         self.setCorner(Qt.Corner.BottomLeftCorner, Qt.DockWidgetArea.LeftDockWidgetArea)
+        bottom: QDockWidget | None = None
         for name, panel in self.panels.items():
-            if panel.area is not Area.CENTRE:
-                self.docks[name] = self._dock(name, panel)
+            if panel.area is Area.CENTRE:
+                continue
+            dock = self.docks[name] = self._dock(name, panel)
+            if panel.area is Area.BOTTOM:  # wide tables: one behind the other, not side by side
+                if bottom is not None:
+                    self.tabifyDockWidget(bottom, dock)
+                bottom = bottom or dock
+        if bottom is not None:
+            bottom.raise_()
+            self.resizeDocks([bottom], [260], Qt.Orientation.Vertical)
         self._default_state = self.saveState(LAYOUT_VERSION)
 
     def _central_panels(self) -> QWidget:
@@ -250,6 +261,8 @@ class MainWindow(QMainWindow):
         self._activity.setText(StatusText.activity(state))
 
     def _note_run(self, run: Run) -> None:
+        if "comparison" in self.docks:
+            self.docks["comparison"].raise_()
         self._unsaved = run if run.played else None
 
     def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 (Qt's name)

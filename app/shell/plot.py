@@ -23,7 +23,7 @@ class SignalPlot(pg.PlotWidget):
     def __init__(self, theme: Theme, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._curves: dict[str, pg.PlotCurveItem] = {}
-        self._colours: dict[str, str] = {}
+        self._pens: dict[str, tuple[str, int]] = {}
         self._scale: tuple[float, float] | None = None
         self.setMenuEnabled(False)
         self.hideButtons()
@@ -34,18 +34,17 @@ class SignalPlot(pg.PlotWidget):
             axis = item.getAxis(side)
             axis.enableAutoSIPrefix(False)
             axis.setStyle(tickLength=-5, hideOverlappingLabels=True)
+            # Numbers and grid change seldom, the curves at every frame.
+            axis.setCacheMode(axis.CacheMode.DeviceCoordinateCache)
         item.getAxis("left").setWidth(AXIS_WIDTH)
         item.showGrid(x=True, y=True, alpha=0.18)
         self.set_theme(theme)
 
-    def add_curve(self, name: str, role: str, *, dashed: bool = False, width: int = 1) -> None:
-        """Add a curve in the theme's colour ``role``."""
+    def add_curve(self, name: str, role: str, width: int = 1) -> None:
+        """Add a curve in the theme's colour ``role``, ``width`` pixels wide."""
         curve = pg.PlotCurveItem(skipFiniteCheck=True)
-        curve.setSegmentedLineMode("off" if width > 1 else "auto")
         self._curves[name] = curve
-        self._colours[name] = role
-        curve.setProperty("dashed", dashed)
-        curve.setProperty("width", width)
+        self._pens[name] = (role, width)
         self.addItem(curve)
         self._colour_curve(name)
 
@@ -59,6 +58,14 @@ class SignalPlot(pg.PlotWidget):
             axis.setTextPen(QColor(theme.quiet))
         for name in self._curves:
             self._colour_curve(name)
+
+    def show_times(self, shown: bool) -> None:
+        """Show or hide the numbers of the time axis."""
+        axis = self.getPlotItem().getAxis("bottom")
+        axis.setStyle(showValues=shown)
+        if shown:
+            axis.setLabel("time [s]")
+        self.getPlotItem().layout.setContentsMargins(0, 4, 12, 0 if shown else 4)
 
     def show_signal(self, name: str, time_s: FloatArray, values: FloatArray) -> None:
         """Draw a signal (n,), thinned to what the width can show."""
@@ -86,7 +93,5 @@ class SignalPlot(pg.PlotWidget):
         self.setYRange(*self._scale, padding=0.0)
 
     def _colour_curve(self, name: str) -> None:
-        curve = self._curves[name]
-        colour = QColor(getattr(self._theme, self._colours[name]))
-        style = pg.QtCore.Qt.PenStyle.DashLine if curve.property("dashed") else None
-        curve.setPen(pg.mkPen(colour, width=curve.property("width"), style=style))
+        role, width = self._pens[name]
+        self._curves[name].setPen(pg.mkPen(QColor(getattr(self._theme, role)), width=width))

@@ -39,7 +39,9 @@ def start(robot: str, *, offscreen: bool, output: Path) -> int:
         print(f"rotemina: {complaint(missing)}", file=sys.stderr)
         return 1
 
-    from rotemina.app.shell import offscreen_run, window_run  # Qt is safe to load from here on
+    from rotemina.app.shell import offscreen_run, qt_messages, window_run  # Qt may be loaded now
+
+    qt_messages.log_qt_messages()
 
     session = MotionSession(Simulator(described))
     if not reason:

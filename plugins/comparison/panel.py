@@ -1,5 +1,7 @@
 """Model and real of a whole run: figures of every tap, and the traces of the chosen one."""
 
+from html import escape
+
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -27,7 +29,7 @@ from rotemina.sim.units import symbol, to_unit
 
 RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 EMPTY = "Play a trajectory, or open a record of the real machine, to see how far the model is."
-COLUMNS = ("tap", "rms", "of range", "rel. error", "delay", "noise floor")
+COLUMNS = ("tap", "rms", "noise floor", "rel. error", "delay")
 
 
 class ComparisonPanel(Panel):
@@ -49,11 +51,13 @@ class ComparisonPanel(Panel):
         self.table = _table()
         self.table.itemSelectionChanged.connect(self._draw)
         self.signals, self.gap = SignalPlot(workbench.theme), SignalPlot(workbench.theme)
+        self.signals.add_curve("model", "model", width=3)
         self.signals.add_curve("real", "real")
-        self.signals.add_curve("model", "model")
         self.gap.add_curve("gap", "text")
+        self.signals_title, self.gap_title = QLabel(), QLabel()
         self.gap.setXLink(self.signals)
-        self.gap.getPlotItem().getAxis("bottom").setLabel("time [s]")
+        self.signals.show_times(True)
+        self.gap.show_times(True)
         self._lay_out()
         workbench.run_changed.connect(self._show_run)
         workbench.theme_changed.connect(self._use_theme)
@@ -63,17 +67,11 @@ class ComparisonPanel(Panel):
         buttons.addWidget(self.open)
         buttons.addWidget(self.save)
         buttons.addWidget(self.summary, 1)
-        plots = QWidget()
-        column = QVBoxLayout(plots)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(2)
-        column.addWidget(self.signals, 1)
-        column.addWidget(self.gap, 1)
         split = QSplitter(Qt.Orientation.Horizontal)
         split.addWidget(self.table)
-        split.addWidget(plots)
-        split.setStretchFactor(0, 3)
-        split.setStretchFactor(1, 4)
+        split.addWidget(_titled(self.signals_title, self.signals))
+        split.addWidget(_titled(self.gap_title, self.gap))
+        split.setSizes([400, 300, 300])
         outer = QVBoxLayout(self)
         outer.setContentsMargins(10, 8, 10, 8)
         outer.addLayout(buttons)
@@ -111,14 +109,30 @@ class ComparisonPanel(Panel):
         self.signals.show_signal("model", time_s, to_unit(model, unit))
         self.gap.show_signal("gap", time_s, to_unit(real - model, gap_unit))
         self.signals.set_time(0.0, max(record.duration_s, 1e-9))
-        self.signals.getPlotItem().getAxis("left").setLabel(f"{label(tap.axis)} [{symbol(unit)}]")
-        self.gap.getPlotItem().getAxis("left").setLabel(f"real − model [{symbol(gap_unit)}]")
+        theme = self.workbench.theme
+        self.signals_title.setText(
+            f"{escape(label(tap.axis))} {tap.tap} [{symbol(unit)}]: "
+            f'<span style="color:{theme.real}">real</span>, '
+            f'<span style="color:{theme.model}">model</span>'
+        )
+        self.gap_title.setText(f"real − model [{symbol(gap_unit)}]")
         self.signals.enableAutoRange(axis="y")
         self.gap.enableAutoRange(axis="y")
 
     def _use_theme(self, theme: Theme) -> None:
         self.signals.set_theme(theme)
         self.gap.set_theme(theme)
+        self._draw()
+
+
+def _titled(title: QLabel, plot: SignalPlot) -> QWidget:
+    box = QWidget()
+    column = QVBoxLayout(box)
+    column.setContentsMargins(4, 0, 0, 0)
+    column.setSpacing(2)
+    column.addWidget(title)
+    column.addWidget(plot, 1)
+    return box
 
 
 def _table() -> QTableWidget:
@@ -128,7 +142,8 @@ def _table() -> QTableWidget:
     table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
     table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
     table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-    table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Stretch)
+    table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+    table.verticalHeader().setDefaultSectionSize(24)
     return table
 
 

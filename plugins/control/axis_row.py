@@ -74,7 +74,8 @@ class AxisRow(QFrame):
         self._readout.setAccessibleName(f"{label(axis)} position")
         self._command = QLabel("")
         self._command.setProperty("quiet", True)
-        self._command.setAlignment(Qt.AlignmentFlag.AlignRight)
+        self._command.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        self._command.setToolTip("What the axis was last told; the large number is measured")
         self.minus, self.plus = self._jog_button("−", -1), self._jog_button("+", +1)
         self.target = self._target_field()
         self.go = QPushButton("Go")
@@ -89,7 +90,7 @@ class AxisRow(QFrame):
         if known:
             position, command = state.measured[self._axis], state.command[self._axis]
             self._readout.setText(self._scale.text(position))
-            self._command.setText(f"command {self._scale.text(command)}")
+            self._command.setText(f"→ {self._scale.number(command)}")
             self._bar.show_position(position, command)
         else:
             self._readout.setText("unknown")
@@ -117,10 +118,11 @@ class AxisRow(QFrame):
         grid.setContentsMargins(0, 2, 0, 6)
         grid.setVerticalSpacing(2)
         grid.addWidget(name, 0, 0)
-        grid.addWidget(self._readout, 0, 1)
-        grid.addWidget(self._bar, 1, 0, 1, 2)
-        grid.addWidget(self._command, 2, 0, 1, 2)
-        grid.addLayout(controls, 3, 0, 1, 2)
+        grid.addWidget(self._command, 0, 1)
+        grid.addWidget(self._readout, 0, 2)
+        grid.setColumnStretch(1, 1)
+        grid.addWidget(self._bar, 1, 0, 1, 3)
+        grid.addLayout(controls, 2, 0, 1, 3)
 
     def _jog_button(self, text: str, sign: int) -> QPushButton:
         button = QPushButton(text)

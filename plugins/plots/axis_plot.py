@@ -23,7 +23,7 @@ class Shown(StrEnum):
 class AxisPlot(QWidget):
     """Command, model and measurement of one axis over the last seconds."""
 
-    def __init__(self, workbench: Workbench, column: int) -> None:
+    def __init__(self, workbench: Workbench, column: int, *, times: bool) -> None:
         super().__init__()
         name = tuple(workbench.robot.axes)[column]
         axis = workbench.robot.axes[name]
@@ -39,11 +39,14 @@ class AxisPlot(QWidget):
         self._gap = QLabel()
         self._gap.setProperty("quiet", True)
         self.plot = SignalPlot(workbench.theme)
-        for curve, role in (("command", "command"), ("model", "model"), ("measured", "real")):
-            self.plot.add_curve(curve, role)
+        self.plot.add_curve("command", "command")
+        self.plot.add_curve("model", "model", width=3)  # seen on both sides of the measured line
+        self.plot.add_curve("measured", "real")
+        self.plot.show_times(times)
         self.plot.setMinimumHeight(90)
         head = QHBoxLayout()
         head.setContentsMargins(4, 0, 4, 0)
+        head.setSpacing(6)
         head.addWidget(self._title)
         head.addWidget(self._unit)
         head.addStretch(1)

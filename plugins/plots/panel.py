@@ -29,8 +29,10 @@ class PlotsPanel(Panel):
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
+        lowest = {axes[-1] for axes in stages(workbench.robot).values() if axes}
         self.plots = {
-            name: AxisPlot(workbench, column) for column, name in enumerate(workbench.robot.axes)
+            name: AxisPlot(workbench, column, times=name in lowest)
+            for column, name in enumerate(workbench.robot.axes)
         }
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)

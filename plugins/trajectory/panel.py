@@ -85,7 +85,6 @@ class TrajectoryPanel(Panel):
                 item = QTableWidgetItem(cell.text)
                 item.setToolTip(cell.tip)
                 self.table.setItem(row, column, item)
-        self.table.resizeRowsToContents()
 
     def _refresh(self, state: SessionState) -> None:
         plan = self.workbench.plan
@@ -106,4 +105,5 @@ def _table() -> QTableWidget:
     table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
     table.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
     table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Stretch)
+    table.verticalHeader().setDefaultSectionSize(24)
     return table

@@ -1,9 +1,9 @@
 """How much later a real signal comes than the modelled one."""
 
 import numpy as np
-from scipy import signal as dsp
+from scipy import fft
 
-from rotemina.sim.arrays import FloatArray
+from rotemina.sim.arrays import FloatArray, IntArray
 
 _ALIKE = 0.5  # correlation below which two signals have no common shift
 _CONVERGED = 1e-3  # of a sample
@@ -26,13 +26,20 @@ def delay(time_s: FloatArray, model: FloatArray, real: FloatArray) -> float | No
     scale = float(np.linalg.norm(modelled) * np.linalg.norm(measured))
     if scale == 0.0 or not np.isfinite(scale):
         return None
-    lags = dsp.correlation_lags(count, count)
-    near = np.abs(lags) <= count // 4
-    correlation = dsp.correlate(measured, modelled, method="fft")[near]
+    lags, correlation = _correlate(modelled, measured, longest=count // 4)
     if correlation.max() < _ALIKE * scale:
         return None
-    start = float(lags[near][np.argmax(correlation)]) * step
+    start = float(lags[np.argmax(correlation)]) * step
     return _refine(grid, modelled, measured, start)
+
+
+def _correlate(model: FloatArray, real: FloatArray, longest: int) -> tuple[IntArray, FloatArray]:
+    """Return ``Σ real[k + lag]·model[k]`` for every lag up to ``longest`` samples either way."""
+    size = fft.next_fast_len(len(model) + longest, real=True)
+    spectrum = fft.rfft(real, size) * np.conj(fft.rfft(model, size))
+    circular = fft.irfft(spectrum, size)
+    lags = np.arange(-longest, longest + 1)
+    return lags, circular[lags]
 
 
 def _refine(time_s: FloatArray, model: FloatArray, real: FloatArray, start_s: float) -> float:
