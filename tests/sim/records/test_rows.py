@@ -119,6 +119,7 @@ def test_every_decimal_number_is_rounded_as_python_does(text: str) -> None:
     [
         ("0,1,2\n1,2,3\n", ","),
         ("0 , 1,\t2\r\n\r\n# c\n1,2,3\r\n", ","),
+        ("0,1,2\n# c\n1,2,3\n  # d: 1,5\n", ","),
         ("0;1,5;2\n1;2,5;3\n", ";"),
         ("  0   1\t2\n 1  2    3 \n", " "),
         ("\n\n0 \t 1\t2\n\n\n\n\n1\t2\t3\n", "\t"),

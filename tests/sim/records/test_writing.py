@@ -162,7 +162,25 @@ def test_metadata_that_would_not_come_back(tmp_path: Path, key: str, value: str)
 
 
 @pytest.mark.parametrize(
-    "axis", ["", " x", "x ", "x,y", "x;y", "x\ty", "x\ny", "[x", 'x"', "#x", "=x", "@x", "+x", "-x"]
+    "axis",
+    [
+        "",
+        " x",
+        "x ",
+        "x,y",
+        "x;y",
+        "x\ty",
+        "x\ny",
+        "[x",
+        'x"',
+        "#x",
+        "=x",
+        "@x",
+        "+x",
+        "-x",
+        "x\x9b",
+        "x" * 101,
+    ],
 )
 def test_axis_names_that_would_not_come_back(tmp_path: Path, axis: str) -> None:
     record = Record.from_signals(np.zeros(1), {(axis, Tap.CMD): np.zeros(1)}, {axis: "m"})
