@@ -11,7 +11,7 @@ from rotemina.sim.robot.model import Robot
 
 # Device times are told apart to this, s: their rounding would make every interval a different one,
 # each with a matrix exponential of its own.
-_ATOM_S = 1e-10
+_ATOM_S = 1e-11
 
 
 class LiveModel:

@@ -1,0 +1,94 @@
+"""Sessions that tests step by hand, and a driver that misbehaves on request."""
+
+import pytest
+
+from rotemina.app.motion.session import MotionSession
+from rotemina.drivers.clock import VirtualClock
+from rotemina.drivers.samples import DeviceState
+from rotemina.drivers.simulator.driver import Simulator
+from rotemina.sim.robot.file import load_robot
+
+
+class Unruly(Simulator):
+    """The simulator, with hooks that a test may replace by ``before[hook] = callable``."""
+
+    name = "unruly"
+
+    def __init__(self, *args, **settings):
+        super().__init__(*args, **settings)
+        self.before = {}
+        self.stops = 0
+
+    def _run_before(self, hook):
+        self.before.get(hook, lambda: None)()
+
+    def _open(self):
+        self._run_before("open")
+        super()._open()
+
+    def _move_to(self, targets):
+        self._run_before("move_to")
+        super()._move_to(targets)
+
+    def _read(self):
+        self._run_before("read")
+        return super()._read()
+
+    def _stop(self):
+        self.stops += 1
+        self._run_before("stop")
+        super()._stop()
+
+
+class Stepped:
+    """A session without a thread, its clock, driver and events."""
+
+    def __init__(self, driver, clock, **options):
+        self.clock = clock
+        self.driver = driver
+        self.session = MotionSession(driver, **options)
+        self.events = []
+        self.session.subscribe(self.events.append)
+
+    def connect(self):
+        self.session.connect()
+        self.session.run_once()
+        return self
+
+    def step(self, seconds=0.01, times=1):
+        for _ in range(times):
+            self.clock.advance(seconds)
+            self.session.run_once()
+        return self.session.snapshot()
+
+    def until(self, *activities, limit_s=60.0):
+        for _ in range(round(limit_s / 0.02)):
+            state = self.step(0.02)
+            if state.activity in activities:
+                return state
+        raise AssertionError(f"still {self.session.snapshot()}")
+
+    def until_idle(self):
+        return self.until(DeviceState.IDLE)
+
+    def told(self, kind):
+        return [event for event in self.events if isinstance(event, kind)]
+
+
+@pytest.fixture
+def clock():
+    return VirtualClock(5.0)
+
+
+@pytest.fixture
+def stepped(clock):
+    return Stepped(Unruly(load_robot("rotemina"), clock=clock), clock).connect()
+
+
+@pytest.fixture
+def make_stepped(clock):
+    def make(robot="rotemina", connect=True, driver=Unruly, settings=None, **options):
+        made = Stepped(driver(load_robot(robot), settings, clock=clock), clock, **options)
+        return made.connect() if connect else made
+
+    return make

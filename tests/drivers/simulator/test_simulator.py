@@ -1,0 +1,220 @@
+"""The simulator against the nominal model, and what no other device would do."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rotemina.drivers.clock import VirtualClock
+from rotemina.drivers.errors import LimitError
+from rotemina.drivers.samples import DeviceState, Samples
+from rotemina.drivers.settings import SettingError
+from rotemina.drivers.simulator.driver import MAX_READ_S, Simulator
+from rotemina.sim.plant.response import nominal_response
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.file import load_robot
+
+ROBOT = load_robot("rotemina")
+EMPS = load_robot("emps")
+
+
+def without_sensors(robot):
+    return replace(robot, axes={n: replace(a, sensor=None) for n, a in robot.axes.items()})
+
+
+def opened(robot=ROBOT, **given):
+    clock = VirtualClock(77.0)
+    driver = Simulator(robot, given, clock=clock)
+    driver.open()
+    return driver, clock
+
+
+def played(driver, clock, trajectory, step_s=0.37):
+    """Play and return the samples of the trajectory's rows alone, as one."""
+    driver.play(trajectory)
+    parts = []
+    while driver.status().state is DeviceState.PLAYING:
+        clock.advance(step_s)
+        parts.append(driver.read())
+    assert driver.status().fault is None
+    whole = Samples.joined(parts, len(driver.axes))
+    return whole, whole.playback_row >= 0
+
+
+def smooth(time_s, robot=ROBOT, mode="open_loop"):
+    """All axes of a robot, from rest and back to rest, together."""
+    turn = 0.5 * (1 - np.cos(2 * np.pi * (time_s - time_s[0]) / (time_s[-1] - time_s[0])))
+    signals, units = {}, {}
+    for name, axis in robot.axes.items():
+        signals[name, Tap.CMD] = axis.range[0] + axis.span * (0.4 + 0.02 * turn)
+        units[name] = axis.unit
+    return Record.from_signals(time_s, signals, units, {"mode": mode})
+
+
+EVEN = np.arange(2001) / 2000.0
+UNEVEN = 5.0 + np.cumsum(np.random.default_rng(1).uniform(2e-4, 3e-3, 700))
+SPARSE = np.arange(201) * 0.01
+
+
+@pytest.mark.parametrize("time_s", [EVEN, UNEVEN, SPARSE], ids=["even", "uneven", "sparse"])
+def test_a_playback_is_the_nominal_response(time_s):
+    robot = without_sensors(ROBOT)
+    trajectory = smooth(time_s)
+    samples, own = played(*opened(robot, settle_s=3.0), trajectory)
+    response = nominal_response(robot, trajectory)
+    for column, name in enumerate(robot.axes):
+        modelled = response.signal(name, Tap.MEAS)
+        bound = 1e-12 * robot.axes[name].span
+        np.testing.assert_allclose(samples.measured[own, column], modelled, rtol=0, atol=bound)
+    assert np.isnan(samples.inputs[:, :3]).all()
+    np.testing.assert_allclose(samples.inputs[own, 5], response.signal("zn", Tap.U), rtol=1e-12)
+
+
+def test_distant_rows_are_sampled_in_between_on_the_same_motion():
+    samples, own = played(*opened(), smooth(SPARSE))
+    first, last = np.flatnonzero(own)[[0, -1]]
+    inside = samples.device_time_s[first : last + 1]
+    np.testing.assert_allclose(np.diff(inside), 1e-3, atol=1e-9)
+    held = samples.command[first : last + 1, 0]
+    np.testing.assert_array_equal(held[:-1].reshape(-1, 10), np.repeat(held[:-1:10, None], 10, 1))
+
+
+def test_a_robot_with_a_controller_plays_under_it():
+    trajectory = smooth(np.arange(2000) * 1e-3, EMPS, mode="closed_loop")
+    samples, own = played(*opened(EMPS, settle_s=2.0), trajectory)
+    response = nominal_response(EMPS, trajectory)
+    # The model starts without the deviation by which the loop carries the constant force.
+    deviation = samples.measured[own, 0] - response.signal("q", Tap.MEAS)
+    assert np.abs(deviation[:1]).max() < 4e-6
+    assert np.abs(deviation[400:]).max() < 1e-9
+    effort = samples.inputs[own, 0] - response.signal("q", Tap.U)
+    assert np.abs(effort[400:]).max() < 1e-6
+
+
+def test_a_controlled_axis_is_sampled_at_rows_alone():
+    trajectory = smooth(np.arange(400) * 4e-3, EMPS)
+    _, own = played(*opened(EMPS), trajectory)
+    first, last = np.flatnonzero(own)[[0, -1]]
+    assert own[first : last + 1].all()
+
+
+def test_readings_have_the_declared_noise_and_resolution():
+    driver, clock = opened(seed=3)
+    clock.advance(4.0)
+    samples = driver.read()
+    for column, axis in enumerate(ROBOT.axes.values()):
+        reading = samples.measured[:, column]
+        counts = reading / axis.sensor.resolution
+        np.testing.assert_allclose(counts, np.rint(counts), atol=1e-6)
+        assert reading.std() <= 1.1 * axis.sensor.noise_floor + axis.sensor.resolution
+    assert samples.measured[:, 3].std() == pytest.approx(4.02e-7, rel=0.05)
+
+
+def test_the_offset_of_an_axis_is_read():
+    axes = {**ROBOT.axes, "x": replace(ROBOT.axes["x"], offset=1e-3)}
+    driver, _ = opened(replace(ROBOT, axes=axes))
+    samples = driver.read()
+    assert samples.measured[0, 0] - samples.command[0, 0] == pytest.approx(1e-3, abs=2e-7)
+
+
+@pytest.mark.parametrize("seed", [0, 5])
+def test_a_seed_gives_the_same_record_however_often_one_reads(seed):
+    trajectory = smooth(EVEN)
+    records = []
+    for step_s, idle_s in ((0.013, 0.0), (4.0, 0.7)):
+        driver, clock = opened(seed=seed, settle_s=3.0)
+        clock.advance(idle_s)
+        driver.read()
+        samples, own = played(driver, clock, trajectory, step_s)
+        records.append(samples.measured[own])
+    np.testing.assert_array_equal(*records)
+
+
+def test_another_seed_gives_other_noise():
+    first, second = (played(*opened(seed=seed), smooth(EVEN))[0] for seed in (0, 1))
+    assert (first.measured != second.measured).any()
+
+
+def test_nobody_reading_for_long_bounds_the_work_and_loses_nothing():
+    driver, clock = opened()
+    clock.advance(12.0)
+    counts = [len(driver.read()) for _ in range(4)]
+    assert max(counts) <= MAX_READ_S * 1000 + 1
+    assert sum(counts) == 12_001
+
+
+def test_an_hour_later_it_still_samples_evenly():
+    driver, clock = opened(sample_rate_hz=100.0)
+    last = None
+    for _ in range(3600 // 4):
+        clock.advance(4.0)
+        last = driver.read()
+    np.testing.assert_allclose(np.diff(last.device_time_s), 0.01, atol=1e-9)
+    assert last.device_time_s[-1] == pytest.approx(3600.0)
+
+
+def test_a_trajectory_sampled_too_densely_is_refused():
+    dense = np.arange(100) / 25_000.0
+    driver, _ = opened()
+    with pytest.raises(LimitError, match="25000 Hz"):
+        driver.play(_hold(dense))
+
+
+def _hold(time_s):
+    return Record.from_signals(time_s, {("x", Tap.CMD): np.full(len(time_s), 0.02)}, {"x": "m"})
+
+
+def test_an_unstable_loop_is_a_fault_that_can_be_cleared():
+    axis = replace(EMPS.axes["q"], mass=1e-3, damping=0.0)
+    wild = replace(axis, controller=replace(axis.controller, limit=1e308))
+    driver, clock = opened(replace(EMPS, axes={"q": wild}), sample_rate_hz=20.0)
+    clock.advance(0.2)
+    driver.read()
+    driver.move_to({"q": 0.2})
+    for _ in range(100):
+        clock.advance(1.0)
+        driver.read()
+    status = driver.status()
+    assert status.state is DeviceState.FAULT
+    assert "axis q" in status.fault
+    driver.clear_fault()
+    assert driver.status().state is DeviceState.IDLE
+    clock.advance(0.1)
+    assert len(driver.read()) > 0
+
+
+def test_it_stands_where_it_was_left():
+    driver, clock = opened()
+    driver.move_to({"x": 0.03})
+    clock.advance(4.0)
+    driver.read()
+    driver.close()
+    driver.open()
+    assert driver.read().command[0, 0] == 0.03
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("sample_rate_hz", 0.0),
+        ("sample_rate_hz", 1e6),
+        ("seed", -1),
+        ("settle_s", -0.1),
+        ("start_fraction", 1.5),
+    ],
+)
+def test_settings_out_of_bounds_are_named(name, value):
+    with pytest.raises(SettingError, match=name):
+        Simulator(ROBOT, {name: value})
+
+
+def test_a_force_that_nothing_holds_is_no_machine():
+    free = replace(EMPS, axes={"q": replace(EMPS.axes["q"], controller=None)})
+    with pytest.raises(SettingError, match="controller"):
+        Simulator(free)
+
+
+def test_one_row_can_be_played():
+    samples, own = played(*opened(), _hold(np.array([3.0])))
+    assert own.sum() == 1
+    assert samples.command[own, 0] == 0.02
