@@ -25,3 +25,46 @@ def shared_dir() -> Path:
     if os.environ.get("CI") == "true":
         pytest.fail(absent)
     pytest.skip(absent)
+
+
+@pytest.fixture
+def settings(tmp_path):
+    """Preferences of nobody, kept in the test's own folder."""
+    from rotemina.app.settings import Settings
+
+    return Settings(tmp_path / "preferences" / "settings.json")
+
+
+@pytest.fixture
+def make_robot_window(qtbot, settings):
+    """Make windows on the simulator of any robot; all are closed, and no thread stays."""
+    import threading
+
+    from rotemina.app.motion.session import MotionSession
+    from rotemina.app.shell.window_run import make_window
+    from rotemina.drivers.simulator.driver import Simulator
+    from rotemina.sim.robot.file import load_robot
+
+    windows = []
+
+    def make(robot="rotemina"):
+        session = MotionSession(Simulator(load_robot(robot), {"settle_s": 0.02}))
+        window = make_window(session, settings)
+        windows.append(window)
+        window.show()
+        window.workbench.start()
+        qtbot.waitUntil(lambda: session.snapshot().locked is None, timeout=20_000)
+        return window
+
+    yield make
+    for window in windows:
+        window.workbench.close()
+        window.hide()
+        window.deleteLater()
+    assert not [thread for thread in threading.enumerate() if thread.name == "motion session"]
+
+
+@pytest.fixture
+def window(make_robot_window):
+    """The operator's window on the simulated RoTeMiNa, connected and idle."""
+    return make_robot_window()

@@ -42,6 +42,14 @@ DOCK_AREAS = {
 }
 
 
+def _decoded(text: str) -> QByteArray:
+    """Return kept bytes; none where they were spoilt, which Qt then ignores."""
+    try:
+        return QByteArray(b64decode(text, validate=True))
+    except ValueError:
+        return QByteArray()
+
+
 class Command(NamedTuple):
     """One entry of a menu."""
 
@@ -244,11 +252,8 @@ class MainWindow(QMainWindow):
     def _restore(self) -> None:
         self.resize(1280, 800)
         settings = self.workbench.settings
-        geometry, state = (settings.get(f"window.{key}", "") for key in ("geometry", "state"))
-        if geometry:
-            self.restoreGeometry(QByteArray(b64decode(geometry)))
-        if state:
-            self.restoreState(QByteArray(b64decode(state)), LAYOUT_VERSION)
+        self.restoreGeometry(_decoded(settings.get("window.geometry", "")))
+        self.restoreState(_decoded(settings.get("window.state", "")), LAYOUT_VERSION)
 
     def _remember(self) -> None:
         kept = {"geometry": self.saveGeometry(), "state": self.saveState(LAYOUT_VERSION)}

@@ -1,7 +1,7 @@
 """One axis of the control menu: readout, place in the range, jog, go-to."""
 
-from PySide6.QtCore import QLocale, QRectF, Qt
-from PySide6.QtGui import QDoubleValidator, QPainter, QPaintEvent
+from PySide6.QtCore import QRectF, Qt
+from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
@@ -139,17 +139,13 @@ class AxisRow(QFrame):
         field = QLineEdit()
         field.setPlaceholderText("go to")
         field.setAccessibleName(f"{label(self._axis)} target in {self._scale.symbol}")
-        validator = QDoubleValidator(field)
-        validator.setLocale(QLocale(QLocale.Language.C))  # a comma is never a thousands separator
-        validator.setNotation(QDoubleValidator.Notation.StandardNotation)
-        field.setValidator(validator)
         field.returnPressed.connect(self._go)
         return field
 
     def _go(self) -> None:
         text = self.target.text().strip()
         try:
-            value = float(text)
+            value = float(text)  # in any locale a comma is no decimal point, nor to be skipped
         except ValueError:
             self._workbench.notify(
                 Level.WARNING,

@@ -1,0 +1,253 @@
+"""The window as an operator meets it, on the simulator and its real threads."""
+
+from importlib.metadata import EntryPoint
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QFileDialog, QMessageBox
+
+from rotemina.app.shell import main_window as module
+from rotemina.app.shell.host import GROUP
+from rotemina.drivers import registry
+from rotemina.drivers.samples import DeviceState
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records.writing import write_record
+
+LONG_MS = 30_000
+
+
+def short_trajectory(path, seconds=0.4, height=2e-4):
+    """A smooth move of thx and back."""
+    time_s = np.arange(int(seconds * 500) + 1) / 500
+    command = 5.81775e-4 + height * np.sin(np.pi * time_s / time_s[-1]) ** 2
+    write_record(Record.from_signals(time_s, {("thx", Tap.CMD): command}, {"thx": "rad"}), path)
+    return path
+
+
+def notices(window):
+    return [notice.text for notice in window.notices.notices()]
+
+
+def load(qtbot, window, path):
+    with qtbot.waitSignal(window.workbench.plan_changed, timeout=LONG_MS):
+        window.use_file(path, window.workbench.load_trajectory)
+
+
+def test_all_built_in_panels_are_there_and_nothing_is_broken(window):
+    assert list(window.panels) == ["control", "plots", "trajectory", "comparison"]
+    assert notices(window) == []
+    assert all(panel.isVisibleTo(window) for panel in window.panels.values())
+
+
+def test_stop_is_always_in_sight_and_stops_on_escape(qtbot, window):
+    window.resize(640, 480)
+    for dock in window.docks.values():
+        dock.hide()
+    assert window.stop_button.isVisible()
+    assert window.rect().contains(
+        window.stop_button.mapTo(window, window.stop_button.rect().bottomRight())
+    )
+    session = window.workbench.session
+    session.go_to({"x": 0.05})
+    qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.MOVING, timeout=LONG_MS)
+    window.activateWindow()
+    qtbot.keyClick(window, Qt.Key.Key_Escape)
+    qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
+    assert session.snapshot().command["x"] < 0.049
+    assert session.snapshot().stop_latency_s is not None
+
+
+def test_a_trajectory_is_loaded_played_and_compared(qtbot, window, tmp_path):
+    path = short_trajectory(tmp_path / "move.csv")
+    load(qtbot, window, path)
+    panel = window.panels["trajectory"]
+    qtbot.waitUntil(panel.play.isEnabled, timeout=LONG_MS)
+    with qtbot.waitSignal(window.workbench.run_changed, timeout=LONG_MS):
+        qtbot.mouseClick(panel.play, Qt.MouseButton.LeftButton)
+    run = window.workbench.run
+    assert run.completed
+    tap = next(tap for tap in run.comparison.taps if tap.tap == "meas")
+    assert tap.rms == pytest.approx(tap.noise_floor, rel=0.25)
+    np.testing.assert_array_equal(
+        run.record.signal("thx", Tap.CMD), read_record(path).signal("thx", Tap.CMD)
+    )
+    assert window.panels["comparison"].table.rowCount() == len(run.comparison.taps)
+    assert notices(window) == []
+
+
+def test_a_stopped_playback_keeps_what_was_played(qtbot, window, tmp_path):
+    load(qtbot, window, short_trajectory(tmp_path / "long.csv", seconds=20.0))
+    session = window.workbench.session
+    window.workbench.play()
+    qtbot.waitUntil(lambda: session.snapshot().progress > 0.005, timeout=LONG_MS)
+    with qtbot.waitSignal(window.workbench.run_changed, timeout=LONG_MS):
+        window.workbench.stop()
+    assert not window.workbench.run.completed
+    assert 0 < window.workbench.run.record.duration_s < 19
+    assert "stopped after" in notices(window)[0]
+
+
+def test_a_trajectory_beyond_a_limit_is_shown_but_cannot_be_played(qtbot, window, tmp_path):
+    path = tmp_path / "far.csv"
+    path.write_text("t [s],x [mm]\n0,27.5\n1,99\n", "utf-8")
+    load(qtbot, window, path)
+    panel = window.panels["trajectory"]
+    assert "Not playable" in panel.verdict.text()
+    with qtbot.waitSignal(window.workbench.refreshed):
+        pass
+    assert not panel.play.isEnabled()
+    window.workbench.play()
+    assert "99" in notices(window)[0]
+    assert window.workbench.session.snapshot().activity is DeviceState.IDLE
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"",
+        b"\x00\x01\x02\xff",
+        b"t [s],x [kg]\n0,1\n",
+        b"t [s],x [mm]\n0,nan\n",
+        b"t [s],x [mm]\n1,1\n0,1\n",
+    ],
+)
+@pytest.mark.parametrize("use", ["load_trajectory", "open_record"])
+def test_a_bad_file_is_one_notice_and_changes_nothing(qtbot, window, tmp_path, content, use):
+    load(qtbot, window, short_trajectory(tmp_path / "good.csv"))
+    plan = window.workbench.plan
+    bad = tmp_path / "bad.csv"
+    bad.write_bytes(content)
+    window.use_file(bad, getattr(window.workbench, use))
+    qtbot.waitUntil(lambda: notices(window) != [], timeout=LONG_MS)
+    (text,) = notices(window)
+    assert "bad.csv" in text
+    assert window.workbench.plan is plan
+    assert window.workbench.run is None
+
+
+def test_a_folder_and_a_missing_file_are_notices(window, tmp_path):
+    for path in (tmp_path, tmp_path / "nothing.csv"):
+        window.use_file(path, window.workbench.open_record)
+        assert str(path) in notices(window)[0]
+
+
+def test_a_record_is_opened_beside_the_model(qtbot, window, shared_dir):
+    path = shared_dir / "examples" / "example_1" / "train_1.csv.gz"
+    with qtbot.waitSignal(window.workbench.run_changed, timeout=LONG_MS):
+        window.use_file(path, window.workbench.open_record)
+    tap = next(
+        t for t in window.workbench.run.comparison.taps if (t.axis, t.tap) == ("thx", "meas")
+    )
+    assert tap.rms > 10 * tap.noise_floor  # its hysteresis
+
+
+def test_any_robot_gets_its_window(qtbot, make_robot_window):
+    for robot in ("emps", "picma", "fsm"):
+        window = make_robot_window(robot)
+        assert set(window.panels["control"].rows) == set(window.workbench.robot.axes)
+        assert notices(window) == []
+
+
+def test_saving_asks_where_and_leaves_nothing_unsaved(qtbot, window, tmp_path, monkeypatch):
+    window.ask_save()
+    assert "no record to save" in notices(window)[0]
+    load(qtbot, window, short_trajectory(tmp_path / "move.csv"))
+    with qtbot.waitSignal(window.workbench.run_changed, timeout=LONG_MS):
+        window.workbench.play()
+    target = tmp_path / "saved.csv"
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(target), ""))
+    window.ask_save()
+    qtbot.waitUntil(target.exists, timeout=LONG_MS)
+    np.testing.assert_array_equal(read_record(target).values, window.workbench.run.record.values)
+    asked = []
+    monkeypatch.setattr(QMessageBox, "question", lambda *_: asked.append(1))
+    qtbot.waitUntil(lambda: any("Saved" in text for text in notices(window)), timeout=LONG_MS)
+    assert window.close()
+    assert not asked
+
+
+def test_an_unsaved_playback_is_not_lost_without_asking(qtbot, window, tmp_path, monkeypatch):
+    load(qtbot, window, short_trajectory(tmp_path / "move.csv"))
+    with qtbot.waitSignal(window.workbench.run_changed, timeout=LONG_MS):
+        window.workbench.play()
+    answers = [QMessageBox.StandardButton.No, QMessageBox.StandardButton.Yes]
+    monkeypatch.setattr(QMessageBox, "question", lambda *_: answers.pop(0))
+    assert not window.close()
+    assert window.isVisible()
+    assert window.close()
+
+
+def test_every_command_of_the_menus_works(qtbot, window, monkeypatch):
+    monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: ("", ""))
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: ("", ""))
+    texts = {command.text for command in window.commands()}
+    seen = set()
+    for menu in window.menuBar().actions():
+        for action in menu.menu().actions():
+            if action.text() in texts - {"&Quit"}:
+                action.trigger()
+                seen.add(action.text())
+    assert seen == texts - {"&Quit"}
+
+
+def test_a_closed_dock_comes_back_with_the_layout(window):
+    for dock in window.docks.values():
+        dock.close()
+    window.reset_layout()
+    assert not any(dock.isHidden() for dock in window.docks.values())
+
+
+def test_theme_and_layout_survive_a_restart(qtbot, make_robot_window, settings):
+    first = make_robot_window()
+    first.use_theme("light")
+    first.docks["control"].hide()
+    assert first.close()
+    second = make_robot_window()
+    assert second.workbench.theme.name == "light"
+    assert second.docks["control"].isHidden()
+
+
+def test_spoilt_preferences_never_keep_the_window_shut(make_robot_window, settings):
+    for key in ("window.geometry", "window.state"):
+        settings.set(key, "no layout at all")
+    settings.set("window.theme", "pink")
+    assert make_robot_window().isVisible()
+
+
+class RaisingPanel(module.Panel):
+    title = "Bad"
+
+    def __init__(self, workbench):
+        raise RuntimeError("cannot be made")
+
+
+def test_a_bad_panel_is_named_and_left_out(make_robot_window, monkeypatch):
+    good = registry.entry_points(group=GROUP)
+    here = f"{__name__}:RaisingPanel"
+    bad = [
+        EntryPoint("gone", "no_such_module:Panel", GROUP),
+        EntryPoint("wrong", "pathlib:Path", GROUP),
+        EntryPoint("raising", here, GROUP),
+    ]
+    monkeypatch.setattr(EntryPoint, "load", _load_from_here(EntryPoint.load, here))
+    monkeypatch.setattr(registry, "entry_points", lambda group: [*good, *bad])
+    window = make_robot_window()
+    assert set(window.panels) == {"control", "plots", "trajectory", "comparison"}
+    said = " ".join(notices(window))
+    for name in ("gone", "wrong", "raising"):
+        assert f"'{name}' is left out" in said
+
+
+def _load_from_here(load, here):
+    """Test modules are imported by path, so an entry point cannot name one."""
+    return lambda point: RaisingPanel if point.value == here else load(point)
+
+
+def test_a_notice_is_plain_text_and_can_be_closed(qtbot, window):
+    window.workbench.notify(module.Level.ERROR, "<b>file</b><script>x</script>.csv is bad")
+    (notice,) = window.notices.notices()
+    label = notice.findChild(module.QLabel)
+    assert label.textFormat() is Qt.TextFormat.PlainText
+    assert "<script>" in label.text()
