@@ -94,6 +94,13 @@ def test_moving_no_axis_asks_the_device_nothing(plain):
     assert plain.calls == []
 
 
+def test_a_closed_device_is_not_told_to_stop(plain):
+    plain.stop()
+    plain.close()
+    plain.stop()
+    assert plain.calls == ["stop", "close"]
+
+
 def test_time_that_runs_back_between_reads_is_no_answer(plain):
     plain.samples = samples([1.0, 2.0])
     plain.read()

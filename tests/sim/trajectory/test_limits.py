@@ -125,6 +125,17 @@ def test_rounding_to_the_resolution_poses_as_no_acceleration(rate_hz):
     assert find_violations(ROBOT, trajectory("x", rounded, rate_hz=rate_hz)) == ()
 
 
+def test_the_acceleration_bound_forgives_rounding_and_no_more():
+    resolution = ROBOT.axes["x"].sensor.resolution
+
+    def rounded(acceleration):
+        smooth = ramp(0.01, 0.009, acceleration, rate_hz=1000.0)
+        return trajectory("x", np.rint(smooth / resolution) * resolution)
+
+    assert find_violations(ROBOT, rounded(0.1999)) == ()
+    assert set(found(ROBOT, rounded(0.22))) == {Quantity.ACCELERATION}
+
+
 def test_the_window_weighs_one_rounding_at_five_percent():
     time_s = np.arange(100) / 1000.0
     rows = window_rows(time_s, 1e-7, 0.2)
