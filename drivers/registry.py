@@ -6,6 +6,7 @@ from importlib.metadata import EntryPoint, entry_points
 from typing import Any
 
 from rotemina.drivers.driver import Driver
+from rotemina.sim.errors import InputError
 
 DRIVERS = "rotemina.drivers"
 
@@ -41,6 +42,22 @@ def discover(group: str, base: type) -> Discovery:
 def discover_drivers() -> Discovery:
     """Return the installed drivers, subclasses of :class:`rotemina.drivers.driver.Driver`."""
     return discover(DRIVERS, Driver)
+
+
+def driver_named(name: str) -> type[Driver]:
+    """Return an installed driver.
+
+    Raises
+    ------
+    InputError
+        If there is none of that name, or it cannot be loaded, with the reason.
+    """
+    discovery = discover_drivers()
+    if name in discovery.broken:
+        raise InputError(f"driver {name!r} cannot be used: {discovery.broken[name]}")
+    if name not in discovery.found:
+        raise InputError(f"there is no driver {name!r}; installed: {', '.join(discovery.found)}")
+    return discovery.found[name]
 
 
 def _load(point: EntryPoint, base: type) -> type[Any] | str:

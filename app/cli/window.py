@@ -10,6 +10,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the window to the top level."""
     add_robot(parser)
     parser.add_argument(
+        "--driver", default="simulator", metavar="NAME", help="what to drive (default: simulator)"
+    )
+    parser.add_argument(
         "--offscreen",
         action="store_true",
         help="do the window's main job without a display: play the example trajectory on the "
@@ -31,4 +34,6 @@ def run(options: argparse.Namespace) -> int:
     # Qt is loaded only when a window is wanted: the subcommands work without its libraries.
     from rotemina.app.shell.start import start
 
-    return start(options.robot, offscreen=options.offscreen, output=options.output)
+    return start(
+        options.robot, driver=options.driver, offscreen=options.offscreen, output=options.output
+    )

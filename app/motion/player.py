@@ -6,7 +6,7 @@ from rotemina.app.motion.recorder import PlaybackRecorder
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.driver import TrajectoryPlayer
 from rotemina.drivers.errors import DriverError
-from rotemina.drivers.registry import discover_drivers
+from rotemina.drivers.registry import driver_named
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
@@ -60,12 +60,7 @@ def play_offline(
 
 
 def _virtual_player(name: str) -> type[TrajectoryPlayer]:
-    discovery = discover_drivers()
-    if name in discovery.broken:
-        raise InputError(f"driver {name!r} cannot be used: {discovery.broken[name]}")
-    if name not in discovery.found:
-        raise InputError(f"there is no driver {name!r}; installed: {', '.join(discovery.found)}")
-    found = discovery.found[name]
+    found = driver_named(name)
     if not (issubclass(found, TrajectoryPlayer) and found.virtual_time):
         raise InputError(f"driver {name!r} cannot play faster than real time; use the simulator")
     return found

@@ -11,13 +11,12 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.settings import Settings
 from rotemina.app.shell.main_window import MainWindow
 from rotemina.app.shell.window_run import make_window
-from rotemina.app.shell.workbench import Level, Plan, Run
+from rotemina.app.shell.workbench import Level, Run
 from rotemina.sim.comparison.figure import save_figure
 from rotemina.sim.comparison.table import table
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.writing import write_record
-from rotemina.sim.trajectory.dry_run import dry_run
 from rotemina.sim.trajectory.example import example_for
 
 TIME_LIMIT_MS = 120_000
@@ -77,12 +76,11 @@ def play(window: MainWindow, trajectory: Record) -> Run:
             finish(text)
 
     def begin(state: SessionState) -> None:
-        if state.locked is None:
+        if state.locked is None and bench.plan is not None:
             bench.refreshed.disconnect(begin)
             bench.play()
 
-    name = trajectory.metadata.get("name", "example")
-    bench.set_plan(Plan(name, trajectory, dry_run(bench.robot, trajectory)))
+    bench.plan_trajectory(trajectory.metadata.get("name", "example"), trajectory)
     bench.noticed.connect(noticed)
     bench.run_changed.connect(finish)
     bench.refreshed.connect(begin)

@@ -9,28 +9,30 @@ from rotemina.app.motion.session import MotionSession
 from rotemina.app.settings import Settings
 from rotemina.app.shell.display import display_fault
 from rotemina.app.system_check import complaint, missing_libraries, platform_in_use
-from rotemina.drivers.simulator.driver import Simulator
+from rotemina.drivers.registry import driver_named
 from rotemina.sim.robot.file import load_robot
 
 logger = logging.getLogger(__name__)
 
 
-def start(robot: str, *, offscreen: bool, output: Path) -> int:
+def start(robot: str, *, driver: str, offscreen: bool, output: Path) -> int:
     """Open the window and run it until it is closed; return the exit status.
 
     Parameters
     ----------
     robot : name of a shipped robot, or a robot file.
+    driver : name of an installed driver.
     offscreen : do the main job without a display.
     output : folder for the picture and report of a run without a display.
 
     Raises
     ------
-    RobotFileError
-        If the robot cannot be loaded.
+    InputError
+        If the robot cannot be loaded or there is no such driver.
     """
     logging.basicConfig(level=logging.WARNING, format="%(levelname)s %(name)s: %(message)s")
     described = load_robot(robot)
+    make_driver = driver_named(driver)
     reason = "--offscreen" if offscreen else display_fault()
     if reason:
         os.environ["QT_QPA_PLATFORM"] = "offscreen"
@@ -43,7 +45,7 @@ def start(robot: str, *, offscreen: bool, output: Path) -> int:
 
     qt_messages.log_qt_messages()
 
-    session = MotionSession(Simulator(described))
+    session = MotionSession(make_driver(described))
     if not reason:
         return window_run.run(session, Settings())
     print(f"No window ({reason}): playing the example trajectory offscreen instead.")

@@ -1,9 +1,11 @@
 """The window on a display, until its user closes it."""
 
 import signal
+from importlib import resources
 
 import pyqtgraph as pg
 from PySide6.QtCore import QTimer
+from PySide6.QtGui import QIcon, QImage, QPixmap
 from PySide6.QtWidgets import QApplication
 
 from rotemina.app.motion.session import MotionSession
@@ -20,6 +22,8 @@ def make_application() -> QApplication:
     application = QApplication.instance() or QApplication(["rotemina"])
     assert isinstance(application, QApplication)
     application.setApplicationName("RoTeMiNa")
+    icon = resources.files("rotemina.resources.icons").joinpath("rotemina.svg").read_bytes()
+    application.setWindowIcon(QIcon(QPixmap.fromImage(QImage.fromData(icon, "svg"))))
     pg.setConfigOptions(antialias=False, useOpenGL=False)
     return application
 

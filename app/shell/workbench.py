@@ -153,7 +153,15 @@ class Workbench(QObject):
             trajectory = read_record(path, columns=columns, robot=self.robot)
             return Plan(path.name, trajectory, dry_run(self.robot, trajectory))
 
-        self._work("plan", f"Reading {path.name} …", work, self.set_plan)
+        self._work("plan", f"Reading {path.name} …", work, self._set_plan)
+
+    def plan_trajectory(self, name: str, trajectory: Record) -> None:
+        """Try a trajectory on the model and take it in hand."""
+
+        def work() -> Plan:
+            return Plan(name, trajectory, dry_run(self.robot, trajectory))
+
+        self._work("plan", "Dry run …", work, self._set_plan)
 
     def open_record(self, path: Path, columns: str | None = None) -> None:
         """Read a record as "real" and compare it with the model."""
@@ -196,8 +204,7 @@ class Workbench(QObject):
         self.busy_changed.emit(doing)
         self._background.run(kind, work, finished, failed)  # type: ignore[arg-type]
 
-    def set_plan(self, plan: Plan) -> None:
-        """Take a trajectory in hand; one that breaks a limit is shown, but cannot be played."""
+    def _set_plan(self, plan: Plan) -> None:
         self.plan = plan
         self.plan_changed.emit(plan)
         if not plan.dry_run.allowed:

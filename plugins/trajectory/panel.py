@@ -2,6 +2,7 @@
 
 from PySide6.QtWidgets import (
     QAbstractItemView,
+    QDialog,
     QHBoxLayout,
     QHeaderView,
     QLabel,
@@ -17,6 +18,7 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.workbench import Plan, Workbench
 from rotemina.drivers.samples import DeviceState
+from rotemina.plugins.trajectory.resampling import ResamplingDialog
 from rotemina.plugins.trajectory.table import COLUMNS, cells
 
 EMPTY = "No trajectory is loaded. Load one to see what it asks of each axis before it is played."
@@ -33,6 +35,9 @@ class TrajectoryPanel(Panel):
         super().__init__(workbench)
         self.load = QPushButton("Load …")
         self.load.clicked.connect(lambda: self.window().ask_trajectory())
+        self.resample = QPushButton("Resample …")
+        self.resample.setEnabled(False)
+        self.resample.clicked.connect(self._resample)
         self.play = QPushButton("Play")
         self.play.setProperty("primary", True)
         self.play.clicked.connect(workbench.play)
@@ -52,6 +57,7 @@ class TrajectoryPanel(Panel):
     def _lay_out(self) -> None:
         buttons = QHBoxLayout()
         buttons.addWidget(self.load)
+        buttons.addWidget(self.resample)
         buttons.addWidget(self.play)
         buttons.addWidget(self.progress, 1)
         column = QVBoxLayout(self)
@@ -66,6 +72,7 @@ class TrajectoryPanel(Panel):
         run = plan.dry_run
         self.name.setText(f"{plan.name} – {run.duration_s:.3f} s, {run.rows} rows")
         self.name.show()
+        self.resample.setEnabled(True)
         if run.allowed:
             self.verdict.setText("Dry run: inside all limits of range, speed and acceleration.")
         else:
@@ -74,6 +81,14 @@ class TrajectoryPanel(Panel):
         self.verdict.setProperty("bad", not run.allowed)
         self.verdict.style().polish(self.verdict)
         self._fill(plan)
+
+    def _resample(self) -> None:
+        plan = self.workbench.plan
+        if plan is None:
+            return
+        dialog = ResamplingDialog(plan.trajectory, self)
+        if dialog.exec() == QDialog.DialogCode.Accepted and dialog.resampled is not None:
+            self.workbench.plan_trajectory(f"{plan.name}, resampled", dialog.resampled)
 
     def _fill(self, plan: Plan) -> None:
         figures = plan.dry_run.axes

@@ -9,7 +9,7 @@ from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.plant import kernel
 from rotemina.sim.plant.group import Group, groups_of
-from rotemina.sim.plant.sampling import cut, step_matrices
+from rotemina.sim.plant.sampling import Segments, cut, step_matrices
 from rotemina.sim.robot.model import CascadeController, PiezoAxis, Robot, StepperAxis
 
 
@@ -121,56 +121,63 @@ class Plant:
             If the response leaves what a float can hold, with axis and time.
         """
         history = len(state.time_s) if state.started else 0
-        count = history + len(time_s)
         given = self.open_loop_inputs(command) if inputs is None else inputs
         stack = _Stack(
+            first=history,
             time_s=np.concatenate([state.time_s[:history], time_s]),
             inputs=np.concatenate([state.inputs[:history], given]),
-            position=np.empty((count, len(self.axes))),
-            velocity=np.zeros((count, len(self.axes))),
-            command=np.concatenate([np.zeros((history, len(self.axes))), command]),
-            add=np.zeros((count, len(self.axes))),
+            position=_extended(state.position[:history], len(time_s)),
+            velocity=_extended(state.velocity[:history], len(time_s)),
+            command=np.ascontiguousarray(command),
+            add=np.empty((0, len(self.axes))) if add is None else np.ascontiguousarray(add),
         )
-        stack.position[:history] = state.position[:history]
-        stack.velocity[:history] = state.velocity[:history]
-        if add is not None:
-            stack.add[history:] = add
-        stack.position[history:] = self._static_position(stack.inputs[history:])
+        if any(axis.static for axis in self.robot.axes.values()):
+            stack.position[history:] = self._static_position(stack.inputs[history:])
+            stack.velocity[history:] = 0.0
+        delays = self._delays()
+        segments = cut(stack.time_s, history, delays)
         for group in self.groups:
-            self._run(group, stack, history, state)
+            self._run(group, stack, segments, delays, state)
         self._check(stack, history)
         motion = Motion(
             *(array[history:] for array in (stack.position, stack.velocity, stack.inputs))
         )
         return motion, self._after(stack)
 
-    def _run(self, group: Group, stack: "_Stack", history: int, state: PlantState) -> None:
+    def _run(
+        self,
+        group: Group,
+        stack: "_Stack",
+        segments: Segments,
+        delays: tuple[float, ...],
+        state: PlantState,
+    ) -> None:
         index = self._index(group)
         loops = [self.loops[i] for i in index]
-        delays = np.array([loop.delay_s if loop else 0.0 for loop in loops])
-        segments = cut(stack.time_s, history, delays)
         state_step, input_step = step_matrices(group, segments.lengths_s)
-        states = np.concatenate([stack.position[:, index], stack.velocity[:, index]], axis=1)
-        inputs = np.ascontiguousarray(stack.inputs[:, index])
-        x = np.concatenate([state.position[-1, index], state.velocity[-1, index]])
         kernel.run(
             state_step,
             input_step,
             segments.step,
             segments.sample,
             segments.applied,
+            np.array([delays.index(_delay(loop)) for loop in loops], dtype=np.int64),
+            index,
+            stack.first,
             stack.time_s,
-            np.ascontiguousarray(stack.command[:, index]),
-            np.ascontiguousarray(stack.add[:, index]),
+            stack.command,
+            stack.add,
             np.array([_loop_code(loop) for loop in loops], dtype=np.int64),
             np.array([_loop_gains(loop) for loop in loops]),
-            inputs,
-            states,
-            x,
+            stack.inputs,
+            stack.position,
+            stack.velocity,
+            np.concatenate([state.position[-1, index], state.velocity[-1, index]]),
         )
-        stack.position[:, index] = states[:, : group.size]
-        stack.velocity[:, index] = states[:, group.size :]
-        stack.inputs[:, index] = inputs
+
+    def _delays(self) -> tuple[float, ...]:
+        """Return the different delays of the axes' inputs, s."""
+        return tuple(sorted({_delay(loop) for loop in self.loops}))
 
     def _static_position(self, inputs: FloatArray) -> FloatArray:
         """Position (n, axes) of the static axes, ``gain·u`` or the command; 0 for the others."""
@@ -186,8 +193,8 @@ class Plant:
 
     def _after(self, stack: "_Stack") -> PlantState:
         """Keep the present and every sample whose delayed input has yet to act or acts now."""
-        longest = max((loop.delay_s for loop in self.loops if loop), default=0.0)
-        first = int(np.searchsorted(stack.time_s, stack.time_s[-1] - longest, side="right")) - 1
+        since_s = stack.time_s[-1] - max(self._delays())
+        first = int(np.searchsorted(stack.time_s, since_s, side="right")) - 1
         first = max(first, 0)
         return PlantState(
             stack.time_s[first:].copy(),
@@ -210,8 +217,9 @@ class Plant:
 
 
 class _Stack(NamedTuple):
-    """All arrays of one call, history rows first."""
+    """All arrays of one call: history rows first, but for ``command`` and ``add``."""
 
+    first: int
     time_s: FloatArray
     inputs: FloatArray
     position: FloatArray
@@ -220,9 +228,20 @@ class _Stack(NamedTuple):
     add: FloatArray
 
 
+def _extended(history: FloatArray, rows: int) -> FloatArray:
+    """Return room for ``rows`` more rows behind those of the history."""
+    extended = np.empty((len(history) + rows, history.shape[1]))
+    extended[: len(history)] = history
+    return extended
+
+
 def _controller(robot: Robot, name: str) -> CascadeController | None:
     axis = robot.axes[name]
     return None if isinstance(axis, StepperAxis) else axis.controller
+
+
+def _delay(loop: CascadeController | None) -> float:
+    return loop.delay_s if loop else 0.0
 
 
 def _loop_code(loop: CascadeController | None) -> int:

@@ -14,8 +14,9 @@ from scipy.linalg import expm
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.plant.group import Group
 
-TICK_S = 1e-15  # finest difference of sample times that is told from rounding
+TICK_S = 2.0**-50  # finest difference of sample times that is told from rounding
 _BATCH = 20_000  # matrix exponentials held at once
+_FEW_TICKS = 4096
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,8 +27,8 @@ class Segments:
     ----------
     sample : (s,) int
         Which sample is taken at the segment's start, or -1.
-    applied : (s, m) int
-        Which sample's input of each axis acts during the segment.
+    applied : (s, d) int
+        Which sample's input acts during the segment, for each of d delays.
     step : (s,) int
         Which entry of ``lengths_s`` is the segment's length.
     lengths_s : (k,) float
@@ -40,17 +41,19 @@ class Segments:
     lengths_s: FloatArray
 
 
-def cut(time_s: FloatArray, first: int, delay_s: FloatArray) -> Segments:
+def cut(time_s: FloatArray, first: int, delay_s: tuple[float, ...]) -> Segments:
     """Cut the span of ``time_s`` (n,), from sample ``first``, into segments.
 
     Samples before ``first`` are history: they are not taken again but their inputs still act.
-    ``delay_s`` (m,) is how long after its sample an input begins to act. With ``first`` > 0 the
-    run starts at sample ``first - 1``, whose state is known.
+    ``delay_s`` (d,) are the times after its sample at which an input may begin to act. With
+    ``first`` > 0 the run starts at sample ``first - 1``, whose state is known.
     """
     start = max(first - 1, 0)
-    tick = max(TICK_S, 4.0 * np.finfo(float).eps * float(np.abs(time_s[[0, -1]]).max()))
+    tick = _tick(float(np.abs(time_s[[0, -1]]).max()))
     ticks = np.rint((time_s - time_s[start]) / tick).astype(np.int64)
-    delays = np.rint(delay_s / tick).astype(np.int64)
+    if not any(delay_s):
+        return _cut_at_samples(ticks[start:], start, first, tick)
+    delays = np.rint(np.array(delay_s) / tick).astype(np.int64)
     edges = [ticks[start:]] + [ticks + delay for delay in np.unique(delays[delays > 0])]
     breaks = np.unique(np.concatenate(edges))
     breaks = breaks[(breaks >= 0) & (breaks <= ticks[-1])]
@@ -60,9 +63,43 @@ def cut(time_s: FloatArray, first: int, delay_s: FloatArray) -> Segments:
         [np.maximum(np.searchsorted(ticks + d, breaks, side="right") - 1, 0) for d in delays],
         axis=1,
     )
-    lengths = np.append(np.diff(breaks), 0)
-    values, step = np.unique(lengths, return_inverse=True)
-    return Segments(sample, applied, step.astype(np.int64), values * tick)
+    step, lengths = _distinct(np.append(np.diff(breaks), 0))
+    return Segments(sample, applied, step, np.asarray(lengths * tick, dtype=np.float64))
+
+
+def _tick(latest_s: float) -> float:
+    """Return what rounding cannot tell apart at this time, s.
+
+    A power of two, so that a live run meets the same step lengths again and again.
+    """
+    rounding = 4.0 * float(np.finfo(np.float64).eps) * latest_s
+    return max(TICK_S, 2.0 ** float(np.ceil(np.log2(rounding)))) if rounding > 0 else TICK_S
+
+
+def _cut_at_samples(ticks: IntArray, start: int, first: int, tick: float) -> Segments:
+    """Cut where no input is late: every segment begins with a sample, whose input acts at once."""
+    applied = np.arange(start, start + len(ticks))
+    sample = applied.copy()
+    if first > start:
+        sample[0] = -1
+    step, lengths = _distinct(np.append(np.diff(ticks), 0))
+    return Segments(sample, applied[:, None], step, np.asarray(lengths * tick, dtype=np.float64))
+
+
+def _distinct(lengths: IntArray) -> tuple[IntArray, IntArray]:
+    """Return for each length which of the sorted distinct ones it is, and those.
+
+    The lengths of even sampling differ by rounding alone, and counting is faster than sorting.
+    """
+    low, last = int(lengths[:-1].min(initial=2**62)), len(lengths) - 1
+    away = lengths[:last] - low
+    if last == 0 or int(away.max()) > _FEW_TICKS:
+        values, step = np.unique(lengths, return_inverse=True)
+        return step.astype(np.int64), values
+    seen = np.flatnonzero(np.bincount(away))
+    number = np.zeros(seen[-1] + 1, dtype=np.int64)
+    number[seen] = np.arange(1, len(seen) + 1)
+    return np.append(number[away], 0), np.concatenate([[0], low + seen])
 
 
 def step_matrices(group: Group, lengths_s: FloatArray) -> tuple[FloatArray, FloatArray]:

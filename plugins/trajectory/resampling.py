@@ -1,0 +1,76 @@
+"""The dialog that resamples a trajectory, with the speeds that this induces."""
+
+from PySide6.QtWidgets import (
+    QComboBox,
+    QDialog,
+    QDialogButtonBox,
+    QFormLayout,
+    QLabel,
+    QLineEdit,
+    QWidget,
+)
+
+from rotemina.app.display import label
+from rotemina.sim.errors import InputError
+from rotemina.sim.records.record import Record
+from rotemina.sim.records.resampling import induced_velocity, resample
+from rotemina.sim.units import symbol, to_unit
+
+METHODS = {
+    "hold – as a device does between rows": "hold",
+    "linear – straight lines between rows": "linear",
+    "cubic – smooth, may swing beyond the rows": "cubic",
+}
+
+
+class ResamplingDialog(QDialog):
+    """Rate and method; what would come out is shown before it is accepted."""
+
+    def __init__(self, trajectory: Record, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setWindowTitle("Resample the trajectory")
+        self._trajectory = trajectory
+        self.resampled: Record | None = None
+        self.rate = QLineEdit("1000")
+        self.rate.setAccessibleName("Rate in Hz")
+        self.method = QComboBox()
+        for text, name in METHODS.items():
+            self.method.addItem(text, name)
+        self.outcome = QLabel()
+        self.outcome.setMinimumWidth(360)
+        self.buttons = QDialogButtonBox(
+            QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel
+        )
+        self.buttons.accepted.connect(self.accept)
+        self.buttons.rejected.connect(self.reject)
+        form = QFormLayout(self)
+        form.addRow("Rate [Hz]", self.rate)
+        form.addRow("Between rows", self.method)
+        form.addRow("Fastest command", self.outcome)
+        form.addRow(self.buttons)
+        self.rate.textChanged.connect(self._try)
+        self.method.currentIndexChanged.connect(self._try)
+        self._try()
+
+    def _try(self) -> None:
+        try:
+            rate_hz = float(self.rate.text())
+            self.resampled = resample(self._trajectory, rate_hz, self.method.currentData())
+        except (InputError, ValueError) as error:
+            self.resampled = None
+            self.outcome.setText(str(error))
+        else:
+            self.outcome.setText(speeds(self._trajectory, self.resampled))
+        ok = self.buttons.button(QDialogButtonBox.StandardButton.Ok)
+        ok.setEnabled(self.resampled is not None)
+
+
+def speeds(before: Record, after: Record) -> str:
+    """Return one line an axis: its fastest command before and after."""
+    old, new = induced_velocity(before), induced_velocity(after)
+    lines = []
+    for axis in old:
+        unit = "mrad" if before.units[axis] == "rad" else "mm"
+        values = (f"{to_unit(speed[axis], unit):.4g}" for speed in (old, new))
+        lines.append(f"{label(axis)}: {' → '.join(values)} {symbol(unit)}/s")
+    return "\n".join(lines)
