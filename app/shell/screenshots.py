@@ -17,11 +17,13 @@ def main(folder: Path) -> int:
     from rotemina.app.motion.session import MotionSession
     from rotemina.app.settings import Settings
     from rotemina.app.shell.offscreen_run import play
+    from rotemina.app.shell.qt_messages import log_qt_messages
     from rotemina.app.shell.window_run import make_window
     from rotemina.drivers.simulator.driver import Simulator
     from rotemina.sim.robot.file import load_robot
     from rotemina.sim.trajectory.example import example_for
 
+    log_qt_messages()
     folder.mkdir(parents=True, exist_ok=True)
     robot = load_robot("rotemina")
     count = 0
@@ -40,7 +42,8 @@ def main(folder: Path) -> int:
                 name = f"{width}x{height}-{theme}"
                 window.grab().save(str(folder / f"window-{name}.png"))
                 count += 1
-                for panel_name, panel in window.panels.items():
+                panels = window.panels if theme == "dark" else {}
+                for panel_name, panel in panels.items():
                     panel.grab().save(str(folder / f"{panel_name}-{name}.png"))
                     count += 1
         window.workbench.close()

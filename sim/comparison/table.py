@@ -23,7 +23,7 @@ def table(comparison: Comparison) -> str:
 
 def cells(tap: TapComparison) -> tuple[str, ...]:
     """Return one text for each of :data:`HEAD`."""
-    delay = NONE if tap.delay_s is None else f"{1e3 * tap.delay_s:.3f} ms"
+    delay = NONE if tap.delay_s is None else f"{1e3 * tap.delay_s:z.3f} ms"
     return (
         f"{tap.axis}.{tap.tap}",
         _size(tap.rms, tap.unit),
