@@ -58,5 +58,5 @@ def stages(robot: Robot) -> dict[str, tuple[str, ...]]:
 def step_presets(unit: str, span: float) -> tuple[float, ...]:
     """Return jog steps (SI) for an axis unit: decades from fine to a tenth of the range."""
     finest = 1e-6 if unit == "rad" else 1e-8
-    decades = round(math.log10(span / 10 / finest))
+    decades = math.floor(math.log10(span / 10 / finest) + 1e-9)
     return tuple(finest * 10**power for power in range(max(decades, 0) + 1))

@@ -68,8 +68,13 @@ class SignalPlot(pg.PlotWidget):
         self.getPlotItem().layout.setContentsMargins(0, 4, 12, 0 if shown else 4)
 
     def show_signal(self, name: str, time_s: FloatArray, values: FloatArray) -> None:
-        """Draw a signal (n,), thinned to what the width can show."""
-        self._curves[name].setData(*envelope(time_s, values, max(self.width(), 200) // 2))
+        """Draw a signal (n,), thinned to what the width can show.
+
+        A wide line is thinned further: it hides what is narrower than itself.
+        """
+        _, width = self._pens[name]
+        buckets = max(self.width(), 200) // (2 * width)
+        self._curves[name].setData(*envelope(time_s, values, buckets))
 
     def clear_signal(self, name: str) -> None:
         """Draw nothing for a curve."""
