@@ -15,7 +15,7 @@ from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.drivers.settings import SettingError, SettingValue
 from rotemina.drivers.simulator.device import SimulatedDevice
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.plant.plant import PlantError
+from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import ForceAxis, Robot
 

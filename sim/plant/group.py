@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotemina.sim.arrays import FloatArray
+from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.robot.matrices import inertia_matrices
 from rotemina.sim.robot.model import Axis, ForceAxis, PiezoAxis, Robot
 
@@ -33,6 +33,8 @@ class Group:
         E of the equation: N/V for volts, N/m for a commanded position.
     force : (m,)
         F of the equation, N.
+    moved_by_force : (m,) bool
+        Which axes are of kind ``force``.
     """
 
     axes: tuple[str, ...]
@@ -40,25 +42,12 @@ class Group:
     stiffness: FloatArray
     input_gain: FloatArray
     force: FloatArray
+    moved_by_force: BoolArray
 
     @property
     def size(self) -> int:
         """Number of axes m."""
         return len(self.axes)
-
-    def rest_position(self, inputs: FloatArray, command: FloatArray) -> FloatArray:
-        """Return the (m,) positions at rest under held ``inputs`` (m,).
-
-        An axis without stiffness, and any axis moved by a force, rests at its ``command`` (m,).
-        """
-        load = self.input_gain * inputs + self.force
-        free = np.diag(self.stiffness) == 0.0
-        position = np.where(free, command, 0.0)
-        held = ~free
-        if held.any():
-            rest = load[held] - self.stiffness[np.ix_(held, free)] @ position[free]
-            position[held] = np.linalg.solve(self.stiffness[np.ix_(held, held)], rest)
-        return position
 
 
 def input_gain(axis: Axis) -> float:
@@ -106,9 +95,8 @@ def _group(
 ) -> Group:
     block = np.ix_(members, members)
     gains = np.array([input_gain(robot.axes[name]) for name in axes])
-    force = np.array(
-        [-a.force_offset if isinstance(a := robot.axes[name], ForceAxis) else 0.0 for name in axes]
-    )
+    forced = [axis if isinstance(axis := robot.axes[n], ForceAxis) else None for n in axes]
+    force = np.array([-axis.force_offset if axis else 0.0 for axis in forced])
     m = len(axes)
     inverse = np.linalg.inv(mass[block])
     generator = np.zeros((3 * m + 1, 3 * m + 1))
@@ -117,4 +105,5 @@ def _group(
     generator[m : 2 * m, m : 2 * m] = -inverse @ damping[block]
     generator[m : 2 * m, 2 * m : 3 * m] = inverse * gains
     generator[m : 2 * m, 3 * m] = inverse @ force
-    return Group(tuple(axes), generator, stiffness[block], gains, force)
+    by_force = np.array([axis is not None for axis in forced])
+    return Group(tuple(axes), generator, stiffness[block], gains, force, by_force)

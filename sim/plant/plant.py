@@ -1,20 +1,18 @@
 """The nominal plant: what the model believes of a machine, sampled exactly."""
 
-from dataclasses import dataclass
+from collections.abc import Collection
+from dataclasses import dataclass, replace
 from typing import NamedTuple, Self
 
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray, IntArray
-from rotemina.sim.errors import InputError
 from rotemina.sim.plant import kernel
+from rotemina.sim.plant.equilibrium import rest
+from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.group import Group, groups_of
 from rotemina.sim.plant.sampling import Segments, cut, step_matrices
-from rotemina.sim.robot.model import CascadeController, PiezoAxis, Robot, StepperAxis
-
-
-class PlantError(InputError):
-    """A robot and commands that cannot be simulated together."""
+from rotemina.sim.robot.model import Axis, CascadeController, PiezoAxis, Robot, StepperAxis
 
 
 class Motion(NamedTuple):
@@ -31,24 +29,23 @@ class Motion(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlantState:
-    """Where a run stands after its last sample, with the samples whose inputs still matter.
+    """Where a run stands, with the samples whose inputs still act or have yet to act.
 
-    ``time_s`` (h,), ``inputs`` (h, axes) and ``position``, ``velocity`` (h, axes) of the last h
-    samples; the very last is the present. No sample has been taken yet where ``started`` is false.
+    ``time_s`` (h,), and ``inputs``, ``position``, ``velocity`` (h, axes) of the last h samples;
+    the very last is the present.
     """
 
     time_s: FloatArray
     inputs: FloatArray
     position: FloatArray
     velocity: FloatArray
-    started: bool
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Plant:
     """A robot prepared for simulation; make one by :meth:`of`.
 
-    ``axes`` are all axes of the robot, in its order; ``loops`` the controllers that are closed.
+    ``axes`` are those of ``robot``, in its order; ``loops`` the controllers that are closed.
     """
 
     robot: Robot
@@ -57,20 +54,40 @@ class Plant:
     loops: tuple[CascadeController | None, ...]
 
     @classmethod
-    def of(cls, robot: Robot, *, closed_loop: bool = False) -> Self:
-        """Prepare ``robot``; with ``closed_loop`` every axis that has a controller is under it."""
+    def of(
+        cls, robot: Robot, *, closed_loop: bool = False, only: Collection[str] | None = None
+    ) -> Self:
+        """Prepare a robot.
+
+        Parameters
+        ----------
+        robot : Robot
+        closed_loop : bool
+            Put every axis that has a controller under it.
+        only : collection of str, optional
+            Simulate these axes and those that a coupling joins to them; all by default.
+        """
+        groups = groups_of(robot)
+        if only is not None:
+            groups = tuple(group for group in groups if set(only) & set(group.axes))
+            joined = {name for group in groups for name in group.axes} | set(only)
+            robot = _restricted(robot, joined)
         axes = tuple(robot.axes)
         loops = tuple(_controller(robot, name) if closed_loop else None for name in axes)
-        return cls(robot, axes, groups_of(robot), loops)
+        return cls(robot, axes, groups, loops)
 
     def open_loop_inputs(self, command: FloatArray) -> FloatArray:
-        """Return the inputs (n, axes) that ``command`` asks for: V for piezos, else the command."""
-        scale = [a.gain if isinstance(a, PiezoAxis) else 1.0 for a in self.robot.axes.values()]
+        """Return the inputs (n, axes) that a command (n, axes) asks for.
+
+        V for piezos, the command itself for steppers; none (0 V) for axes moved by a force, whose
+        voltage a command does not tell.
+        """
+        share = np.array([_input_per_command(axis) for axis in self.robot.axes.values()])
         with np.errstate(over="ignore"):  # found, and said, after the run
-            return np.asarray(command / np.array(scale))
+            return np.where(share != 0.0, command, 0.0) * share
 
     def at_rest(self, time_s: float, command: FloatArray) -> PlantState:
-        """Return the state in equilibrium with ``command`` (axes,), before its first sample.
+        """Return the state in equilibrium with ``command`` (axes,), at ``time_s``.
 
         An axis that a force moves is at its command, at rest.
         """
@@ -78,16 +95,15 @@ class Plant:
         position = self._static_position(inputs[None])[0]
         for group in self.groups:
             index = self._index(group)
-            position[index] = group.rest_position(inputs[index], command[index])
+            loops = tuple(self.loops[i] for i in index)
+            position[index], inputs[index] = rest(group, inputs[index], command[index], loops)
         return self.at(time_s, inputs, position, np.zeros(len(self.axes)))
 
     def at(
         self, time_s: float, inputs: FloatArray, position: FloatArray, velocity: FloatArray
     ) -> PlantState:
-        """Return a given state, each (axes,), before the first sample."""
-        return PlantState(
-            np.array([time_s]), inputs[None], position[None], velocity[None], started=False
-        )
+        """Return a given state, each (axes,), under inputs that hold until the first sample."""
+        return PlantState(np.array([time_s]), inputs[None], position[None], velocity[None])
 
     def advance(
         self,
@@ -105,7 +121,8 @@ class Plant:
         state : PlantState
             From :meth:`at_rest`, :meth:`at` or an earlier call.
         time_s : (n,)
-            Sample times, increasing, from the state's time on. A response is sampled at
+            Sample times, increasing, from the state's time on (at that very time, the state is
+            the first sample). A response is sampled at
             ``time_s[k]`` before ``command[k]`` acts.
         command : (n, axes)
             m or rad.
@@ -120,7 +137,8 @@ class Plant:
         PlantError
             If the response leaves what a float can hold, with axis and time.
         """
-        history = len(state.time_s) if state.started else 0
+        # A sample at the state's own time replaces it; later ones find it as their history.
+        history = len(state.time_s) if time_s[0] > state.time_s[-1] else 0
         given = self.open_loop_inputs(command) if inputs is None else inputs
         stack = _Stack(
             first=history,
@@ -201,7 +219,6 @@ class Plant:
             stack.inputs[first:].copy(),
             stack.position[first:].copy(),
             stack.velocity[first:].copy(),
-            started=True,
         )
 
     def _check(self, stack: "_Stack", history: int) -> None:
@@ -233,6 +250,22 @@ def _extended(history: FloatArray, rows: int) -> FloatArray:
     extended = np.empty((len(history) + rows, history.shape[1]))
     extended[: len(history)] = history
     return extended
+
+
+def _restricted(robot: Robot, names: Collection[str]) -> Robot:
+    """Return the robot with some of its axes alone."""
+    return replace(
+        robot,
+        axes={name: axis for name, axis in robot.axes.items() if name in names},
+        couplings=tuple(c for c in robot.couplings if set(c.axes) <= set(names)),
+        stages={},
+    )
+
+
+def _input_per_command(axis: Axis) -> float:
+    if isinstance(axis, PiezoAxis):
+        return 1.0 / axis.gain
+    return 1.0 if isinstance(axis, StepperAxis) else 0.0
 
 
 def _controller(robot: Robot, name: str) -> CascadeController | None:

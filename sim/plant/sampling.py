@@ -9,13 +9,15 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.linalg import expm
+from scipy.linalg import expm, matrix_balance
 
 from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.group import Group
 
 TICK_S = 2.0**-50  # finest difference of sample times that is told from rounding
-_BATCH = 20_000  # matrix exponentials held at once
+_FEW_LENGTHS = 32
+_SERIES_TERMS = 16  # 0.5¹⁶ / 16! is below 1e-18
 _FEW_TICKS = 4096
 
 
@@ -51,6 +53,12 @@ def cut(time_s: FloatArray, first: int, delay_s: tuple[float, ...]) -> Segments:
     start = max(first - 1, 0)
     tick = _tick(float(np.abs(time_s[[0, -1]]).max()))
     ticks = np.rint((time_s - time_s[start]) / tick).astype(np.int64)
+    if len(ticks) > start + 1 and np.diff(ticks[start:]).min() <= 0:
+        row = start + int(np.argmin(np.diff(ticks[start:])))
+        raise PlantError(
+            f"the samples after t = {time_s[row]!r} s are {time_s[row + 1] - time_s[row]:.3g} s "
+            f"apart, rounding there is {tick:.3g} s; count time from the start of the record"
+        )
     if not any(delay_s):
         return _cut_at_samples(ticks[start:], start, first, tick)
     delays = np.rint(np.array(delay_s) / tick).astype(np.int64)
@@ -107,15 +115,10 @@ def step_matrices(group: Group, lengths_s: FloatArray) -> tuple[FloatArray, Floa
 
     The last input column belongs to the constant force.
     """
-    if len(lengths_s) <= 32:  # a live run asks for the same few lengths again and again
+    if len(lengths_s) <= _FEW_LENGTHS:  # a live run asks for the same few lengths again and again
         exact = np.stack([_step(group, float(length)) for length in lengths_s])
     else:
-        exact = np.concatenate(
-            [
-                expm(lengths_s[i : i + _BATCH, None, None] * group.generator)[:, : 2 * group.size]
-                for i in range(0, len(lengths_s), _BATCH)
-            ]
-        )
+        exact = _many_steps(group, lengths_s)
     states = 2 * group.size
     return np.ascontiguousarray(exact[:, :, :states]), np.ascontiguousarray(exact[:, :, states:])
 
@@ -124,3 +127,30 @@ def step_matrices(group: Group, lengths_s: FloatArray) -> tuple[FloatArray, Floa
 def _step(group: Group, length_s: float) -> FloatArray:
     exact: FloatArray = expm(length_s * group.generator)[: 2 * group.size]
     return exact
+
+
+def _many_steps(group: Group, lengths_s: FloatArray) -> FloatArray:
+    """Return the steps of uneven sampling: ``exp(A h) = exp(A h₀) exp(A (h − h₀))``.
+
+    The second factor is its power series, with h₀ chosen from a grid so fine that the series
+    converges to rounding; one matrix exponential then serves many lengths.
+    """
+    balanced, _ = matrix_balance(group.generator, permute=False)
+    pitch = 1.0 / float(np.linalg.norm(balanced, 1))
+    bucket = np.rint(lengths_s / pitch).astype(np.int64)
+    series = _series(group.generator, lengths_s - bucket * pitch)
+    exact = np.empty((len(lengths_s), 2 * group.size, len(group.generator)))
+    for number in np.unique(bucket):
+        members = bucket == number
+        exact[members] = _step(group, float(number * pitch)) @ series[members]
+    return exact
+
+
+def _series(generator: FloatArray, lengths_s: FloatArray) -> FloatArray:
+    """Return the power series of ``exp(A h)``, (k, n, n), for lengths with ‖A h‖ ≤ 1/2."""
+    powers, weights = [np.eye(len(generator))], [np.ones(len(lengths_s))]
+    for order in range(1, _SERIES_TERMS):
+        powers.append(powers[-1] @ generator)
+        weights.append(weights[-1] * lengths_s / order)
+    flat = np.stack(weights, axis=1) @ np.stack(powers).reshape(_SERIES_TERMS, -1)
+    return np.asarray(flat.reshape(len(lengths_s), *generator.shape))

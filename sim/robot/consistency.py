@@ -100,6 +100,8 @@ def _drive(axis: Axis) -> Iterator[Problem]:
         yield Problem("gain", axis.gain, "must not be zero")
     elif isinstance(axis, PiezoAxis) and axis.voltage_range is not None:
         yield from _reach(axis)
+    if axis.controller is not None and axis.static:
+        yield Problem("controller", axis.controller.kind, "a static axis has nothing to control")
     if axis.controller is not None and axis.voltage_range is not None:
         largest = max(abs(bound) for bound in axis.voltage_range)
         if axis.controller.limit > largest * (1 + VOLTAGE_SLACK):

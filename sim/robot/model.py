@@ -6,6 +6,7 @@ Units are SI throughout (m, rad, kg, N, V, s). The numbers come from a robot fil
 
 from collections.abc import Mapping
 from dataclasses import field
+from math import pi
 from typing import Annotated, Literal, NamedTuple
 
 from pydantic import ConfigDict, Field
@@ -62,7 +63,7 @@ class CascadeController:
     kv: Positive
     limit: Positive
     velocity: Literal["backward", "state"] = "state"
-    delay_s: NotNegative = 0.0
+    delay_s: Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0, le=1.0)] = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
@@ -96,7 +97,7 @@ class _Axis:
         if self.static:
             return None
         if self.natural_frequency_hz is not None and self.damping_ratio is not None:
-            rate = 2.0 * 3.141592653589793 * self.natural_frequency_hz
+            rate = 2.0 * pi * self.natural_frequency_hz
             return Inertia(1.0, 2.0 * self.damping_ratio * rate, rate**2)
         if self.mass is None or self.damping is None:
             raise ValueError("an axis with dynamics needs mass and damping")

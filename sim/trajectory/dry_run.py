@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.plant.plant import PlantError
+from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Axis, Robot

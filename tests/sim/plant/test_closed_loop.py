@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from rotemina.sim.plant.plant import Plant, PlantError
+from rotemina.sim.plant.errors import PlantError
+from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
@@ -89,7 +90,7 @@ def test_a_loop_in_pieces_is_the_loop_at_once(delay_s):
 
 def test_a_force_axis_open_loop_needs_its_voltage():
     record = Record.from_signals(np.arange(3.0), {("q", Tap.CMD): np.zeros(3)}, {"q": "m"})
-    with pytest.raises(PlantError, match=r"needs its q\.u"):
+    with pytest.raises(PlantError, match=r"needs a q\.u column"):
         nominal_response(EMPS, record)
 
 

@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotemina.sim.plant.plant import Plant, PlantError
+from rotemina.sim.plant.errors import PlantError
+from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record, Tap
@@ -182,7 +183,7 @@ def test_an_unknown_history_starts_from_the_first_measured_samples():
 
 def test_an_axis_that_the_robot_lacks_is_named():
     record = Record.from_signals(np.arange(3.0), {("q", Tap.CMD): np.zeros(3)}, {"q": "m"})
-    with pytest.raises(PlantError, match=r"'q'.*'RoTeMiNa' has \['x', 'y'"):
+    with pytest.raises(PlantError, match=r"'q'.*'RoTeMiNa' has x, y, z"):
         nominal_response(ROBOT, record)
 
 

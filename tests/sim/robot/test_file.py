@@ -127,6 +127,7 @@ def test_any_number_and_names_of_axes():
         (PIEZO, "static = true", "static = 1", r"axis\.s\.static = 1: must be true or false"),
         (CONTROLLED, "limit = 10.0", "limit = 11.0", r"controller\.limit = 11\.0: .*10 V"),
         (CONTROLLED, '"cascade"', '"pid"', r"controller\.kind = 'pid': must be 'cascade'"),
+        (CONTROLLED, "kp = 100.0", "kp = 1\ndelay_s = 2.0", r"delay_s = 2\.0: must be at most 1"),
         (CONTROLLED, "kp = 100.0", "kp = 0.0", r"controller\.kp = 0\.0: .*greater than 0"),
         (CONTROLLED, "mass = 90.0", "mass = 90.0\nstatic = true", r"static = True: .*'force'"),
     ],

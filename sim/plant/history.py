@@ -1,0 +1,134 @@
+"""How a run starts that does not start at rest: in its steady state, or as it was measured."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.plant.errors import PlantError
+from rotemina.sim.plant.plant import Plant, PlantState
+from rotemina.sim.plant.run import Run
+from rotemina.sim.records.record import Record, Tap
+
+_FIRST_ROWS = 8  # rows from which position and velocity at the start are taken
+_SURE = 3.0  # standard errors from which a first velocity is told from noise
+_SETTLED = 1e-11  # change from period to period, over the motion, that counts as steady
+_MOST_PERIODS = 60
+_UNHELD = 1e9  # condition from which a period leaves some state as it was
+
+
+def steady_start(plant: Plant, run: Run, period_samples: int | None) -> PlantState:
+    """Return the state at the first row in the steady state of a periodic run.
+
+    Without closed loops the plant is linear, and the state that a period brings back to itself is
+    solved for; under controllers, which may saturate, periods are run until they repeat.
+
+    Raises
+    ------
+    PlantError
+        If the period is longer than the record or there is no steady state.
+    """
+    rows = len(run.time_s)
+    period = period_samples or rows
+    if period > rows:
+        raise PlantError(f"period_samples = {period}: the record has only {rows} rows")
+    lead = _lead(run, period)
+    if any(plant.loops):
+        return _settle(plant, lead, run)
+    return _solve(plant, lead, run)
+
+
+def measured_start(plant: Plant, record: Record, run: Run) -> PlantState:
+    """Return the state at the first row by position and velocity of the first rows measured."""
+    rest = plant.at_rest(run.time_s[0], run.command[0])
+    position, velocity = rest.position[0].copy(), rest.velocity[0].copy()
+    for column, name in enumerate(plant.axes):
+        tap = Tap.REF if record.has(name, Tap.REF) else Tap.MEAS
+        if record.has(name, tap):
+            offset = plant.robot.axes[name].offset if tap is Tap.MEAS else 0.0
+            signal = record.signal(name, tap)[:_FIRST_ROWS] - offset
+            start = _first(record.time_s[: len(signal)] - record.time_s[0], signal)
+            position[column], velocity[column] = start
+    return plant.at(run.time_s[0], run.inputs[0], position, velocity)
+
+
+def _first(since_s: FloatArray, signal: FloatArray) -> tuple[float, float]:
+    """Return position and velocity at 0 by a parabola; at rest where no velocity is sure.
+
+    A noisy velocity would make a stiff model ring that in truth stands still.
+    """
+    if len(signal) < 4:
+        return float(signal[0]), 0.0
+    matrix = np.vander(since_s / since_s[-1], 3, increasing=True)
+    curve, *_ = np.linalg.lstsq(matrix, signal, rcond=None)
+    scatter = float(np.sum((signal - matrix @ curve) ** 2)) / max(len(signal) - 3, 1)
+    error = np.sqrt(scatter * np.linalg.inv(matrix.T @ matrix)[1, 1])
+    if abs(curve[1]) <= _SURE * error:
+        return float(np.mean(signal)), 0.0
+    return float(curve[0]), float(curve[1] / since_s[-1])
+
+
+def _lead(run: Run, period: int) -> Run:
+    """Return the first period, moved to end where the record begins."""
+    rows = len(run.time_s)
+    if period < rows:
+        length = run.time_s[period] - run.time_s[0]
+    else:
+        length = (run.time_s[-1] - run.time_s[0]) * rows / max(rows - 1, 1)
+    first = slice(0, period)
+    return Run(run.time_s[first] - length, run.command[first], run.add[first], run.inputs[first])
+
+
+def _settle(plant: Plant, lead: Run, run: Run) -> PlantState:
+    state = plant.at_rest(lead.time_s[0], run.command[0])
+    for _ in range(_MOST_PERIODS):
+        motion, after = plant.advance(
+            state, lead.time_s, lead.command, add=lead.add, inputs=lead.inputs
+        )
+        size = np.ptp(motion.position, axis=0) + np.ptp(motion.velocity, axis=0)
+        change = np.abs(after.position[-1] - state.position[-1])
+        change = change + np.abs(after.velocity[-1] - state.velocity[-1])
+        if (change <= _SETTLED * size).all():
+            return after
+        state = replace(after, time_s=after.time_s + (lead.time_s[0] - run.time_s[0]))
+    raise PlantError(
+        f"the model does not come to a steady state within {_MOST_PERIODS} periods; "
+        "use '# history: unknown'"
+    )
+
+
+def _solve(plant: Plant, lead: Run, run: Run) -> PlantState:
+    """Solve ``x = Φ x + b`` over one period; Φ is found by starting each state a little aside."""
+    rest = plant.at_rest(lead.time_s[0], run.command[0])
+    start = np.concatenate([rest.position[-1], rest.velocity[-1]])
+    end = _end(plant, lead, run, start)
+    axes = len(plant.axes)
+    solved = start.copy()
+    for group in plant.groups:
+        own = [plant.axes.index(name) for name in group.axes]
+        own += [axes + column for column in own]
+        map_ = np.empty((len(own), len(own)))
+        for number, state in enumerate(own):
+            aside = start.copy()
+            step = 1e-3 * (plant.robot.axes[plant.axes[state % axes]].span)
+            aside[state] += step
+            map_[:, number] = (_end(plant, lead, run, aside) - end)[own] / step
+        lasting = np.eye(len(own)) - map_
+        if np.linalg.cond(lasting / np.abs(lasting).max(axis=1, keepdims=True)) > _UNHELD:
+            raise PlantError(
+                f"axis {group.axes[0]}: it has no steady state, nothing holds it; "
+                "use '# history: unknown'"
+            )
+        solved[own] += np.linalg.solve(lasting, (end - start)[own])
+    return plant.at(run.time_s[0], run.inputs[0], solved[:axes], solved[axes:])
+
+
+def _end(plant: Plant, lead: Run, run: Run, start: FloatArray) -> FloatArray:
+    """Return the state (2·axes,) where the record begins, from one a period before."""
+    axes = len(plant.axes)
+    state = plant.at(lead.time_s[0], lead.inputs[0], start[:axes], start[axes:])
+    time_s = np.append(lead.time_s, run.time_s[0])
+    command = np.vstack([lead.command, run.command[:1]])
+    inputs = np.vstack([lead.inputs, run.inputs[:1]])
+    _, after = plant.advance(state, time_s, command, inputs=inputs)
+    return np.concatenate([after.position[-1], after.velocity[-1]])
