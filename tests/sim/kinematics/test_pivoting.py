@@ -1,0 +1,80 @@
+"""Moves that leave the tip where it is."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rotemina.sim.kinematics.chain import Chain
+from rotemina.sim.kinematics.forward import tip_position
+from rotemina.sim.kinematics.pivoting import hold_tip, hold_tip_path, pivot, recentre
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.trajectory.limits import OutOfLimitsError
+
+CHAIN = Chain.of(load_robot("rotemina"))
+inner = st.lists(st.floats(0.01, 0.99), min_size=6, max_size=6).map(np.array)
+whole = st.lists(st.floats(0.0, 1.0), min_size=3, max_size=3).map(np.array)
+
+
+@given(share=inner, other=whole)
+def test_the_tip_stays_in_every_nano_pose(share, other):
+    joints = CHAIN.lower + share * (CHAIN.upper - CHAIN.lower)
+    nano = CHAIN.lower[3:] + other * (CHAIN.upper - CHAIN.lower)[3:]
+    tip = tip_position(CHAIN, joints)
+    held = hold_tip(CHAIN, joints, nano)
+    np.testing.assert_array_equal(held[3:], nano)
+    np.testing.assert_allclose(tip_position(CHAIN, held), tip, rtol=0, atol=1e-15)
+    centred = recentre(CHAIN, joints)
+    np.testing.assert_array_equal(centred[3:], CHAIN.centre[3:])
+    np.testing.assert_allclose(tip_position(CHAIN, centred), tip, rtol=0, atol=1e-15)
+
+
+def test_a_pivot_turns_by_the_angles_given():
+    turned = pivot(CHAIN, CHAIN.centre, np.array([1e-4, -2e-4]))
+    np.testing.assert_allclose(turned[3:] - CHAIN.centre[3:], [1e-4, -2e-4, 0.0], atol=1e-18)
+    np.testing.assert_allclose(turned[:2] - CHAIN.centre[:2], [-8e-6, -4e-6], rtol=2e-3)
+
+
+def test_a_path_of_turns_keeps_the_tip_at_every_row():
+    angle = np.linspace(0, 2 * np.pi, 50)
+    turns = 3e-4 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    path = pivot(CHAIN, CHAIN.centre, turns)
+    assert path.shape == (50, 6)
+    strayed = tip_position(CHAIN, path) - tip_position(CHAIN, CHAIN.centre)
+    assert np.abs(strayed).max() < 1e-15
+
+
+def test_a_straight_line_strays_by_its_square():
+    """The bound of the module: pin_length · turn² / 8 half-way between two rows."""
+    nano = CHAIN.lower[3:].copy()
+    path = hold_tip_path(CHAIN, CHAIN.centre, nano, 2)
+    half_way = tip_position(CHAIN, path.mean(axis=0)) - tip_position(CHAIN, CHAIN.centre)
+    turn = np.hypot(*CHAIN.centre[3:5])
+    bound = CHAIN.pin_length * turn**2 / 8
+    # Shortening the pin while turning adds the product of both.
+    assert np.linalg.norm(half_way) <= bound + turn * CHAIN.centre[5] / 4
+    finer = hold_tip_path(CHAIN, CHAIN.centre, nano, 11)
+    between = tip_position(CHAIN, 0.5 * (finer[1:] + finer[:-1]))
+    strayed = np.linalg.norm(between - tip_position(CHAIN, CHAIN.centre), axis=-1)
+    assert strayed.max() == pytest.approx(np.linalg.norm(half_way) / 100, rel=0.02)
+
+
+def test_re_centring_runs_evenly_from_here_to_the_middle():
+    joints = CHAIN.centre.copy()
+    joints[3:] = CHAIN.upper[3:]
+    path = hold_tip_path(CHAIN, joints, CHAIN.centre[3:], 5)
+    np.testing.assert_allclose(path[0], joints, rtol=0, atol=1e-16)
+    np.testing.assert_array_equal(path[-1], recentre(CHAIN, joints))
+    np.testing.assert_allclose(np.diff(path[:, 3:], n=2, axis=0), 0.0, atol=1e-18)
+
+
+def test_a_turn_beyond_the_range_is_refused_with_its_row():
+    with pytest.raises(OutOfLimitsError, match=r"axis thx: position 1\.58178 mrad at row 1"):
+        pivot(CHAIN, CHAIN.centre, np.array([[0.0, 0.0], [1e-3, 0.0]]))
+
+
+def test_a_table_at_its_end_that_would_have_to_move_on_is_refused():
+    joints = CHAIN.centre.copy()
+    joints[0] = CHAIN.upper[0]
+    with pytest.raises(OutOfLimitsError, match="axis x: position"):
+        pivot(CHAIN, joints, np.array([0.0, 1e-4]))
