@@ -1,0 +1,93 @@
+"""A machine in state space: the matrices A, B, C, D of its equation of motion.
+
+Eq. (1) of the source paper, ``M q̈ + D q̇ + C q = E u + F``, with the state ``s = [q, q̇]`` of
+the axes that have dynamics::
+
+    ṡ = A s + B u,   A = [[0, 1], [−M⁻¹C, −M⁻¹D]],   B = [[0], [M⁻¹E]]
+    y = C s + D u
+
+The constant force F moves the point of rest and is left out.
+"""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray, read_only
+from rotemina.sim.plant.group import input_gain
+from rotemina.sim.robot.matrices import inertia_matrices
+from rotemina.sim.robot.model import Robot, StepperAxis
+
+
+class Output(StrEnum):
+    """What ``y`` holds of every axis: m or rad, per s, per s²."""
+
+    POSITION = "position"
+    VELOCITY = "velocity"
+    ACCELERATION = "acceleration"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StateSpace:
+    """Matrices of a robot with n axes, m of which have dynamics.
+
+    Attributes
+    ----------
+    inputs : tuple of str, length n
+        The axes, in the robot's order, whose ``u`` is the input: V, or the commanded position of
+        a stepper. The outputs have the same order.
+    states : tuple of str, length m
+        The axes with dynamics; the state is their positions, then their velocities.
+    a : (2m, 2m)
+    b : (2m, n)
+    c : (n, 2m)
+    d : (n, n)
+        Static axes are all here: ``q = gain·u``, or the command.
+    """
+
+    inputs: tuple[str, ...]
+    states: tuple[str, ...]
+    a: FloatArray
+    b: FloatArray
+    c: FloatArray
+    d: FloatArray
+
+    def response(self, frequency_hz: FloatArray) -> np.ndarray:
+        """Return the frequency response ``C (iω − A)⁻¹ B + D``: complex (..., n, n)."""
+        rate = 2j * np.pi * np.asarray(frequency_hz)[..., None, None]
+        inner = np.linalg.solve(rate * np.eye(len(self.a)) - self.a, self.b.astype(complex))
+        return np.asarray(self.c @ inner + self.d)
+
+
+def state_space(robot: Robot, output: Output = Output.POSITION) -> StateSpace:
+    """Return the matrices of ``robot``, driven open loop.
+
+    A static axis follows at once, so its velocity and acceleration are no function of the inputs
+    alone: they stay zero.
+    """
+    names, mass, damping, stiffness = inertia_matrices(robot)
+    inputs = tuple(robot.axes)
+    place = [inputs.index(name) for name in names]
+    m, inverse = len(names), np.linalg.inv(mass)
+    a = np.zeros((2 * m, 2 * m))
+    a[:m, m:] = np.eye(m)
+    a[m:] = np.hstack([-inverse @ stiffness, -inverse @ damping])
+    b = np.zeros((2 * m, len(inputs)))
+    b[m:, place] = inverse * [input_gain(robot.axes[name]) for name in names]
+    c, d = np.zeros((len(inputs), 2 * m)), np.zeros((len(inputs), len(inputs)))
+    if output is Output.ACCELERATION:
+        c[place], d[place] = a[m:], b[m:]
+    else:
+        first = 0 if output is Output.POSITION else m
+        c[place, first + np.arange(m)] = 1.0
+    if output is Output.POSITION:
+        d += np.diag([_static_gain(robot, name) for name in inputs])
+    return StateSpace(inputs, names, *(read_only(matrix) for matrix in (a, b, c, d)))
+
+
+def _static_gain(robot: Robot, name: str) -> float:
+    axis = robot.axes[name]
+    if not axis.static:
+        return 0.0
+    return 1.0 if isinstance(axis, StepperAxis) else axis.gain

@@ -1,0 +1,76 @@
+"""State-space matrices against the equation of motion and the simulated plant."""
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+from rotemina.sim.modes.state_space import Output, state_space
+from rotemina.sim.plant.plant import Plant
+from rotemina.sim.robot.file import load_robot, parse_robot
+
+ROBOT = load_robot("rotemina")
+
+
+def test_the_equation_of_motion_is_written_out():
+    system = state_space(ROBOT)
+    assert system.inputs == system.states == tuple(ROBOT.axes)
+    rng = np.random.default_rng(0)
+    q, v, u = rng.random((3, 6))
+    mass = np.diag([40.0, 40.0, 42.0, 2e-5, 2e-5, 0.15])
+    mass[2, 5] = mass[5, 2] = 0.15
+    mass[3, 4] = mass[4, 3] = 3e-7
+    stiffness = np.array([2e7, 2e7, 2e7, 71.061, 71.061, 1.0446e6])
+    damping = np.array([8485.0, 8485.0, 8695.0, 2.2619e-3, 2.2619e-3, 19.792])
+    gain = np.array([1.0, 1.0, 1.0, 8.9503846e-6, 8.9503846e-6, 5e-7])
+    slope = system.a @ np.concatenate([q, v]) + system.b @ u
+    np.testing.assert_array_equal(slope[:6], v)
+    force = stiffness * gain * u - damping * v - stiffness * q
+    np.testing.assert_allclose(mass @ slope[6:], force, rtol=1e-9, atol=1e-6)
+
+
+def test_it_moves_as_the_simulated_plant_does():
+    system, plant = state_space(ROBOT), Plant.of(ROBOT)
+    step_s, rest = 1e-4, np.zeros(6)
+    command = np.array([1e-3, 2e-3, 3e-3, 1e-4, 2e-4, 3e-5])
+    time_s = np.arange(200) * step_s
+    motion, _ = plant.advance(plant.at_rest(0.0, rest), time_s, np.tile(command, (200, 1)))
+    inputs = plant.open_loop_inputs(command)
+    settled = -np.linalg.solve(system.a, system.b @ inputs)
+    state = settled - expm(system.a * time_s[-1]) @ settled
+    np.testing.assert_allclose(system.c @ state, motion.position[-1], rtol=1e-8)
+    fast = state_space(ROBOT, Output.VELOCITY)
+    np.testing.assert_allclose(fast.c @ state, motion.velocity[-1], rtol=1e-6, atol=1e-12)
+
+
+def test_velocity_and_acceleration_are_derivatives_of_position():
+    frequency = np.array([10.0, 297.0, 900.0])
+    rate = 2j * np.pi * frequency[:, None, None]
+    position = state_space(ROBOT).response(frequency)
+    velocity = state_space(ROBOT, Output.VELOCITY).response(frequency)
+    acceleration = state_space(ROBOT, Output.ACCELERATION).response(frequency)
+    np.testing.assert_allclose(velocity, rate * position, rtol=1e-9, atol=1e-15)
+    np.testing.assert_allclose(acceleration, rate**2 * position, rtol=1e-7, atol=1e-10)
+
+
+def test_static_gain_is_that_of_the_axes():
+    still = state_space(ROBOT).response(np.array(0.0))
+    gain = [1.0, 1.0, 1.0, 8.9503846e-6, 8.9503846e-6, 5e-7]
+    np.testing.assert_allclose(still, np.diag(gain), rtol=1e-12, atol=1e-15)
+
+
+def test_static_axes_pass_straight_through():
+    robot = parse_robot(
+        "[robot]\nname='two'\naxes=['s','a','p']\n"
+        "[axis.s]\nkind='stepper'\nrange=[0,1.0]\nstatic=true\n"
+        "[axis.a]\nkind='stepper'\nrange=[0,1.0]\nmass=2.0\ndamping=3.0\nstiffness=800.0\n"
+        "[axis.p]\nkind='piezo'\nrange=[0,1.0]\nstatic=true\ngain=0.5\n"
+    )
+    system = state_space(robot)
+    assert system.states == ("a",)
+    assert system.a.shape == (2, 2)
+    np.testing.assert_array_equal(system.b, [[0, 0, 0], [0, 400, 0]])
+    np.testing.assert_array_equal(system.d, np.diag([1.0, 0.0, 0.5]))
+    assert not state_space(robot, Output.VELOCITY).d.any()
+    only_static = state_space(load_robot("picma"))
+    assert only_static.a.shape == (0, 0)
+    assert only_static.response(np.array(5.0)) == pytest.approx(12.53e-6)
