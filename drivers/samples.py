@@ -57,8 +57,9 @@ class Samples:
     inputs : (n, axes) float64
         Amplifier outputs, V; NaN where a device has none (steppers) or does not tell.
     playback_row : (n,) int64
-        Which row of the playing trajectory was applied at this sample; -1 for any other sample,
-        also for one between two rows.
+        Which row of the playing trajectory began to act at this sample; -1 for any other sample,
+        also for one between two rows. A device that acts at its own ticks leaves out rows that
+        another one in the same tick replaced.
 
     Raises
     ------

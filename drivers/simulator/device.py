@@ -7,12 +7,12 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.drivers.samples import Samples
-from rotemina.drivers.simulator.schedule import Schedule
 from rotemina.drivers.simulator.setpoints import SetpointGenerator, SetpointLimits
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot, StepperAxis
+from rotemina.sim.trajectory.schedule import Schedule
 
 _CHUNK = 8192  # samples simulated at once: bounds memory, not the result
 
@@ -70,6 +70,7 @@ class SimulatedDevice:
         self._state = self._plant.at_rest(0.0, position)
         self._sensors = _Sensors(robot)
         self._setpoints = SetpointGenerator(SetpointLimits.of(robot), tick_s, position)
+        self._command = np.array(position, dtype=np.float64)
         self._tick_s = tick_s
         self._seed = seed
         self._settle_ticks = round(settle_s / tick_s)
@@ -77,7 +78,6 @@ class SimulatedDevice:
         self._phase = _Phase.HOLD
         self._schedule: Schedule | None = None
         self._instant = 0
-        self._row = -1
         self._begin_s = 0.0
         self._settled = 0
         self._plays = 0
@@ -95,8 +95,8 @@ class SimulatedDevice:
 
     @property
     def command(self) -> FloatArray:
-        """The latest commands (axes,), m or rad."""
-        return self._setpoints.position
+        """The latest set-points (axes,) applied, m or rad, also while a trajectory plays."""
+        return self._command.copy()
 
     @property
     def moving(self) -> bool:
@@ -121,17 +121,17 @@ class SimulatedDevice:
         """Approach the first row, settle, then play."""
         under_control = any(self._plant.loops)
         self._schedule = Schedule(
-            trajectory, self._plant.axes, self._tick_s, fill=not under_control
+            trajectory, self._plant.axes, self._tick_s, on_ticks=under_control
         )
-        self._instant, self._row, self._settled = 0, -1, 0
+        self._instant, self._settled = 0, 0
         self._setpoints.retarget(self._schedule.first)
         self._phase = _Phase.APPROACH
 
     def stop(self) -> None:
         """Halt within the acceleration that the axes allow, from whatever is going on."""
-        if self._phase is _Phase.ROWS and self._schedule is not None and self._row >= 0:
-            velocity = self._schedule.velocity(self._row, len(self._plant.axes))
-            self._end_rows(velocity)
+        if self._phase is _Phase.ROWS and self._schedule is not None and self._instant:
+            velocity = self._schedule.velocity(self._instant - 1, len(self._plant.axes))
+            self._end_rows(self._command, velocity)
         self._setpoints.stop()
         self._phase = _Phase.HOLD
 
@@ -197,25 +197,21 @@ class SimulatedDevice:
             elapsed_s = elapsed_s + self._tick_s
         if count:
             self._instant += count
-            self._row = int(row[-1])
             if self._instant == schedule.count:
-                self._end_rows(np.zeros(len(self._plant.axes)))
+                self._end_rows(command[-1], np.zeros(len(self._plant.axes)))
         own = np.where(instants.on_row[:count], row, -1)
         return _Chunk(self._begin_s + time_s, elapsed_s, command, own)
 
-    def _end_rows(self, velocity: FloatArray) -> None:
-        """Go over to holding, from the latest row and with the speed of its commands."""
-        if self._schedule is None:
-            return
+    def _end_rows(self, command: FloatArray, velocity: FloatArray) -> None:
+        """Go over to holding, from the latest set-points (axes,) and their speed (axes,)."""
         self._anchor_s, self._ticks = self.time_s, 0
-        rows = np.array([self._row], dtype=np.int64)
-        command = self._schedule.commands(rows, self._setpoints.position)[0]
         self._setpoints.take_over(command, velocity)
         self._phase = _Phase.HOLD
 
     def _sample(self, chunk: _Chunk) -> Samples:
         motion, state = self._plant.advance(self._state, chunk.elapsed_s, chunk.command)
         self._state = replace(state, time_s=state.time_s - state.time_s[-1])
+        self._command = chunk.command[-1].copy()
         measured = self._sensors.read(motion.position, self._noise)
         inputs = np.where(self._sensors.has_voltage, motion.inputs, np.nan)
         return Samples(chunk.time_s, chunk.command, measured, inputs, chunk.row)

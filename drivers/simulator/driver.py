@@ -29,7 +29,7 @@ class Simulator(TrajectoryPlayer):
     Device time is the clock's time since ``open``; what happened since the last call is simulated
     when a call asks for it, so the clock may be real or set by hand. A request takes effect at the
     next tick after the clock's present. A robot with controllers runs under them. After being
-    closed and opened again, the machine stands where it was last commanded to.
+    closed and opened again, the machine stands where its last set-point was.
 
     Settings: ``sample_rate_hz`` of samples and set-points; ``seed`` of the sensors' noise;
     ``settle_s`` at the first row of a trajectory; ``start_fraction`` of its range at which each
@@ -98,7 +98,10 @@ class Simulator(TrajectoryPlayer):
         )
 
     def _close(self) -> None:
+        self._catch_up()
         self._position = self._running.command
+        self._stops_s.clear()
+        self._unread.clear()
         self._device = None
 
     def _status(self) -> DeviceStatus:

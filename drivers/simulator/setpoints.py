@@ -109,7 +109,7 @@ class SetpointGenerator:
         return commands[: int(count)]
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def _braking_speed(distance: float, quantum: float, tick_s: float) -> float:
     """Return the greatest speed of the next tick from which one can stop after ``distance``."""
     units = abs(distance) / (quantum * tick_s)
@@ -117,7 +117,7 @@ def _braking_speed(distance: float, quantum: float, tick_s: float) -> float:
     return float(np.sign(distance) * (units + n * (n + 1.0) / 2.0) / (n + 1.0) * quantum)
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def _fill(
     position: FloatArray,
     velocity: FloatArray,

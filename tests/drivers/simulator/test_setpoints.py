@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from rotemina.drivers.simulator import setpoints
 from rotemina.drivers.simulator.setpoints import SetpointGenerator, SetpointLimits
 from rotemina.sim.robot.file import load_robot
 
@@ -113,3 +114,8 @@ def test_an_axis_without_bounds_crosses_its_range_in_a_second():
     limits = SetpointLimits.of(load_robot("emps"))
     assert limits.speed[0] == pytest.approx(0.27)
     assert limits.acceleration[0] == pytest.approx(2.7)
+
+
+@pytest.mark.parametrize("kernel", [setpoints._fill, setpoints._braking_speed])
+def test_other_threads_run_while_set_points_are_computed(kernel):
+    assert kernel.targetoptions["nogil"]

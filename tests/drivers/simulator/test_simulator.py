@@ -4,12 +4,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.errors import LimitError
 from rotemina.drivers.samples import DeviceState, Samples
 from rotemina.drivers.settings import SettingError
+from rotemina.drivers.simulator.device import SimulatedDevice
 from rotemina.drivers.simulator.driver import MAX_READ_S, Simulator
+from rotemina.sim.plant.errors import PlantError
+from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
@@ -91,11 +96,18 @@ def test_a_robot_with_a_controller_plays_under_it():
     assert np.abs(effort[400:]).max() < 1e-6
 
 
-def test_a_controlled_axis_is_sampled_at_rows_alone():
-    trajectory = smooth(np.arange(400) * 4e-3, EMPS)
-    _, own = played(*opened(EMPS), trajectory)
+@pytest.mark.parametrize("apart_s", [0.5, 0.0015, 4e-4])
+def test_a_loop_is_closed_at_the_devices_ticks_whatever_the_rows(apart_s):
+    time_s = np.arange(round(3.0 / apart_s) + 1) * apart_s
+    command = 0.06 + 0.01 * np.sin(np.pi * time_s / time_s[-1]) ** 2
+    trajectory = Record.from_signals(time_s, {("q", Tap.CMD): command}, {"q": "m"})
+    samples, own = played(*opened(EMPS), trajectory)
     first, last = np.flatnonzero(own)[[0, -1]]
-    assert own[first : last + 1].all()
+    inside = samples.device_time_s[first : last + 1]
+    np.testing.assert_allclose(np.diff(inside), 1e-3, atol=1e-9)
+    asked = command[np.searchsorted(time_s, inside - inside[0] + 1e-9, side="right") - 1]
+    np.testing.assert_array_equal(samples.command[first : last + 1, 0], asked)
+    assert 0.055 < samples.measured[own, 0].min() < samples.measured[own, 0].max() < 0.075
 
 
 def test_readings_have_the_declared_noise_and_resolution():
@@ -218,3 +230,102 @@ def test_one_row_can_be_played():
     samples, own = played(*opened(), _hold(np.array([3.0])))
     assert own.sum() == 1
     assert samples.command[own, 0] == 0.02
+
+
+HELD = Record.from_signals(
+    np.array([0.0, 0.1, 1.1, 2.0]),
+    {("x", Tap.CMD): np.array([1e-4, 1.0e-3, 1.0e-3, 1.0e-3])},
+    {"x": "m"},
+)
+
+
+def test_stop_while_a_row_is_held_moves_nothing():
+    driver, clock = opened(start_fraction=0.0, settle_s=0.0)
+    driver._running.play(HELD)  # past the limits: they would refuse the jump
+    while driver.read().playback_row.max(initial=-1) < 1:
+        clock.advance(0.001)
+    clock.advance(0.3)
+    assert driver.read().command[-1, 0] == 1e-3
+    driver.stop()
+    clock.advance(1.0)
+    assert (driver.read().command[:, 0] == 1e-3).all()
+
+
+@given(
+    intervals=st.lists(st.sampled_from([3e-4, 1e-3, 1.3e-3, 2e-3, 0.05]), min_size=5, max_size=40),
+    steps=st.lists(st.integers(-8, 8), min_size=40, max_size=40),
+    when=st.floats(0.0, 1.0),
+    low_end=st.booleans(),
+)
+def test_after_a_stop_no_axis_goes_farther_than_it_brakes(intervals, steps, when, low_end):
+    """Nor out of the range, wherever in a trajectory it is stopped."""
+    axis = ROBOT.axes["x"]
+    time_s = np.concatenate([[0.0], np.cumsum(intervals)])
+    way = np.cumsum([0, *steps[: len(intervals)]]) * 1e-6
+    start = axis.range[0] - way.min() if low_end else axis.range[1] - way.max()
+    device = SimulatedDevice(
+        ROBOT,
+        tick_s=1e-3,
+        seed=0,
+        settle_s=0.0,
+        position=np.array([start + way[0], 0.02, 0.02, 5e-4, 5e-4, 3e-5]),
+    )
+    device.play(Record.from_signals(time_s, {("x", Tap.CMD): start + way}, {"x": "m"}))
+    played = device.advance(0.005 + when * (time_s[-1] - 0.001))
+    device.stop()
+    last = played[-1].command[-1, 0]
+    rows = np.concatenate([part.playback_row for part in played])
+    row = rows.max()
+    begins = np.concatenate([part.device_time_s for part in played])
+    recent = np.flatnonzero(time_s >= time_s[max(row, 0)] - 1.5e-3)
+    recent = recent[recent <= row]
+    speed = 0.0
+    if len(recent) > 1 and begins[-1] - begins[np.argmax(rows)] < 1e-3:
+        span = time_s[recent[-1]] - time_s[recent[0]]
+        speed = min(abs(way[recent[-1]] - way[recent[0]]) / span, axis.max_speed)
+    after = np.concatenate([part.command[:, 0] for part in device.advance(time_s[-1] + 0.5)])
+    braking = speed**2 / (2 * axis.max_acceleration) + speed * 1e-3
+    assert np.abs(after - last).max() <= braking + 1e-12
+    assert axis.range[0] <= after.min() <= after.max() <= axis.range[1]
+
+
+@pytest.mark.parametrize("stopped", [False, True])
+def test_closed_while_playing_it_stands_where_the_last_set_point_was(stopped):
+    driver, clock = opened()
+    time_s = np.arange(4000) / 1000
+    command = 5e-4 + 5e-4 * np.sin(2 * np.pi * time_s / 8) ** 2
+    driver.play(Record.from_signals(time_s, {("thx", Tap.CMD): command}, {"thx": "rad"}))
+    while driver.status().progress < 0.4:
+        clock.advance(0.05)
+        last = driver.read().command[-1, 3]
+    if stopped:
+        driver.stop()
+        clock.advance(0.02)
+    driver.close()
+    driver.open()
+    assert last > 6e-4
+    assert driver.read().command[0, 3] == pytest.approx(last, abs=1e-6)
+    clock.advance(0.1)
+    assert np.ptp(driver.read().command[:, 3]) == 0.0
+
+
+def test_clearing_a_fault_in_a_playback_holds_the_last_set_point(monkeypatch):
+    driver, clock = opened(settle_s=0.0)
+    time_s = np.arange(4000) / 1000
+    command = 5e-4 + 5e-4 * np.sin(2 * np.pi * time_s / 8) ** 2
+    driver.play(Record.from_signals(time_s, {("thx", Tap.CMD): command}, {"thx": "rad"}))
+    while driver.status().progress < 0.4:
+        clock.advance(0.05)
+        last = driver.read().command[-1, 3]
+
+    def diverges(*_):
+        raise PlantError("axis thx: gone")
+
+    with monkeypatch.context() as broken:
+        broken.setattr(Plant, "advance", diverges)
+        clock.advance(0.05)
+        driver.read()
+    assert driver.status().state is DeviceState.FAULT
+    driver.clear_fault()
+    clock.advance(0.05)
+    assert driver.read().command[-1, 3] == last
