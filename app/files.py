@@ -1,13 +1,11 @@
 """Files that the program writes: whole or not at all."""
 
 import json
-import os
 import sys
-import tempfile
 from pathlib import Path
 from typing import Any
 
-from rotemina.sim.errors import InputError
+from rotemina.sim.whole_files import replaced
 
 
 def write_json(value: dict[str, Any], target: str) -> None:
@@ -24,13 +22,8 @@ def write_text(path: Path, text: str) -> None:
 
     Raises
     ------
-    InputError
+    FileWriteError
         If it cannot be written.
     """
-    try:
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(text)
-        Path(name).replace(path)
-    except OSError as error:
-        raise InputError(f"{path}: cannot be written: {error.strerror}") from error
+    with replaced(path) as file:
+        file.write(text.encode("utf-8"))

@@ -7,6 +7,9 @@ from typing import TypeVar
 
 from platformdirs import user_config_path
 
+from rotemina.app.files import write_text
+from rotemina.sim.whole_files import FileWriteError
+
 logger = logging.getLogger(__name__)
 
 Value = TypeVar("Value", str, bool, int, float)
@@ -37,10 +40,8 @@ class Settings:
         self._values[key] = value
         try:
             self._path.parent.mkdir(parents=True, exist_ok=True)
-            fresh = self._path.with_suffix(".new")
-            fresh.write_text(json.dumps(self._values, indent=1, sort_keys=True), "utf-8")
-            fresh.replace(self._path)
-        except OSError as error:
+            write_text(self._path, json.dumps(self._values, indent=1, sort_keys=True))
+        except (OSError, FileWriteError) as error:
             logger.warning("%s: preferences cannot be kept: %s", self._path, error)
 
     def _load(self) -> dict[str, object]:

@@ -92,3 +92,16 @@ def from_unit(values: FloatArray | float, unit: str) -> FloatArray:
 def to_unit(values: FloatArray | float, unit: str) -> FloatArray:
     """Convert values of any shape from SI to a unit."""
     return np.asarray(np.multiply(values, per_si(unit)), dtype=np.float64)
+
+
+# Smallest size (SI) from which each unit reads well, largest unit first.
+_READS_WELL = {
+    "m": (("mm", 1e-3), ("um", 1e-6), ("nm", 0.0)),
+    "rad": (("mrad", 0.1), ("urad", 0.0)),
+}
+
+
+def drawing_unit(si_unit: str, largest: float) -> str:
+    """Return the unit in which a signal of this size (SI) reads best."""
+    steps = _READS_WELL.get(si_unit, ())
+    return next((unit for unit, least in steps if largest >= least), si_unit)

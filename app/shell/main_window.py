@@ -5,7 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
-from PySide6.QtCore import QByteArray, Qt
+from PySide6.QtCore import QByteArray, QEvent, QObject, Qt
 from PySide6.QtGui import QAction, QCloseEvent, QKeySequence
 from PySide6.QtWidgets import (
     QApplication,
@@ -30,7 +30,8 @@ from rotemina.app.shell.column_mapping import columns_for
 from rotemina.app.shell.host import make_panels
 from rotemina.app.shell.notices import NoticeBar
 from rotemina.app.shell.status import StatusText
-from rotemina.app.shell.workbench import Level, Run, Workbench
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.drivers.samples import DeviceState
 from rotemina.sim.errors import InputError
 
 LAYOUT_VERSION = 1
@@ -48,6 +49,23 @@ def _decoded(text: str) -> QByteArray:
         return QByteArray(b64decode(text, validate=True))
     except ValueError:
         return QByteArray()
+
+
+class EscapeKey(QObject):
+    """Stops all motion on Esc, whatever has the focus: a dialog that is open as well.
+
+    The key goes on to where it was typed, so that a dialog closes too.
+    """
+
+    def __init__(self, stop: Callable[[], None]) -> None:
+        super().__init__()
+        self._stop = stop
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
+        """Stop, and let the event pass."""
+        if event.type() == QEvent.Type.KeyPress and event.key() == Qt.Key.Key_Escape:
+            self._stop()
+        return False
 
 
 class Command(NamedTuple):
@@ -70,15 +88,18 @@ class MainWindow(QMainWindow):
         self.notices = NoticeBar()
         self.panels, broken = make_panels(workbench)
         self.docks: dict[str, QDockWidget] = {}
-        self._unsaved: Run | None = None
         self._make_tool_bar()
         self._make_docks()
         self._make_menus()
         self._make_status_bar()
         self._restore()
+        application = QApplication.instance()
+        assert application is not None
+        self._escape = EscapeKey(workbench.stop)
+        application.installEventFilter(self._escape)
         workbench.noticed.connect(self.notices.show_notice)
         workbench.refreshed.connect(self._refresh)
-        workbench.run_changed.connect(self._note_run)
+        workbench.run_changed.connect(self._show_comparison)
         for name, reason in broken.items():
             workbench.notify(Level.ERROR, f"Panel {name!r} is left out: {reason}")
 
@@ -97,7 +118,6 @@ class MainWindow(QMainWindow):
             "not the machine's emergency switch."
         )
         self.stop_button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self.stop_button.setShortcut(QKeySequence(Qt.Key.Key_Escape))
         # On pressing, not on release: a stop must not wait for the finger to lift.
         self.stop_button.pressed.connect(self.workbench.stop)
         self._title = QLabel(self.workbench.robot.name)
@@ -221,7 +241,7 @@ class MainWindow(QMainWindow):
 
     def ask_save(self) -> None:
         """Ask where to, and save the record in hand."""
-        if self.workbench.run is None:
+        if self.workbench.record is None:
             self.workbench.notify(Level.WARNING, "There is no record to save: play or open one.")
             return
         folder = Path(self.workbench.settings.get("files.folder", ""))
@@ -230,7 +250,6 @@ class MainWindow(QMainWindow):
         )
         if name:
             self.workbench.save_record(Path(name))
-            self._unsaved = None
 
     # --- layout and theme -------------------------------------------------------------------------
 
@@ -265,20 +284,23 @@ class MainWindow(QMainWindow):
     def _refresh(self, state: SessionState) -> None:
         self._activity.setText(StatusText.activity(state))
 
-    def _note_run(self, run: Run) -> None:
+    def _show_comparison(self) -> None:
         if "comparison" in self.docks:
             self.docks["comparison"].raise_()
-        self._unsaved = run if run.played else None
 
     def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Stop, and ask first where a played record would be lost."""
-        if self._unsaved is not None and not self._may_discard():
+        """Stop first, and then ask where a played record would be lost."""
+        self.workbench.stop()
+        if self._would_lose_a_record() and not self._may_discard():
             event.ignore()
             return
-        self.workbench.stop()
         self._remember()
         self.workbench.close()
         event.accept()
+
+    def _would_lose_a_record(self) -> bool:
+        playing = self.workbench.session.snapshot().activity is DeviceState.PLAYING
+        return playing or self.workbench.unsaved is not None
 
     def _may_discard(self) -> bool:
         answer = QMessageBox.question(

@@ -42,7 +42,8 @@ def run(session: MotionSession, settings: Settings) -> int:
     window = make_window(session, settings)
     window.show()
     window.workbench.start()
-    signal.signal(signal.SIGINT, lambda *_: window.close())
+    # Only asked for here: a handler may interrupt anything, a lock that closing needs as well.
+    signal.signal(signal.SIGINT, lambda *_: QTimer.singleShot(0, window.close))
     # Python handles signals only between its own instructions: this wakes it now and then.
     wake = QTimer(application, interval=200)
     wake.timeout.connect(lambda: None)

@@ -45,15 +45,11 @@ class Plan:
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """A real record beside the model's answer to its commands.
-
-    ``played`` says that it was recorded here, so that no file holds it yet.
-    """
+    """A real record beside the model's answer to its commands."""
 
     name: str
     comparison: Comparison
     completed: bool = True
-    played: bool = False
 
     @property
     def record(self) -> Record:
@@ -63,6 +59,9 @@ class Run:
 
 class Workbench(QObject):
     """The window's state and its requests; every panel holds the same one.
+
+    ``plan`` is the trajectory in hand, ``run`` the last comparison, ``record`` what would be
+    saved, and ``unsaved`` a played record that no file holds yet.
 
     Signals
     -------
@@ -90,6 +89,8 @@ class Workbench(QObject):
         self.theme = theme
         self.plan: Plan | None = None
         self.run: Run | None = None
+        self.record: Record | None = None
+        self.unsaved: Record | None = None
         self._background = Background(self)
         self._happened.connect(self._on_event)
         self._unsubscribe = session.subscribe(self._happened.emit)
@@ -173,16 +174,18 @@ class Workbench(QObject):
         self._work("run", f"Reading {path.name} …", work, self._set_run)
 
     def save_record(self, path: Path) -> None:
-        """Write the record in hand to a file."""
-        run = self.run
-        if run is None:
+        """Write the record in hand to a file; it counts as unsaved until that is done."""
+        record = self.record
+        if record is None:
             self.notify(Level.WARNING, "There is no record to save: play or open one first.")
             return
 
         def done(_: None) -> None:
+            if self.unsaved is record:
+                self.unsaved = None
             self.notify(Level.GOOD, f"Saved {path}")
 
-        self._work("save", f"Writing {path.name} …", lambda: write_record(run.record, path), done)
+        self._work("save", f"Writing {path.name} …", lambda: write_record(record, path), done)
 
     # --- inside -----------------------------------------------------------------------------------
 
@@ -208,10 +211,11 @@ class Workbench(QObject):
         self.plan = plan
         self.plan_changed.emit(plan)
         if not plan.dry_run.allowed:
-            self.notify(Level.WARNING, f"{plan.name}: {plan.dry_run.violations[0]}")
+            self.notify(Level.WARNING, f"{plan.name}: {plan.dry_run.violations[0].message}")
 
     def _set_run(self, run: Run) -> None:
         self.run = run
+        self.record = run.record
         self.run_changed.emit(run)
 
     def _on_event(self, event: Event) -> None:
@@ -225,11 +229,13 @@ class Workbench(QObject):
         if record is None:
             self.notify(Level.WARNING, f"{name}: stopped before its first row was played.")
             return
+        # Kept from here on: a comparison that fails or is overtaken must not lose it.
+        self.record = self.unsaved = record
         if not completed:
             self.notify(Level.WARNING, f"{name}: stopped after {record.duration_s:.2f} s.")
         self._work(
-            "run",
+            "played run",
             "Comparing model and real …",
-            lambda: Run(name, compare(self.robot, record), completed, played=True),
+            lambda: Run(name, compare(self.robot, record), completed),
             self._set_run,
         )

@@ -22,10 +22,9 @@ from rotemina.app.shell.plot import SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Run, Workbench
 from rotemina.sim.comparison.comparison import TapComparison
-from rotemina.sim.comparison.figure import drawing_unit
 from rotemina.sim.comparison.table import HEAD, cells
 from rotemina.sim.records.record import Tap
-from rotemina.sim.units import symbol, to_unit
+from rotemina.sim.units import drawing_unit, symbol, to_unit
 
 RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 EMPTY = "Play a trajectory, or open a record of the real machine, to see how far the model is."

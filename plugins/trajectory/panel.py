@@ -77,7 +77,7 @@ class TrajectoryPanel(Panel):
             self.verdict.setText("Dry run: inside all limits of range, speed and acceleration.")
         else:
             more = f" (and {len(run.violations) - 1} more)" if len(run.violations) > 1 else ""
-            self.verdict.setText(f"Not playable: {run.violations[0]}{more}")
+            self.verdict.setText(f"Not playable: {run.violations[0].message}{more}")
         self.verdict.setProperty("bad", not run.allowed)
         self.verdict.style().polish(self.verdict)
         self._fill(plan)

@@ -52,7 +52,7 @@ class Comparison:
 
     def as_json(self) -> dict[str, Any]:
         """Return the comparison as a JSON object (format ``rotemina-comparison 1``)."""
-        return {"format": FORMAT, "taps": [asdict(tap) for tap in self.taps]}
+        return {"format": FORMAT, "taps": [_plain(tap) for tap in self.taps]}
 
 
 def compare(robot: Robot, record: Record, *, fit: Collection[str] = ()) -> Comparison:
@@ -90,6 +90,14 @@ def compare(robot: Robot, record: Record, *, fit: Collection[str] = ()) -> Compa
         )
     taps = tuple(_compare_tap(robot, record, response, axis, tap, fit) for axis, tap in pairs)
     return Comparison(record, response, taps)
+
+
+def _plain(tap: TapComparison) -> dict[str, Any]:
+    """Return the figures with null for what is no finite number: JSON has no other word."""
+    return {
+        name: None if isinstance(value, float) and not np.isfinite(value) else value
+        for name, value in asdict(tap).items()
+    }
 
 
 def _is_answer(robot: Robot, record: Record, axis: str, tap: Tap) -> bool:
@@ -166,4 +174,8 @@ def _span(robot: Robot, axis: str, tap: Tap) -> float | None:
 
 
 def _rms(signal: FloatArray) -> float:
-    return float(np.sqrt(np.mean(signal**2)))
+    """Return the root mean square; scaled, so that squares of huge readings stay numbers."""
+    largest = float(np.abs(signal).max())
+    if largest == 0.0 or not np.isfinite(largest):
+        return largest
+    return largest * float(np.sqrt(np.mean((signal / largest) ** 2)))

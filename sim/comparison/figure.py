@@ -11,7 +11,7 @@ from rotemina.sim.comparison.comparison import Comparison, TapComparison
 from rotemina.sim.decimation import envelope
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Tap
-from rotemina.sim.units import symbol, to_unit
+from rotemina.sim.units import drawing_unit, symbol, to_unit
 
 FORMATS = (".svg", ".png", ".pdf")
 MODEL_COLOUR, REAL_COLOUR, GAP_COLOUR = "#2f6fb5", "#d1642c", "#5b5b66"
@@ -47,15 +47,6 @@ def save_figure(comparison: Comparison, path: Path) -> None:
 
 
 _NO_DATE = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
-
-
-def drawing_unit(si_unit: str, largest: float) -> str:
-    """Return the unit in which a signal of this size (SI) reads best."""
-    if si_unit == "rad":
-        return "mrad" if largest >= 0.1 else "urad"
-    if si_unit == "m":
-        return "mm" if largest >= 1e-3 else "um" if largest >= 1e-6 else "nm"
-    return si_unit
 
 
 def _draw_row(signals: Axes, gap: Axes, comparison: Comparison, tap: TapComparison) -> None:

@@ -1,8 +1,7 @@
 """The figures of a comparison in words: one line a tap, in units that read well."""
 
 from rotemina.sim.comparison.comparison import Comparison, TapComparison
-from rotemina.sim.comparison.figure import drawing_unit
-from rotemina.sim.units import symbol, to_unit
+from rotemina.sim.units import drawing_unit, symbol, to_unit
 
 HEAD = ("tap", "rms", "peak", "of range", "rel. error", "delay", "noise floor", "re-fitted")
 NONE = "–"

@@ -40,7 +40,7 @@ def rest(
         beyond = following & ~at_command & (np.abs(effort) > limit)
         if not beyond.any():
             break
-        held = np.where(beyond, np.sign(effort) * limit, held)
+        held = np.where(beyond, np.clip(effort, -limit, limit), held)
         following &= ~beyond
     return Rest(position, np.where(looped, np.clip(effort, -limit, limit), inputs))
 

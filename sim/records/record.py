@@ -50,6 +50,8 @@ def _frozen(mapping: Mapping[str, str]) -> Mapping[str, str]:
 class Record:
     """Signals of one run, sampled together; also a trajectory, which has ``cmd`` channels alone.
 
+    The record takes the array ``values`` over: it can no longer be written through.
+
     Attributes
     ----------
     time_s : (n,) float64
@@ -77,9 +79,10 @@ class Record:
     metadata: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        time_s = np.ascontiguousarray(self.time_s, dtype=np.float64)
+        time_s = np.array(self.time_s, dtype=np.float64)
         values = np.asarray(self.values, dtype=np.float64)
         _check(time_s, self.columns, values, self.units)
+        values.flags.writeable = False
         object.__setattr__(self, "time_s", read_only(time_s))
         object.__setattr__(self, "values", read_only(values))
         object.__setattr__(self, "units", _frozen(self.units))
@@ -96,7 +99,12 @@ class Record:
         """Build a record from one (n,) array per (axis, tap), in SI units."""
         columns = tuple(Channel(axis, Tap(tap)) for axis, tap in signals)
         values = np.empty((len(time_s), len(columns)), order="F")
-        for index, signal in enumerate(signals.values()):
+        for index, (channel, signal) in enumerate(signals.items()):
+            if np.shape(signal) != (len(time_s),):
+                raise RecordError(
+                    f"record: {'.'.join(channel)} has shape {np.shape(signal)}, "
+                    f"expected {(len(time_s),)} from time"
+                )
             values[:, index] = signal
         return cls(time_s, columns, values, units, metadata or {})
 
@@ -119,7 +127,11 @@ class Record:
     def period_samples(self) -> int | None:
         """Rows in one period of a periodic record, or None where the metadata gives none."""
         text = self.metadata.get("period_samples")
-        return int(text) if text is not None else None
+        if text is None:
+            return None
+        if not text.isdecimal() or int(text) < 1:
+            raise RecordError(f"record: period_samples = {text!r}: must be a whole number above 0")
+        return int(text)
 
     @property
     def duration_s(self) -> float:

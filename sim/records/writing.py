@@ -1,13 +1,10 @@
 """Export of record and trajectory files."""
 
 import gzip
-import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from os import PathLike, fspath
-from pathlib import Path
 from typing import BinaryIO, cast
-from uuid import uuid4
 
 import numpy as np
 
@@ -17,6 +14,7 @@ from rotemina.sim.records.metadata import comment_lines
 from rotemina.sim.records.record import VOLTAGE_TAPS, Record, RecordError
 from rotemina.sim.records.source import LIMITS
 from rotemina.sim.units import UnitError, canonical, quantity
+from rotemina.sim.whole_files import FileWriteError, replaced
 
 _ROWS_AT_A_TIME = 65_536
 _COMPRESSION = 6
@@ -117,25 +115,13 @@ def _converted(signal: FloatArray, column: Column, factor: float) -> FloatArray:
 
 @contextmanager
 def _replaced(name: str) -> Iterator[BinaryIO]:
-    """Open a file that takes the place of ``name`` when it is complete, and only then."""
-    place = Path(os.path.realpath(name))
-    draft = place.with_name(f".{place.name[:40]}.{uuid4().hex}.part")
+    """Open the file that takes the place of ``name`` when it is complete, compressed if asked."""
     try:
-        if place.is_dir():
-            raise RecordError(f"{name}: it is a folder; name a file in it")
-        with draft.open("xb") as file:
+        with replaced(name) as file:
             if name.endswith(".gz"):
                 with gzip.GzipFile("", "wb", _COMPRESSION, file, mtime=0) as compressed:
                     yield cast(BinaryIO, compressed)
             else:
                 yield file
-            file.flush()
-            os.fsync(file.fileno())
-        draft.replace(place)
-    except OSError as error:
-        raise RecordError(
-            f"{name}: it cannot be written ({error.strerror or error}); "
-            "choose another folder or make room"
-        ) from error
-    finally:
-        draft.unlink(missing_ok=True)
+    except FileWriteError as error:
+        raise RecordError(str(error)) from error

@@ -11,6 +11,7 @@ from rotemina.app.shell import main_window as module
 from rotemina.app.shell.host import GROUP
 from rotemina.drivers import registry
 from rotemina.drivers.samples import DeviceState
+from rotemina.sim.errors import InputError
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_record
@@ -59,6 +60,18 @@ def test_stop_is_always_in_sight_and_stops_on_escape(qtbot, window):
     assert session.snapshot().stop_latency_s is not None
 
 
+def test_escape_stops_even_while_a_dialog_is_open(qtbot, window):
+    session = window.workbench.session
+    session.go_to({"x": 0.05})
+    qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.MOVING, timeout=LONG_MS)
+    dialog = QMessageBox(window)
+    dialog.open()
+    qtbot.keyClick(dialog, Qt.Key.Key_Escape)
+    qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
+    assert session.snapshot().command["x"] < 0.049
+    assert dialog.isHidden()
+
+
 def test_a_trajectory_is_loaded_played_and_compared(qtbot, window, tmp_path):
     path = short_trajectory(tmp_path / "move.csv")
     load(qtbot, window, path)
@@ -94,7 +107,12 @@ def test_a_trajectory_beyond_a_limit_is_shown_but_cannot_be_played(qtbot, window
     path.write_text("t [s],x [mm]\n0,27.5\n1,99\n", "utf-8")
     load(qtbot, window, path)
     panel = window.panels["trajectory"]
-    assert "Not playable" in panel.verdict.text()
+    said = panel.verdict.text()
+    assert said.startswith("Not playable: ")
+    assert "x" in said
+    assert "99 mm" in said
+    assert "55 mm" in said
+    assert "Violation(" not in said
     with qtbot.waitSignal(window.workbench.refreshed):
         pass
     assert not panel.play.isEnabled()
@@ -177,6 +195,49 @@ def test_an_unsaved_playback_is_not_lost_without_asking(qtbot, window, tmp_path,
     assert not window.close()
     assert window.isVisible()
     assert window.close()
+
+
+def test_a_record_that_could_not_be_saved_is_still_unsaved(qtbot, window, tmp_path, monkeypatch):
+    load(qtbot, window, short_trajectory(tmp_path / "move.csv"))
+    with qtbot.waitSignal(window.workbench.run_changed, timeout=LONG_MS):
+        window.workbench.play()
+    window.workbench.save_record(tmp_path / "no" / "such" / "folder.csv")
+    qtbot.waitUntil(lambda: notices(window) != [], timeout=LONG_MS)
+    assert "cannot be written" in notices(window)[0]
+    asked = []
+    monkeypatch.setattr(
+        QMessageBox, "question", lambda *_: asked.append(1) or QMessageBox.StandardButton.Yes
+    )
+    assert window.close()
+    assert asked
+
+
+def test_quitting_during_a_playback_stops_first_and_then_asks(qtbot, window, tmp_path, monkeypatch):
+    load(qtbot, window, short_trajectory(tmp_path / "long.csv", seconds=20.0))
+    session = window.workbench.session
+    window.workbench.play()
+    qtbot.waitUntil(lambda: session.snapshot().progress > 0.005, timeout=LONG_MS)
+    stopped_before_asking = []
+
+    def ask(*_):
+        stopped_before_asking.append(session.snapshot().stop_latency_s is not None)
+        return QMessageBox.StandardButton.No
+
+    monkeypatch.setattr(QMessageBox, "question", ask)
+    assert not window.close()
+    assert stopped_before_asking == [True]
+    qtbot.waitUntil(lambda: window.workbench.unsaved is not None, timeout=LONG_MS)
+
+
+def test_a_record_whose_comparison_fails_can_still_be_saved(qtbot, window, tmp_path, monkeypatch):
+    monkeypatch.setattr(
+        "rotemina.app.shell.workbench.compare", lambda *_: (_ for _ in ()).throw(InputError("no"))
+    )
+    load(qtbot, window, short_trajectory(tmp_path / "move.csv"))
+    window.workbench.play()
+    qtbot.waitUntil(lambda: notices(window) == ["no"], timeout=LONG_MS)
+    window.workbench.save_record(tmp_path / "kept.csv")
+    qtbot.waitUntil((tmp_path / "kept.csv").exists, timeout=LONG_MS)
 
 
 def test_every_command_of_the_menus_works(qtbot, window, monkeypatch):

@@ -43,7 +43,7 @@ def test_a_piezo_under_a_controller_starts_where_the_controller_holds_it(limit, 
     assert position[0] == pytest.approx(axis.gain * effort[0])
     asked = 1e3 * 1e5 * (5e-5 - position[0])
     assert effort[0] == pytest.approx(min(asked, limit))
-    assert (asked > limit) is saturated
+    assert bool(asked > limit) is saturated
 
 
 def test_the_part_behind_u_is_driven_by_the_measured_u_with_its_loop_open():

@@ -1,0 +1,44 @@
+"""Files that appear whole or not at all."""
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from os import PathLike, fspath
+from pathlib import Path
+from typing import BinaryIO
+from uuid import uuid4
+
+from rotemina.sim.errors import InputError
+
+
+class FileWriteError(InputError):
+    """A file that cannot be written."""
+
+
+@contextmanager
+def replaced(path: str | PathLike[str]) -> Iterator[BinaryIO]:
+    """Open a file that takes the place of ``path`` when it is complete, and only then.
+
+    Raises
+    ------
+    FileWriteError
+        If the place is a folder, or nothing can be written there.
+    """
+    name = fspath(path)
+    place = Path(os.path.realpath(name))
+    draft = place.with_name(f".{place.name[:40]}.{uuid4().hex}.part")
+    try:
+        if place.is_dir():
+            raise FileWriteError(f"{name}: it is a folder; name a file in it")
+        with draft.open("xb") as file:
+            yield file
+            file.flush()
+            os.fsync(file.fileno())
+        draft.replace(place)
+    except OSError as error:
+        raise FileWriteError(
+            f"{name}: it cannot be written ({error.strerror or error}); "
+            "choose another folder or make room"
+        ) from error
+    finally:
+        draft.unlink(missing_ok=True)
