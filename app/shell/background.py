@@ -74,9 +74,9 @@ class Background(QObject):
         """Whether an answer is still to come."""
         return bool(self._requests)
 
-    def wait(self) -> None:
-        """Wait until nothing runs any more: for closing the window."""
-        self._pool.waitForDone()
+    def wait(self, timeout_s: float = 10.0) -> bool:
+        """Wait until nothing runs any more, for closing the window; say whether that came."""
+        return self._pool.waitForDone(round(1000 * timeout_s))
 
     def _deliver(self, number: int, answer: object, failure: str) -> None:
         request = self._requests.pop(number)

@@ -41,12 +41,15 @@ def start(robot: str, *, driver: str, offscreen: bool, output: Path) -> int:
         print(f"rotemina: {complaint(missing)}", file=sys.stderr)
         return 1
 
-    from rotemina.app.shell import offscreen_run, qt_messages, window_run  # Qt may be loaded now
+    from rotemina.app.shell import qt_messages  # Qt may be loaded from here on
 
     qt_messages.log_qt_messages()
-
     session = MotionSession(make_driver(described))
     if not reason:
+        from rotemina.app.shell import window_run
+
         return window_run.run(session, Settings())
+    from rotemina.app.shell import offscreen_run
+
     print(f"No window ({reason}): playing the example trajectory offscreen instead.")
     return offscreen_run.run(session, output)

@@ -1,5 +1,6 @@
 """The dialog that resamples a trajectory, with the speeds that this induces."""
 
+from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
@@ -16,6 +17,7 @@ from rotemina.sim.records.record import Record
 from rotemina.sim.records.resampling import induced_velocity, resample
 from rotemina.sim.units import symbol, to_unit
 
+PAUSE_MS = 250
 METHODS = {
     "hold – as a device does between rows": "hold",
     "linear – straight lines between rows": "linear",
@@ -48,9 +50,16 @@ class ResamplingDialog(QDialog):
         form.addRow("Between rows", self.method)
         form.addRow("Fastest command", self.outcome)
         form.addRow(self.buttons)
-        self.rate.textChanged.connect(self._try)
-        self.method.currentIndexChanged.connect(self._try)
+        # Not at every key: resampling a long trajectory takes its time.
+        self._pause = QTimer(self, singleShot=True, interval=PAUSE_MS)
+        self._pause.timeout.connect(self._try)
+        self.rate.textChanged.connect(self._wait)
+        self.method.currentIndexChanged.connect(self._wait)
         self._try()
+
+    def _wait(self) -> None:
+        self.buttons.button(QDialogButtonBox.StandardButton.Ok).setEnabled(False)
+        self._pause.start()
 
     def _try(self) -> None:
         try:
