@@ -105,6 +105,16 @@ def test_nano_first_uses_all_of_the_nano_stage_before_the_tables():
     assert joints[2] - START[2] == pytest.approx(-1e-4 + START[5], rel=1e-3)
 
 
+def test_only_the_table_of_the_joint_that_ends_has_to_move():
+    """At tilts of 0.6 rad the joints depend on one another: they must be found together."""
+    for axis, step in ((0, [-0.03, 0.005, 0.01]), (1, [0.005, 0.03, 0.01])):
+        start = WIDE.centre
+        target = tip_position(WIDE, start) + np.array(step)
+        moved = solve_tip(WIDE, target, start, Split.NANO_FIRST)[:3] - start[:3]
+        assert abs(moved[axis]) > 1e-3
+        np.testing.assert_array_equal(np.delete(moved, axis), 0.0)
+
+
 def test_hybrid_centres_only_what_overflows():
     start = START.copy()
     start[5] = 60e-6

@@ -1,5 +1,7 @@
 """The reach of the tip, from samples and from its corners."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -12,17 +14,24 @@ from rotemina.sim.kinematics.workspace import Workspace, nano_grid, nano_outline
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.trajectory.limits import OutOfLimitsError
 
-CHAIN = Chain.of(load_robot("rotemina"))
+ROBOT = load_robot("rotemina")
+CHAIN = Chain.of(ROBOT)
 SPACE = Workspace.of(CHAIN)
 
 
-def random_joints(count, seed=1, ends=True):
+def random_joints(count, chain=CHAIN):
     """Joints anywhere, each at one of its ends half of the time."""
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(1)
     share = rng.random((count, 6))
-    if ends:
-        share = np.where(rng.random((count, 6)) < 0.5, np.round(share), share)
-    return CHAIN.lower + share * (CHAIN.upper - CHAIN.lower)
+    share = np.where(rng.random((count, 6)) < 0.5, np.round(share), share)
+    return chain.lower + share * (chain.upper - chain.lower)
+
+
+def chain_with(**ranges):
+    axes = dict(ROBOT.axes)
+    for name, ends in ranges.items():
+        axes[name] = replace(axes[name], range=ends, voltage_range=None)
+    return Chain.of(replace(ROBOT, axes=axes))
 
 
 def test_the_cylinder_of_the_paper_lies_inside_with_room():
@@ -42,22 +51,34 @@ def test_a_cylinder_that_is_too_large_is_not_inside():
     assert SPACE.cylinder_margin(0.050, 0.081) < 0.0
 
 
-def test_every_tip_lies_in_the_hull_and_touches_it():
-    tips = tip_position(CHAIN, random_joints(40_000))
-    assert (tips >= SPACE.hull.low - 1e-15).all()
-    assert (tips <= SPACE.hull.high + 1e-15).all()
-    np.testing.assert_allclose(tips.min(axis=0), SPACE.hull.low, atol=1e-12)
-    np.testing.assert_allclose(tips.max(axis=0), SPACE.hull.high, atol=1e-12)
+@pytest.mark.parametrize(
+    "chain", [CHAIN, chain_with(thx=(-0.5, 0.3), thy=(-0.2, 0.6)), chain_with(thx=(0.2, 0.5))]
+)
+def test_every_tip_lies_in_the_hull_and_some_touch_it(chain):
+    joints = random_joints(40_000, chain)
+    level = np.clip(0.0, chain.lower[3:5], chain.upper[3:5])
+    joints[::2, 3:5] = np.where(np.arange(20_000)[:, None] % 3 == 0, level, joints[::2, 3:5])
+    joints[1::4, 3] = level[0]
+    tips, hull = tip_position(chain, joints), Workspace.of(chain).hull
+    np.testing.assert_allclose(tips.min(axis=0), hull.low, rtol=0, atol=1e-15)
+    np.testing.assert_allclose(tips.max(axis=0), hull.high, rtol=0, atol=1e-15)
 
 
-def test_the_margin_errs_to_the_safe_side_by_less_than_the_blur():
-    tips = tip_position(CHAIN, random_joints(40_000))
-    margin = SPACE.margin(tips)
-    assert margin.min() >= -SPACE.blur
-    assert SPACE.blur < 0.08e-6
+@pytest.mark.parametrize(
+    "chain",
+    [CHAIN, chain_with(zn=(0.0, 1e-9)), chain_with(thy=(0.0, 1e-9)), chain_with(thx=(0.0, 1e-9))],
+)
+def test_the_margin_errs_to_the_safe_side_by_the_blur_and_no_more(chain):
+    space, tips = Workspace.of(chain), tip_position(chain, random_joints(40_000, chain))
+    worst = float(space.margin(tips).min())
+    assert -space.blur - 1e-15 <= worst < -0.9 * space.blur
     beyond = tips.copy()
-    beyond[:, 0] = SPACE.hull.high[0] + 1e-9
-    assert (SPACE.margin(beyond) < 0).all()
+    beyond[:, 0] = space.hull.high[0] + 1e-9
+    assert (space.margin(beyond) < 0).all()
+
+
+def test_the_blur_is_below_a_tenth_of_a_micrometre():
+    assert SPACE.blur == pytest.approx(75.7e-9, rel=1e-3)
 
 
 @given(

@@ -129,6 +129,16 @@ def test_a_slow_axis_is_not_taken_for_a_free_one():
     np.testing.assert_allclose(modes.poles.real, [-1e-6, -1000.0], rtol=1e-3)
 
 
+@pytest.mark.parametrize("damping", [0.0, 0.4])
+@pytest.mark.parametrize("mass", [2.3, 0.7, 11.9])
+@pytest.mark.parametrize("spring", [31.7, 4.1e5])
+def test_rigid_motion_is_exactly_zero(mass, spring, damping):
+    links = coupling("C", -spring) + (coupling("D", -damping) if damping else "")
+    robot = machine((mass, damping, spring), (3.7, damping, spring), couplings=links)
+    assert undamped_modes(robot).frequency_hz[0] == 0.0
+    assert damped_modes(robot).poles[:2].tolist() == [0.0, 0.0]
+
+
 def test_two_masses_on_one_spring_keep_one_rigid_motion():
     """Masses 2 and 3 joined by a spring of 30: C singular, ω² = 30 (1/2 + 1/3)."""
     robot = machine((2.0, 0.0, 30.0), (3.0, 0.0, 30.0), couplings=coupling("C", -30.0))
