@@ -1,0 +1,288 @@
+"""The making of one axis' excitation: what the axis allows, and what was reduced to fit."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import inf, isfinite, pi, sqrt
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.excitation.moves import shortest_duration
+from rotemina.sim.excitation.quantity import Amount, ExcitationError, Share
+from rotemina.sim.robot.model import Axis, PiezoAxis
+from rotemina.sim.trajectory.limits import voltage_bounds
+from rotemina.sim.trajectory.wording import readable
+
+AMPLITUDE = 0.3  # of the range, to each side, where nothing is asked
+MOST_ROWS = 20_000_000
+_CROSSING_S = 1.0  # an axis without declared speed is not asked to cross its range faster
+_SMALLEST = 1e-4  # of the range: an amplitude that is still worth measuring
+_PER_RESONANCE = 2.0  # default bands end at this multiple of the natural frequency
+_PER_RATE = 0.2  # and at this share of the rate at the latest
+_ROUNDING = 1e-9  # relative: less is no reduction
+
+
+@dataclass(frozen=True, slots=True)
+class Adjustment:
+    """A parameter that is not as asked: ``asked`` and ``used`` in ``unit``, and the ``cause``."""
+
+    axis: str
+    parameter: str
+    asked: float
+    used: float
+    unit: str
+    cause: str
+
+    @property
+    def message(self) -> str:
+        """What changed, by how much, and why."""
+        asked = readable(self.asked, self.unit)
+        used = readable(self.used, self.unit, scale=self.asked)
+        factor = f"{self.used / self.asked:.4g}"
+        return f"axis {self.axis}: {self.parameter} {asked} → {used} (× {factor}), for {self.cause}"
+
+
+@dataclass(frozen=True, slots=True)
+class Signal:
+    """What one axis is told: positions (n,) at the rate, m or rad.
+
+    ``period`` is the rows after which it repeats, or None; ``parameters`` are those used.
+    """
+
+    values: FloatArray
+    parameters: Mapping[str, object]
+    period: int | None = None
+
+
+@dataclass(slots=True, eq=False)
+class Draft:
+    """One axis, its limits (SI, infinite where undeclared) and the adjustments so far."""
+
+    axis: str
+    unit: str
+    low: float
+    high: float
+    span: float
+    speed: float
+    acceleration: float
+    natural_hz: float | None
+    rate_hz: float
+    rng: np.random.Generator
+    strict: bool = False
+    adjustments: list[Adjustment] = field(default_factory=list)
+
+    @classmethod
+    def of(
+        cls,
+        name: str,
+        axis: Axis,
+        rate_hz: float,
+        rng: np.random.Generator,
+        *,
+        strict: bool = False,
+    ) -> "Draft":
+        """Start the draft of an axis: its room is the range that its voltage reaches, too."""
+        low, high = axis.range
+        bounds = voltage_bounds(axis)
+        if bounds is not None and isinstance(axis, PiezoAxis):
+            reach = sorted(voltage * axis.gain for voltage in bounds)
+            low, high = max(low, reach[0]), min(high, reach[1])
+        return cls(
+            axis=name,
+            unit=axis.unit or "m",
+            low=low,
+            high=high,
+            span=axis.span,
+            speed=axis.max_speed or inf,
+            acceleration=axis.max_acceleration or inf,
+            natural_hz=natural_frequency(axis),
+            rate_hz=rate_hz,
+            rng=rng,
+            strict=strict,
+        )
+
+    def limited(
+        self, parameter: str, asked: float, allowed: Mapping[str, float], unit: str
+    ) -> float:
+        """Return ``asked``, or the least of ``allowed`` (by cause) where that is smaller.
+
+        Raises
+        ------
+        ExcitationError
+            In a strict draft, if it is.
+        """
+        cause = min(allowed, key=lambda name: allowed[name])
+        most = allowed[cause]
+        if asked <= most * (1.0 + _ROUNDING):
+            return min(asked, most)
+        return self._reduced(parameter, asked, most, unit, cause)
+
+    def at_least(self, parameter: str, asked: float, needed: float, unit: str, cause: str) -> float:
+        """Return ``asked``, or ``needed`` where that is more.
+
+        Raises
+        ------
+        ExcitationError
+            In a strict draft, if it is.
+        """
+        if asked >= needed * (1.0 - _ROUNDING):
+            return asked
+        return self._reduced(parameter, asked, needed, unit, cause)
+
+    def rounded(self, parameter: str, asked: float, used: float, unit: str, cause: str) -> float:
+        """Note a parameter that had to be rounded, which is no reduction; return it."""
+        if abs(used - asked) > 1e-6 * abs(asked):
+            self.adjustments.append(Adjustment(self.axis, parameter, asked, used, unit, cause))
+        return used
+
+    def offset(self, asked: Amount | None) -> float:
+        """Return the middle of the motion, m or rad: a share is one of the range.
+
+        Raises
+        ------
+        ExcitationError
+            If it leaves no room to move.
+        """
+        middle = (self.low + self.high) / 2.0
+        if asked is None:
+            return middle
+        share = isinstance(asked, Share)
+        value = self.low + asked.of_whole * self.span if isinstance(asked, Share) else asked
+        if not (isfinite(value) and self.low < value < self.high):
+            stated = f"{100 * asked.of_whole:.6g} %" if isinstance(asked, Share) else value
+            said = stated if share else readable(value, self.unit, scale=self.high)
+            raise ExcitationError(
+                f"axis {self.axis}: offset {said} leaves no room to move between "
+                f"{readable(self.low, self.unit, scale=self.high)} and "
+                f"{readable(self.high, self.unit)}"
+            )
+        return value
+
+    def amplitude(
+        self, asked: Amount | None, offset: float, allowed: Mapping[str, float] | None = None
+    ) -> float:
+        """Return the way to each side of ``offset``, m or rad, within the range and ``allowed``.
+
+        Raises
+        ------
+        ExcitationError
+            If it is not positive, or in a strict draft too large.
+        """
+        room = min(offset - self.low, self.high - offset)
+        most = {self._range_cause(): room, **(allowed or {})}
+        if asked is None:
+            return min(AMPLITUDE * self.span, *most.values())
+        value = asked.of_whole * self.span if isinstance(asked, Share) else asked
+        if not (isfinite(value) and value > 0):
+            raise ExcitationError(
+                f"axis {self.axis}: amplitude {value:.6g} {self.unit} must be above 0"
+            )
+        return self.limited("amplitude", value, most, self.unit)
+
+    def shape_amplitudes(self, shape: FloatArray) -> dict[str, float]:
+        """Return the greatest amplitudes of a unit shape (n,) by the limit that sets them.
+
+        The shape is held before its first row and after its last, as the judge of limits does.
+        """
+        allowed = {}
+        steps = np.diff(np.pad(shape, 1, mode="edge")) * self.rate_hz
+        if self.speed < inf:
+            peak = float(np.abs(steps).max())
+            allowed[self.speed_cause()] = self.speed / max(peak, np.finfo(np.float64).tiny)
+        if self.acceleration < inf:
+            # Over single rows: wider windows, in which rounding is judged, are averages of these.
+            peak = float(np.abs(np.diff(steps)).max()) * self.rate_hz
+            allowed[self.acceleration_cause()] = self.acceleration / peak
+        return allowed
+
+    def stroke_cause(self) -> str:
+        """Name the limits of a move from rest to rest."""
+        causes = []
+        if self.speed < inf:
+            causes.append(self.speed_cause())
+        if self.acceleration < inf:
+            causes.append(self.acceleration_cause())
+        return " and ".join(causes) or "the limits"
+
+    def speed_cause(self) -> str:
+        """Name the limit of speed."""
+        return f"the speed limit {readable(self.speed, self.unit + '/s')}"
+
+    def acceleration_cause(self) -> str:
+        """Name the limit of acceleration."""
+        return f"the acceleration limit {readable(self.acceleration, self.unit + '/s²')}"
+
+    def top_speed(self) -> float:
+        """Return the speed limit, or where none is declared the range in a second."""
+        return self.speed if self.speed < inf else self.span / _CROSSING_S
+
+    def default_hz(self, amplitude: Amount | None) -> float:
+        """Return a frequency at which a swing of the amplitude asked for is no effort, <= 1 Hz."""
+        wanted = Share(AMPLITUDE) if amplitude is None else amplitude
+        asked = wanted.of_whole * self.span if isinstance(wanted, Share) else wanted
+        stroke = min(2.0 * abs(asked), self.high - self.low)
+        half = shortest_duration(stroke, self.top_speed(), self.acceleration)
+        return min(1.0, 0.25 / half) if half > 0 else 1.0
+
+    def useful_hz(self) -> float:
+        """Return up to where an excitation of this axis still says something, Hz.
+
+        Twice its natural frequency, a fifth of the rate, and where speed or acceleration leave
+        1/10 000 of the range, whichever is least.
+        """
+        smallest = _SMALLEST * self.span
+        by_speed = self.speed / (2.0 * pi * smallest)
+        by_acceleration = sqrt(self.acceleration / smallest) / (2.0 * pi)
+        by_resonance = inf if self.natural_hz is None else _PER_RESONANCE * self.natural_hz
+        return min(by_speed, by_acceleration, by_resonance, _PER_RATE * self.rate_hz)
+
+    def rows(self, duration_s: float) -> int:
+        """Return a duration in rows, 1 or more.
+
+        Raises
+        ------
+        ExcitationError
+            If there would be too many.
+        """
+        if not duration_s * self.rate_hz <= MOST_ROWS:
+            raise ExcitationError(
+                f"axis {self.axis}: {duration_s:.6g} s at {self.rate_hz:.6g} Hz is more than "
+                f"{MOST_ROWS} rows; shorten it or lower the rate"
+            )
+        return max(1, round(duration_s * self.rate_hz))
+
+    def check_frequency(self, name: str, value: float) -> None:
+        """Refuse a frequency that the rate cannot carry.
+
+        Raises
+        ------
+        ExcitationError
+            If it is half the rate or more.
+        """
+        if value >= self.rate_hz / 2.0:
+            raise ExcitationError(
+                f"axis {self.axis}: {name} {value:.6g} Hz must be below half the rate, "
+                f"{self.rate_hz / 2.0:.6g} Hz"
+            )
+
+    def _reduced(self, parameter: str, asked: float, used: float, unit: str, cause: str) -> float:
+        if self.strict:
+            side = "least" if used > asked else "most"
+            raise ExcitationError(
+                f"axis {self.axis}: {parameter} {readable(asked, unit)} is beyond "
+                f"{readable(used, unit, scale=asked)}, the {side} within {cause}"
+            )
+        self.adjustments.append(Adjustment(self.axis, parameter, asked, used, unit, cause))
+        return used
+
+    def _range_cause(self) -> str:
+        low = readable(self.low, self.unit, scale=self.high or self.low)
+        return f"the range {low} to {readable(self.high, self.unit, scale=self.high or self.low)}"
+
+
+def natural_frequency(axis: Axis) -> float | None:
+    """Return ``sqrt(stiffness/mass)/2π`` of an axis, Hz; None if it is free or static."""
+    inertia = axis.inertia
+    if inertia is None or inertia.stiffness <= 0:
+        return None
+    return sqrt(inertia.stiffness / inertia.mass) / (2.0 * pi)

@@ -1,0 +1,44 @@
+"""Amounts as users state them."""
+
+import pytest
+
+from rotemina.sim.excitation.quantity import ExcitationError, Share, amount_of
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "amount"),
+    [
+        ("5um", "m", 5e-6),
+        ("5 µm", "m", 5e-6),
+        (" .5mm ", "m", 5e-4),
+        ("-1e-3mm", "m", -1e-6),
+        ("200urad", "rad", 200e-6),
+        ("30%", "m", Share(0.3)),
+        ("30 %", "rad", Share(0.3)),
+        ("1 mm/s", "m/s", 1e-3),
+        ("2m/s3", "m/s3", 2.0),
+        ("2m/s³", "m/s3", 2.0),
+    ],
+)
+def test_amounts_become_si(text, unit, amount):
+    assert amount_of(text, "x", unit) == amount
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("5", "has no unit"),
+        ("5kg", "unknown unit 'kg'"),
+        ("5urad", "axis x: '5urad' is in rad, not in m"),
+        ("5um/s", "is in m/s, not in m"),
+        ("5%/s", "unknown unit"),
+        ("um", "no amount"),
+        ("", "no amount"),
+        ("nan um", "no amount"),
+        ("1e999um", "not a finite number"),
+        ("1,5um", "no amount"),
+    ],
+)
+def test_what_is_no_amount_is_refused(text, words):
+    with pytest.raises(ExcitationError, match=words):
+        amount_of(text, "x", "m")
