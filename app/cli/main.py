@@ -9,7 +9,7 @@ import sys
 from collections.abc import Sequence
 from importlib.metadata import version
 
-from rotemina.app.cli import compare, convert, play, window
+from rotemina.app.cli import compare, convert, excite, play, window
 from rotemina.sim.errors import InputError
 
 
@@ -37,7 +37,7 @@ def build_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"rotemina {version('rotemina')}")
     window.add_options(parser)
     commands = parser.add_subparsers(title="subcommands", metavar="")
-    for module in (play, compare, convert):
+    for module in (play, compare, convert, excite):
         module.add_parser(commands)
     return parser
 

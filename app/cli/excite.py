@@ -1,0 +1,231 @@
+"""``rotemina excite``: make a test motion that stays inside the limits of the robot."""
+
+import argparse
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from pathlib import Path
+
+from rotemina.app.cli.options import add_robot, robot_of
+from rotemina.sim.excitation.generator import KINDS, Excitation, Kind, excite
+from rotemina.sim.excitation.quantity import ExcitationError, amount_of
+from rotemina.sim.records.writing import write_record
+from rotemina.sim.robot.model import Robot
+
+Reader = Callable[[str, str, str], tuple[object, ...]]
+
+_LONGEST = 150  # signs of an axis' parameters on the screen; the file has them all
+
+
+def _amounts(per: str) -> Reader:
+    """Read amounts that are joined by ``:``, in the axis' unit with ``per`` behind it."""
+    return lambda text, axis, unit: tuple(
+        amount_of(part, axis, unit + per) for part in text.split(":")
+    )
+
+
+def _numbers(unit: str = "") -> Reader:
+    return lambda text, _axis, _unit: tuple(_number(part, unit) for part in text.split(":"))
+
+
+def _counts(text: str, _axis: str, _unit: str) -> tuple[int, ...]:
+    return (_count(text),)
+
+
+def _choice(*names: str) -> Reader:
+    def read(text: str, _axis: str, _unit: str) -> tuple[str]:
+        if text not in names:
+            raise ExcitationError(f"{text[:40]!r} is none of {', '.join(names)}")
+        return (text,)
+
+    return read
+
+
+def _number(text: str, unit: str) -> float:
+    try:
+        return float(text.strip().removesuffix(unit))
+    except ValueError:
+        advice = f"a number of {unit}" if unit else "a number"
+        raise ExcitationError(f"{text[:40]!r} is not {advice}") from None
+
+
+def _count(text: str) -> int:
+    try:
+        return int(text)
+    except ValueError:
+        raise ExcitationError(f"{text[:40]!r} is no whole number") from None
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """An option whose value each axis may have of its own, and the parameters that it sets."""
+
+    option: str
+    names: tuple[str, ...]
+    read: Reader
+    metavar: str
+    help: str
+    many: bool = False
+
+    def values(self, text: str, axis: str, unit: str) -> dict[str, object]:
+        """Return what ``text`` sets, by the names of the parameters."""
+        try:
+            found = self.read(text, axis, unit)
+        except ExcitationError as error:
+            raise ExcitationError(f"--{self.option}: {error}") from None
+        if self.many:
+            return {self.names[0]: found}
+        if len(found) != len(self.names):
+            raise ExcitationError(f"--{self.option}: {text[:40]!r}; write it as {self.metavar}")
+        return dict(zip(self.names, found, strict=True))
+
+
+PARAMETERS = (
+    Parameter("amplitude", ("amplitude",), _amounts(""), "5um", "to each side; % of the range"),
+    Parameter("offset", ("offset",), _amounts(""), "50%", "middle of the motion; % of the range"),
+    Parameter("frequency", ("frequency_hz",), _numbers("Hz"), "HZ", "of the wave, or PRBS clock"),
+    Parameter("band", ("low_hz", "high_hz"), _numbers("Hz"), "LOW:HIGH", "of chirp, multisine; Hz"),
+    Parameter("duration", ("duration_s",), _numbers("s"), "S", "rounded to whole periods"),
+    Parameter("period", ("period_s",), _numbers("s"), "S", "of the multisine"),
+    Parameter("detection", ("detection",), _counts, "N", "leave out one odd line in N; 0: none"),
+    Parameter("slope", ("slope",), _numbers(), "P", "multisine amplitudes go as f^P"),
+    Parameter("spacing", ("spacing",), _choice("log", "linear"), "log|linear", "of the chirp"),
+    Parameter("order", ("order",), _counts, "N", "PRBS of 2^N - 1 chips"),
+    Parameter("levels", ("levels",), _counts, "N", "of the staircase"),
+    Parameter("hold", ("hold_s",), _numbers("s"), "S", "rest between moves"),
+    Parameter("rise", ("rise_s",), _numbers("s"), "S", "of a step"),
+    Parameter("jerk", ("jerk",), _amounts("/s3"), "1m/s3", "limit of a step's jerk"),
+    Parameter("cycles", ("cycles",), _counts, "N", "repetitions of the steps"),
+    Parameter(
+        "speeds",
+        ("speeds",),
+        _amounts("/s"),
+        "1mm/s:20%",
+        "of sweeps, joined by ':'; %% of the speed limit",
+        many=True,
+    ),
+)
+SWITCHES = {
+    "periodic": "end a row before the first one comes again, and mark the file periodic",
+    "growing": "let the decaying triangle grow instead",
+}
+
+
+def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Add the subcommand."""
+    parser = commands.add_parser(
+        "excite",
+        help="make a test motion that stays inside the robot's limits",
+        description="Write a trajectory that excites axes of a robot: "
+        f"{', '.join(KINDS)}. It never leaves range, voltage, speed and acceleration of an axis; "
+        "what was asked beyond is reduced, and said. A value may be given per axis: "
+        "--amplitude x=5um,thx=200urad",
+    )
+    parser.add_argument("kind", metavar="KIND", help=", ".join(KINDS))
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE")
+    add_robot(parser)
+    parser.add_argument("--axes", metavar="x,thx", help="which axes move (default: all)")
+    for each in PARAMETERS:
+        help_text = each.help if "%%" in each.help else each.help.replace("%", "%%")
+        parser.add_argument(f"--{each.option}", metavar=each.metavar, help=help_text)
+    for name, meaning in SWITCHES.items():
+        parser.add_argument(
+            f"--{name}", action=argparse.BooleanOptionalAction, default=None, help=meaning
+        )
+    parser.add_argument(
+        "--rate", type=float, metavar="HZ", help="rows a second (default: 4 a resonance)"
+    )
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of phases and sequences")
+    parser.add_argument(
+        "--strict", action="store_true", help="refuse what exceeds a limit, never reduce it"
+    )
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Make the trajectory, write it, and say what it is and what was reduced."""
+    robot = robot_of(options)
+    made = excite(
+        robot,
+        _plan(robot, options),
+        rate_hz=options.rate,
+        seed=options.seed,
+        strict=options.strict,
+    )
+    write_record(made.record, options.output)
+    print(f"{options.output}: {_summary(made)}")
+    return 0
+
+
+def _plan(robot: Robot, options: argparse.Namespace) -> dict[str, Kind]:
+    if options.kind not in KINDS:
+        raise ExcitationError(f"unknown kind {options.kind[:40]!r}; use one of {', '.join(KINDS)}")
+    names = list(robot.axes) if options.axes is None else _split(options.axes)
+    for name in names:
+        if name not in robot.axes:
+            raise ExcitationError(
+                f"axis {name!r}: robot {robot.name!r} has no such axis; "
+                f"use one of {', '.join(robot.axes)}"
+            )
+    stated = _stated(options, names)
+    return {name: _kind(options, stated, name, robot.unit(name) or "m") for name in names}
+
+
+def _stated(
+    options: argparse.Namespace, names: list[str]
+) -> list[tuple[Parameter, dict[str | None, str]]]:
+    """Return the options that were given, with their texts by axis; None: of all others."""
+    known = {field.name for field in fields(KINDS[options.kind])}
+    given = [each for each in PARAMETERS if getattr(options, each.option) is not None]
+    refused = [each.option for each in given if not known.issuperset(each.names)]
+    refused += [s for s in SWITCHES if getattr(options, s) is not None and s not in known]
+    if refused:
+        takes = [f"--{each.option}" for each in PARAMETERS if known.issuperset(each.names)]
+        takes += [f"--{name}" for name in SWITCHES if name in known]
+        raise ExcitationError(f"{options.kind} has no --{refused[0]}; it takes {' '.join(takes)}")
+    return [(each, _by_axis(each, getattr(options, each.option), names)) for each in given]
+
+
+def _by_axis(parameter: Parameter, text: str, names: list[str]) -> dict[str | None, str]:
+    texts: dict[str | None, str] = {}
+    for part in _split(text):
+        axis, equals, value = part.partition("=")
+        key = axis.strip() if equals else None
+        if key is not None and key not in names:
+            raise ExcitationError(f"--{parameter.option}: axis {key!r} is none of those that move")
+        if key in texts:
+            raise ExcitationError(f"--{parameter.option}: {text[:40]!r} has two values for an axis")
+        texts[key] = value.strip() if equals else part
+    return texts
+
+
+def _kind(
+    options: argparse.Namespace,
+    stated: list[tuple[Parameter, dict[str | None, str]]],
+    axis: str,
+    unit: str,
+) -> Kind:
+    values: dict[str, object] = {}
+    for parameter, texts in stated:
+        text = texts.get(axis, texts.get(None))
+        if text is not None:
+            values |= parameter.values(text, axis, unit)
+    switches = {name: getattr(options, name) for name in SWITCHES}
+    values |= {name: value for name, value in switches.items() if value is not None}
+    return KINDS[options.kind](**values)
+
+
+def _split(text: str) -> list[str]:
+    return [part.strip() for part in text.split(",") if part.strip()]
+
+
+def _summary(made: Excitation) -> str:
+    record = made.record
+    rate = float(record.metadata["rate_hz"])
+    lines = [f"{len(record.time_s)} rows, {record.duration_s:.6g} s at {rate:.6g} Hz"]
+    if record.period_samples is not None:
+        lines[0] += f", periodic in {record.period_samples} rows"
+    for axis in record.axes:
+        words = record.metadata[f"excitation {axis}"]
+        lines.append(f"  {axis}: {words if len(words) <= _LONGEST else words[:_LONGEST] + ' …'}")
+    lines += [f"  changed: {each.message}" for each in made.adjustments]
+    return "\n".join(lines)

@@ -1,0 +1,134 @@
+"""``rotemina excite`` as its users meet it."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rotemina.app.cli.main import main
+from rotemina.sim.excitation.generator import KINDS
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.records.record import Tap
+
+
+@pytest.fixture(autouse=True)
+def in_tmp(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.mark.parametrize("robot", ["rotemina", "fsm", "picma", "emps"])
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_kind_is_a_file_that_says_what_it_is(kind, robot, capsys):
+    assert main(["excite", kind, "--robot", robot, "-o", "it.csv"]) == 0
+    record = read_record("it.csv")
+    assert record.metadata["excitation"] == kind
+    said = capsys.readouterr().out
+    assert said.startswith(f"it.csv: {len(record.time_s)} rows")
+    assert all(f"  {axis}: {kind}; " in said for axis in record.axes)
+    assert main(["play", "it.csv", "--robot", robot, "--dry-run"]) == 0
+
+
+def test_each_axis_may_have_its_own_values():
+    asked = ["--axes", "x,thx,zn", "--amplitude", "x=20um,thx=200urad,10%", "--frequency", "zn=2,1"]
+    assert main(["excite", "sine", *asked, "--offset", "x=30mm", "-o", "it.csv"]) == 0
+    record = read_record("it.csv")
+    assert record.axes == ("x", "thx", "zn")
+    spans = [np.ptp(record.signal(axis, Tap.CMD)) for axis in record.axes]
+    assert spans == pytest.approx([40e-6, 400e-6, 13e-6], rel=1e-4)
+    assert record.signal("x", Tap.CMD).mean() == pytest.approx(0.03, rel=1e-4)
+    assert "frequency_hz = 2;" in record.metadata["excitation zn"]
+    assert "frequency_hz = 1;" in record.metadata["excitation thx"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ("sine --frequency 2Hz --duration 3s --periodic", "cycles = 6"),
+        ("triangle --frequency 2 --offset 25%", "offset_rad = 0.000290887"),
+        ("decaying-triangle --growing", "growing = True"),
+        ("staircase --levels 4 --hold 0.2", "levels = 4; hold_s = 0.2"),
+        ("multisine --band 2:100 --period 0.5 --detection 0 --slope -1", "lines = 1 3 5 7 9 "),
+        ("chirp --band 1:100 --spacing linear --duration 5", "spacing = linear"),
+        ("prbs --order 7 --frequency 100 --no-periodic", "order = 7"),
+        ("sweeps --speeds 1mrad/s:50urad/s", "speeds_rad_per_s = 0.001 5e-05"),
+        ("steps --rise 0.1 --jerk 1000mrad/s3 --cycles 2", "cycles = 2"),
+    ],
+)
+def test_every_parameter_has_its_option(arguments, words):
+    assert main(["excite", *arguments.split(), "--axes", "thx", "-o", "it.csv"]) == 0
+    assert words in read_record("it.csv").metadata["excitation thx"]
+
+
+def test_the_same_seed_writes_the_same_bytes():
+    for name, seed in (("a.csv", "3"), ("b.csv", "3"), ("c.csv", "4")):
+        asked = ["--axes", "thx,thy", "--seed", seed, "--rate", "1000", "-o", name]
+        assert main(["excite", "multisine", *asked]) == 0
+    assert Path("a.csv").read_bytes() == Path("b.csv").read_bytes()
+    assert Path("a.csv").read_bytes() != Path("c.csv").read_bytes()
+    record = read_record("a.csv")
+    assert record.history == "periodic"
+    assert record.period_samples == 1000
+
+
+def test_what_was_reduced_is_said(capsys):
+    asked = ["excite", "sine", "--axes", "x", "--amplitude", "5mm", "--frequency", "1"]
+    assert main([*asked, "-o", "it.csv"]) == 0
+    said = capsys.readouterr().out
+    assert (
+        "changed: axis x: amplitude 5 mm → 1.59156 mm (× 0.3183), for the speed limit 10 mm/s"
+        in said
+    )
+    assert main([*asked, "--strict", "-o", "strict.csv"]) == 2
+    error = capsys.readouterr().err
+    assert error == (
+        "rotemina: axis x: amplitude 5 mm is beyond 1.59156 mm, "
+        "the most within the speed limit 10 mm/s\n"
+    )
+    assert not Path("strict.csv").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ("noise", "unknown kind 'noise'; use one of sine, triangle"),
+        ("sine --axes w", "axis 'w': robot 'RoTeMiNa' has no such axis"),
+        ("sine --axes ,", "no axis is named"),
+        ("sine --robot nobody", "nobody: no such robot"),
+        ("sine --hold 1", "sine has no --hold; it takes --amplitude --offset --frequency"),
+        ("sine --growing", "sine has no --growing"),
+        ("sine --amplitude 5", "--amplitude: '5' has no unit"),
+        ("sine --amplitude 5um", "--amplitude: axis thx: '5um' is in m, not in rad"),
+        ("sine --axes x --amplitude 5kg", "unknown unit 'kg'"),
+        ("sine --axes x --amplitude y=5um", "--amplitude: axis 'y' is none of those that move"),
+        ("sine --axes x --amplitude 5um,6um", "two values for an axis"),
+        ("sine --axes x --amplitude=-5um", "must be above 0"),
+        ("sine --frequency fast", "--frequency: 'fast' is not a number of Hz"),
+        ("sine --frequency 0", "frequency_hz = 0: must be a finite number above 0"),
+        ("sine --rate 0", "rate 0 Hz"),
+        ("sine --seed -1", "seed -1: must be 0 or more"),
+        ("chirp --band 5", "--band: '5'; write it as LOW:HIGH"),
+        ("chirp --band 5:x", "--band: 'x' is not a number of Hz"),
+        ("chirp --spacing odd", "--spacing: 'odd' is none of log, linear"),
+        ("prbs --order 1.5", "--order: '1.5' is no whole number"),
+        ("prbs --order 99", "order = 99: must lie between 3 and 20"),
+        ("sweeps --axes x --speeds 1mm", "is in m, not in m/s"),
+        ("staircase --hold 1e12", "rows"),
+        ("sine -o no/such/folder/it.csv", "it.csv"),
+    ],
+)
+def test_a_bad_request_is_one_clear_line_and_status_2(arguments, message, capsys):
+    output = [] if "-o " in arguments else ["-o", "it.csv"]
+    assert main(["excite", *arguments.split(), *output]) == 2
+    error = capsys.readouterr().err
+    assert error.startswith("rotemina: ")
+    assert error.count("\n") == 1
+    assert message in error
+    assert not list(Path().iterdir())
+
+
+def test_it_does_not_go_without_an_output(capsys):
+    with pytest.raises(SystemExit) as caught:
+        main(["excite", "sine"])
+    assert caught.value.code == 2
+    assert "-o/--output" in capsys.readouterr().err
