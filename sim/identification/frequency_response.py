@@ -102,9 +102,9 @@ def excited_lines(power: ComplexArray, excited_above: float) -> IntArray:
         If there is none: the inputs move together, or there are too few experiments.
     """
     size = np.sqrt(np.max(np.einsum("kii->ki", power[1:]).real, axis=0))
-    scaled = power / np.outer(size, size)
-    least = np.linalg.eigvalsh(scaled)[:, 0]
-    least[0] = -np.inf
+    least = np.full(len(power), -np.inf)
+    if size.all():
+        least[1:] = np.linalg.eigvalsh(power[1:] / np.outer(size, size))[:, 0]
     lines = np.flatnonzero(least >= excited_above**2)
     if len(lines) == 0:
         raise ExcitationError(

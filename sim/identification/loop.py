@@ -17,11 +17,11 @@ _LEAST_SPREAD = 1.2  # of amplitudes, from which an exponent can be told
 
 
 class Loop(NamedTuple):
-    """One cycle of the input, from a low turning point through the high one to the next low.
+    """One cycle of the input: from low turning point to low, or high to high if none is so.
 
     Attributes
     ----------
-    rows : first and last row of the cycle.
+    rows : first and last row of the cycle, of the input.
     input_low, input_high : turning points, input unit; both branches cover what lies between.
     stroke : of the output between them, output unit.
     width_mid, width_max : output going down minus going up at the same input, at the middle and
@@ -83,6 +83,16 @@ def loops(
     x, y = driven[:count], answer[lag_samples:]
     check_moving(x, "input")
     highs, lows = _turning_points(x, least_swing * float(np.ptp(x)))
+    found = _cycles(x, y, lows, highs) or [_mirrored(each) for each in _cycles(-x, -y, highs, lows)]
+    if not found:
+        raise ExcitationError(
+            "loops: the input makes no whole cycle from one turning point to the next of its "
+            "kind; record one cycle more"
+        )
+    return tuple(found)
+
+
+def _cycles(x: FloatArray, y: FloatArray, lows: list[int], highs: list[int]) -> list[Loop]:
     found = []
     for begin, end in pairwise(lows):
         between = [row for row in highs if begin < row < end]
@@ -90,12 +100,18 @@ def loops(
             top = max(between, key=lambda row: float(x[row]))
             loop = _measure(x, y, begin, top, end)
             found += [loop] if loop is not None else []
-    if not found:
-        raise ExcitationError(
-            "loops: the input makes no whole cycle from one low turning point to the next; "
-            "record one cycle more"
-        )
-    return tuple(found)
+    return found
+
+
+def _mirrored(loop: Loop) -> Loop:
+    """Return the loop of an input and output that were both negated to find it."""
+    low, high = loop.saturation_low, loop.saturation_high
+    return loop._replace(
+        input_low=-loop.input_high,
+        input_high=-loop.input_low,
+        saturation_low=None if high is None else -high,
+        saturation_high=None if low is None else -low,
+    )
 
 
 def amplitude_exponent(measured: tuple[Loop, ...]) -> float:

@@ -9,7 +9,7 @@ from rotemina.sim.identification.errors import ExcitationError, IdentificationEr
 from rotemina.sim.records.record import Record, Tap
 
 _LEVEL_SHARE = 0.1  # of a hold, over whose end a level is averaged
-_SHORTEST_HOLD = 10  # rows
+_SHORTEST_HOLD = 50  # rows; a shorter one has no level to speak of
 
 
 class StepMetrics(NamedTuple):
@@ -46,10 +46,11 @@ def step_metrics(
     *,
     drive: Tap = Tap.CMD,
     least_step: float = 0.01,
+    shortest_hold_s: float = 0.0,
 ) -> tuple[StepMetrics, ...]:
     """Measure every step that a command holds, at any (also non-uniform) sampling.
 
-    A step is a jump between two holds of ten rows or more. Levels are means over the last tenth
+    A step is a jump between two holds of fifty rows or more. Levels are means over the last tenth
     of a hold; crossings are interpolated linearly between rows. Definitions follow K. Ogata,
     *Modern Control Engineering*, 5th ed., 2010, section 5-3.
 
@@ -58,6 +59,8 @@ def step_metrics(
     record, axis, tap : the output measured.
     drive : the tap that commands the steps.
     least_step : of the command's peak-to-peak; smaller jumps are passed over.
+    shortest_hold_s : steps next to a shorter hold are left out; choose a few times the time in
+        which the axis settles, else levels are those of a motion that still goes on.
 
     Raises
     ------
@@ -74,15 +77,17 @@ def step_metrics(
             )
     command, output = record.signal(axis, drive), record.signal(axis, tap)
     bounds = _holds(command, least_step * float(np.ptp(command)))
+    time_s = record.time_s
     metrics = [
-        _measure(record.time_s, command, output, *rows)
-        for rows in zip(bounds[:-2], bounds[1:-1], bounds[2:], strict=True)
-        if min(rows[1] - rows[0], rows[2] - rows[1]) >= _SHORTEST_HOLD
+        _measure(time_s, command, output, begin, jump, end)
+        for begin, jump, end in zip(bounds[:-2], bounds[1:-1], bounds[2:], strict=True)
+        if min(jump - begin, end - jump) >= _SHORTEST_HOLD
+        and min(time_s[jump] - time_s[begin], time_s[end - 1] - time_s[jump]) >= shortest_hold_s
     ]
     if not metrics:
         raise ExcitationError(
-            f"steps: {axis}.{drive} holds no jump between two holds of {_SHORTEST_HOLD} rows; "
-            "record a staircase"
+            f"steps: {axis}.{drive} holds no jump between two holds of {_SHORTEST_HOLD} rows and "
+            f"{shortest_hold_s:g} s; record a staircase"
         )
     return tuple(metrics)
 

@@ -203,6 +203,9 @@ def test_what_cannot_tell_is_refused():
         periodic_response(siso(wave, wave, RATE_HZ))
     with pytest.raises(ExcitationError, match="as many experiments as there are inputs"):
         periodic_response(coupled(1)[1][0])
+    levels = [siso(np.full(2 * PERIOD, k), full.outputs[:, 0], RATE_HZ, PERIOD) for k in (1.0, 2.0)]
+    with pytest.raises(ExcitationError, match="on no line do all 1 move"):
+        periodic_response(*levels)
     with pytest.raises(TooShortError, match="use shorter segments or longer records"):
         welch_response(full, segment=4096)
     with pytest.raises(IdentificationError, match=r"experiment 1: .* all must be alike"):

@@ -70,6 +70,15 @@ def test_what_has_not_settled_is_not_said_to_have():
     assert (still.gain, still.delay_s, still.rise_s) == (0.0, None, None)
 
 
+def test_steps_beside_a_short_hold_can_be_left_out():
+    command = 1.0 * (TIME_S >= 0.5) + 1.0 * (TIME_S >= 0.52)
+    record = step_record(command, command)
+    assert [step.start_s for step in step_metrics(record, "x")] == pytest.approx([0.5, 0.52])
+    assert step_metrics(record, "x")[0].noise_rms == 0.0
+    with pytest.raises(ExcitationError, match=r"50 rows and 0\.1 s; record a staircase"):
+        step_metrics(record, "x", shortest_hold_s=0.1)
+
+
 def test_records_without_a_step_are_refused():
     wave = np.sin(TIME_S)
     with pytest.raises(ExcitationError, match="record a staircase"):
@@ -116,6 +125,19 @@ def test_the_loop_of_a_play_has_its_area_and_width():
         assert loop.width_percent == pytest.approx(100 * 0.2 / 1.8, rel=1e-2)
         assert loop.saturation_low is None
         assert loop.saturation_high is None
+
+
+def test_a_cycle_from_high_to_high_is_measured_alike():
+    """Up from the middle, down and up again: the only whole cycle lies between the highs."""
+    driven = np.interp(np.arange(4001), [0, 1000, 2500, 4000], [0.0, 1.0, -1.0, 1.0])
+    (loop,) = loops(driven, np.clip(play(driven, 0.1), -0.7, 2.0))
+    assert loop.rows == (1000, 4000)
+    assert (loop.input_low, loop.input_high) == pytest.approx((-1.0, 1.0))
+    assert loop.width_max == pytest.approx(0.2, abs=1e-9)
+    assert loop.input_width_mid == pytest.approx(0.2, abs=5e-3)
+    assert loop.area > 0
+    assert loop.saturation_low == pytest.approx(-0.8, abs=0.02)
+    assert loop.saturation_high is None
 
 
 def test_a_clipped_output_shows_where_it_ends():
