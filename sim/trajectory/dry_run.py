@@ -1,6 +1,6 @@
 """A dry run: what a trajectory asks of a machine, and how well the model expects it to follow."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import NamedTuple
@@ -8,12 +8,12 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.plant.errors import PlantError
-from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Axis, Robot
-from rotemina.sim.trajectory.kinematics import accelerations, jump_speeds
+from rotemina.sim.trajectory.checked import CheckedTrajectory
+from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S, accelerations, jump_speeds
 from rotemina.sim.trajectory.limits import (
+    OutOfLimitsError,
     Violation,
     commands_of,
     controller_of,
@@ -21,6 +21,7 @@ from rotemina.sim.trajectory.limits import (
     resolution_of,
     voltage_bounds,
 )
+from rotemina.sim.trajectory.prediction import TrackingError, predict
 
 
 class Bounds(NamedTuple):
@@ -36,9 +37,11 @@ class Bounds(NamedTuple):
 class AxisFigures:
     """What a trajectory asks of one axis, in ``unit`` (m or rad), per s and per s².
 
-    ``peak_speed`` is taken from row to row, ``peak_acceleration`` over the window in which
-    rounding weighs little. ``tracking_rms`` and ``tracking_peak`` compare the position that the
-    nominal model predicts with the command at each row; None where the model gives none.
+    ``peak_speed`` is that of the jumps from row to row as a device makes them,
+    ``peak_acceleration`` is taken over the window in which rounding weighs little, so both are
+    large where rows are farther apart than set-points. ``tracking_rms`` and ``tracking_peak``
+    compare the position that the nominal model predicts with the command at each row; None where
+    the model gives none.
     """
 
     unit: str
@@ -57,7 +60,9 @@ class AxisFigures:
 class DryRun:
     """Figures of each axis, in the trajectory's order, and the limits that it would break.
 
-    ``prediction_fault`` says why there is no prediction, where there is none.
+    ``violations`` come with what the model predicts: an axis that swings out of its range.
+    ``prediction_fault`` says why there is no prediction, where there is none. ``checked`` is what
+    to play, where it may be played.
     """
 
     duration_s: float
@@ -65,15 +70,39 @@ class DryRun:
     axes: Mapping[str, AxisFigures]
     violations: tuple[Violation, ...]
     prediction_fault: str | None = None
+    checked: CheckedTrajectory | None = None
+
+    @property
+    def objections(self) -> tuple[str, ...]:
+        """Why the machine must not play the trajectory; none where it may."""
+        fault = self.prediction_fault
+        unknown = () if fault is None else (f"the model cannot predict its motion: {fault}",)
+        return (*(violation.message for violation in self.violations), *unknown)
 
     @property
     def allowed(self) -> bool:
         """Whether the machine may play the trajectory."""
-        return not self.violations
+        return self.checked is not None
+
+    def require(self) -> CheckedTrajectory:
+        """Return what to play.
+
+        Raises
+        ------
+        OutOfLimitsError
+            With all objections, if the machine must not play it.
+        """
+        if self.checked is None:
+            raise OutOfLimitsError("\n".join(self.objections))
+        return self.checked
 
 
-def dry_run(robot: Robot, trajectory: Record) -> DryRun:
+def dry_run(
+    robot: Robot, trajectory: Record, *, setpoint_period_s: float = SETPOINT_PERIOD_S
+) -> DryRun:
     """Examine a trajectory without moving anything.
+
+    ``setpoint_period_s`` is that of the device that shall play it.
 
     Raises
     ------
@@ -81,18 +110,23 @@ def dry_run(robot: Robot, trajectory: Record) -> DryRun:
         If the trajectory is not one for this robot: an axis that it lacks, the wrong quantity, a
         force that no controller holds.
     """
-    commands = commands_of(robot, trajectory)
-    errors, fault = _tracking_errors(robot, trajectory, commands)
+    sealed = CheckedTrajectory.sealed(robot, trajectory, setpoint_period_s)
+    commands = sealed.commands
+    violations = find_violations(robot, commands, setpoint_period_s=setpoint_period_s)
+    prediction = predict(robot, commands, setpoint_period_s)
+    violations += prediction.violations
     figures = {
-        name: _figures(robot.axes[name], trajectory, name, command, errors.get(name))
-        for name, command in commands.items()
+        name: _figures(robot.axes[name], commands, name, setpoint_period_s, prediction.errors)
+        for name in commands.axes
     }
+    sound = not violations and prediction.fault is None
     return DryRun(
-        trajectory.duration_s,
-        len(trajectory.time_s),
+        commands.duration_s,
+        len(commands.time_s),
         MappingProxyType(figures),
-        find_violations(robot, trajectory),
-        fault,
+        violations,
+        prediction.fault,
+        sealed if sound else None,
     )
 
 
@@ -103,36 +137,38 @@ def as_played(robot: Robot, trajectory: Record) -> Record:
     measurement of the same commands said.
     """
     commands = commands_of(robot, trajectory)
-    under_control = any(controller_of(robot.axes[name]) for name in commands)
     return Record.from_signals(
         trajectory.time_s,
         {(name, Tap.CMD): command for name, command in commands.items()},
         {name: trajectory.units[name] for name in commands},
-        {"mode": "closed_loop" if under_control else "open_loop"},
+        {"mode": mode_of(robot, commands)},
     )
 
 
-def _tracking_errors(
-    robot: Robot, trajectory: Record, commands: Mapping[str, FloatArray]
-) -> tuple[dict[str, FloatArray], str | None]:
-    try:
-        response = nominal_response(robot, as_played(robot, trajectory))
-    except PlantError as error:
-        return {}, str(error)
-    return {n: response.signal(n, Tap.REF) - command for n, command in commands.items()}, None
+def mode_of(robot: Robot, axes: Iterable[str]) -> str:
+    """Return the ``mode`` of a record in which these axes move."""
+    under_control = any(controller_of(robot.axes[name]) for name in axes)
+    return "closed_loop" if under_control else "open_loop"
 
 
 def _figures(
-    axis: Axis, trajectory: Record, name: str, command: FloatArray, error: FloatArray | None
+    axis: Axis,
+    commands: Record,
+    name: str,
+    period_s: float,
+    errors: Mapping[str, TrackingError],
 ) -> AxisFigures:
-    time_s = trajectory.time_s
+    time_s, command = commands.time_s, commands.signal(name, Tap.CMD)
     speed = acceleration = 0.0
     if len(time_s) > 1:
-        speed = _peak(jump_speeds(time_s, command))
-        seen = accelerations(time_s, command, resolution_of(axis), axis.max_acceleration)
-        acceleration = _peak(seen.value)
+        speed = _peak(jump_speeds(time_s, command, period_s))
+        pieces = accelerations(
+            time_s, command, resolution_of(axis), axis.max_acceleration, period_s
+        )
+        acceleration = max(_peak(seen.value) for seen in pieces)
+    error = errors.get(name)
     return AxisFigures(
-        unit=trajectory.units[name],
+        unit=commands.units[name],
         start=float(command[0]),
         end=float(command[-1]),
         lowest=float(command.min()),
@@ -140,15 +176,10 @@ def _figures(
         peak_speed=speed,
         peak_acceleration=acceleration,
         bounds=Bounds(axis.range, axis.max_speed, axis.max_acceleration, voltage_bounds(axis)),
-        tracking_rms=None if error is None else _rms(error),
-        tracking_peak=None if error is None else _peak(error),
+        tracking_rms=None if error is None else error.rms,
+        tracking_peak=None if error is None else error.peak,
     )
 
 
 def _peak(values: FloatArray) -> float:
     return float(np.abs(values).max())
-
-
-def _rms(values: FloatArray) -> float:
-    peak = _peak(values)  # taken out first: the response of an unstable loop may have no square
-    return peak * float(np.sqrt(np.mean((values / peak) ** 2))) if peak > 0 else 0.0

@@ -11,7 +11,7 @@ from rotemina.sim.robot.model import Axis, Robot
 from rotemina.sim.trajectory.dry_run import dry_run
 
 TOUR = "six_axis_tour.csv"
-RATE_HZ = 250.0
+RATE_HZ = 1000.0  # rows that a device follows one by one: it holds what is farther apart
 SHORTEST_S = 4.0
 _SWING = 0.2  # of the range, to each side of its middle
 _SHARE = 0.5  # of the speed and acceleration that are allowed

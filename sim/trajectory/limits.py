@@ -1,12 +1,14 @@
 """The limits of a machine's axes: one rule for single targets and for whole trajectories.
 
 Every path that moves an axis (jog, click, playback, script) asks here. An axis without a declared
-bound is not checked against it.
+bound is not checked against it. Trajectories are judged as a device plays them, holding each row
+until the next (:mod:`rotemina.sim.trajectory.kinematics`).
 """
 
 from dataclasses import dataclass
 from enum import StrEnum
 from math import isfinite
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,7 +24,13 @@ from rotemina.sim.robot.model import (
     Robot,
     StepperAxis,
 )
-from rotemina.sim.trajectory.kinematics import accelerations, jump_speeds
+from rotemina.sim.trajectory.kinematics import (
+    SETPOINT_PERIOD_S,
+    accelerations,
+    held_rows,
+    jump_speeds,
+    jump_times,
+)
 from rotemina.sim.trajectory.wording import readable
 
 RANGE_SLACK = 1e-9  # of the range's length: units are converted with rounding
@@ -44,13 +52,15 @@ class Quantity(StrEnum):
     VOLTAGE = "voltage"
     SPEED = "speed"
     ACCELERATION = "acceleration"
+    MOTION = "predicted motion"
 
 
 @dataclass(frozen=True, slots=True)
 class Violation:
     """The worst excess of one axis over one bound; ``value`` and ``bound`` in ``unit`` (SI).
 
-    ``time_s`` is on the trajectory's own time; the bound is signed like the value.
+    ``time_s`` is on the trajectory's own time; the bound is signed like the value. ``advice`` says
+    what to do.
     """
 
     axis: str
@@ -59,6 +69,7 @@ class Violation:
     value: float
     bound: float
     unit: str
+    advice: str
 
     @property
     def message(self) -> str:
@@ -68,17 +79,11 @@ class Violation:
         what = "position" if self.quantity is Quantity.RANGE else self.quantity
         return (
             f"axis {self.axis}: {what} {value} at t = {self.time_s:.6g} s is beyond the limit "
-            f"{bound}; {self._advice()}"
+            f"{bound}; {self.advice}"
         )
 
-    def _advice(self) -> str:
-        if self.quantity is Quantity.RANGE:
-            return "move or shrink the trajectory so that it stays inside the axis range"
-        if self.quantity is Quantity.VOLTAGE:
-            return "move or shrink the trajectory so that the amplifier can follow"
-        ratio = self.value / self.bound
-        factor = ratio if self.quantity is Quantity.SPEED else ratio**0.5
-        return f"stretch its time by a factor of {factor:.3g} or more, or smooth it there"
+    def __str__(self) -> str:
+        return self.message
 
 
 def controller_of(axis: Axis) -> CascadeController | None:
@@ -119,7 +124,9 @@ def check_target(robot: Robot, axis: str, position: float) -> None:
         )
 
 
-def check_trajectory(robot: Robot, trajectory: Record) -> None:
+def check_trajectory(
+    robot: Robot, trajectory: Record, *, setpoint_period_s: float = SETPOINT_PERIOD_S
+) -> None:
     """Refuse a trajectory that exceeds a limit.
 
     Raises
@@ -129,16 +136,19 @@ def check_trajectory(robot: Robot, trajectory: Record) -> None:
     OutOfLimitsError
         Naming every axis and quantity that is exceeded.
     """
-    violations = find_violations(robot, trajectory)
+    violations = find_violations(robot, trajectory, setpoint_period_s=setpoint_period_s)
     if violations:
         raise OutOfLimitsError("\n".join(violation.message for violation in violations))
 
 
-def find_violations(robot: Robot, trajectory: Record) -> tuple[Violation, ...]:
+def find_violations(
+    robot: Robot, trajectory: Record, *, setpoint_period_s: float = SETPOINT_PERIOD_S
+) -> tuple[Violation, ...]:
     """Return the worst excess of each axis and quantity; none where the trajectory may run.
 
     Only ``cmd`` channels count. The robot is taken to rest at the first command before the
-    trajectory and at the last one after it.
+    trajectory and at the last one after it. From one row to the next the device goes within
+    ``setpoint_period_s``, and until then it holds.
 
     Raises
     ------
@@ -147,17 +157,34 @@ def find_violations(robot: Robot, trajectory: Record) -> tuple[Violation, ...]:
     """
     found: list[Violation] = []
     for name, command in commands_of(robot, trajectory).items():
-        axis, unit = robot.axes[name], trajectory.units[name]
-        time_s = trajectory.time_s
+        path = _Path(
+            name,
+            robot.axes[name],
+            trajectory.units[name],
+            trajectory.time_s,
+            command,
+            setpoint_period_s,
+        )
         for violation in (
-            _range_violation(name, axis, unit, time_s, command),
-            _voltage_violation(name, axis, time_s, command),
-            _speed_violation(name, axis, unit, time_s, command),
-            _acceleration_violation(name, axis, unit, time_s, command),
+            _range_violation(path),
+            _voltage_violation(path),
+            _speed_violation(path),
+            _acceleration_violation(path),
         ):
             if violation is not None:
                 found.append(violation)
     return tuple(found)
+
+
+class _Path(NamedTuple):
+    """The commands (n,) of one axis at times (n,), and how soon a device goes to each."""
+
+    name: str
+    axis: Axis
+    unit: str
+    time_s: FloatArray
+    command: FloatArray
+    period_s: float
 
 
 def commands_of(robot: Robot, trajectory: Record) -> dict[str, FloatArray]:
@@ -232,64 +259,91 @@ def _worst_outside(
     return row, bounds[0] if values[row] < bounds[0] else bounds[1]
 
 
-def _range_violation(
-    name: str, axis: Axis, unit: str, time_s: FloatArray, command: FloatArray
-) -> Violation | None:
-    worst = _worst_outside(command, axis.range, RANGE_SLACK * axis.span)
+def _range_violation(path: _Path) -> Violation | None:
+    worst = _worst_outside(path.command, path.axis.range, RANGE_SLACK * path.axis.span)
     if worst is None:
         return None
     row, bound = worst
-    return Violation(name, Quantity.RANGE, float(time_s[row]), float(command[row]), bound, unit)
+    value = float(path.command[row])
+    advice = "move or shrink the trajectory so that it stays inside the axis range"
+    time_s = float(path.time_s[row])
+    return Violation(path.name, Quantity.RANGE, time_s, value, bound, path.unit, advice)
 
 
-def _voltage_violation(
-    name: str, axis: Axis, time_s: FloatArray, command: FloatArray
-) -> Violation | None:
-    bounds = voltage_bounds(axis)
-    if bounds is None or not isinstance(axis, PiezoAxis):
+def _voltage_violation(path: _Path) -> Violation | None:
+    bounds = voltage_bounds(path.axis)
+    if bounds is None or not isinstance(path.axis, PiezoAxis):
         return None
-    voltage = command / axis.gain
+    voltage = path.command / path.axis.gain
     worst = _worst_outside(voltage, bounds, _voltage_slack(bounds))
     if worst is None:
         return None
     row, bound = worst
-    return Violation(name, Quantity.VOLTAGE, float(time_s[row]), float(voltage[row]), bound, "V")
+    advice = "move or shrink the trajectory so that the amplifier can follow"
+    time_s = float(path.time_s[row])
+    return Violation(path.name, Quantity.VOLTAGE, time_s, float(voltage[row]), bound, "V", advice)
 
 
-def _speed_violation(
-    name: str, axis: Axis, unit: str, time_s: FloatArray, command: FloatArray
-) -> Violation | None:
-    if axis.max_speed is None or len(time_s) < 2:
+def _speed_violation(path: _Path) -> Violation | None:
+    most = path.axis.max_speed
+    if most is None or len(path.time_s) < 2:
         return None
-    speed = jump_speeds(time_s, command)
-    rounding = resolution_of(axis) + _float_rounding(command)
-    allowed = axis.max_speed * (1.0 + RATE_SLACK) + rounding / np.diff(time_s)
+    speed = jump_speeds(path.time_s, path.command, path.period_s)
+    rounding = resolution_of(path.axis) + _float_rounding(path.command)
+    allowed = most * (1.0 + RATE_SLACK) + rounding / jump_times(path.time_s, path.period_s)
     excess = np.abs(speed) - allowed
     row = int(np.argmax(excess))
     if excess[row] <= 0:
         return None
     value = float(speed[row])
-    bound = float(np.copysign(axis.max_speed, value))
-    return Violation(name, Quantity.SPEED, float(time_s[row + 1]), value, bound, f"{unit}/s")
+    bound = float(np.copysign(most, value))
+    interval = float(path.time_s[row + 1] - path.time_s[row])
+    straight = float(path.command[row + 1] - path.command[row]) / interval / bound
+    advice = _stretch(straight)
+    if held_rows(path.time_s[row : row + 2], path.period_s)[0]:
+        advice = _resample(interval, path.period_s)
+        if straight > 1.0 + RATE_SLACK:
+            advice += f", and {_stretch(straight)}"
+    time_s = float(path.time_s[row + 1])
+    return Violation(path.name, Quantity.SPEED, time_s, value, bound, f"{path.unit}/s", advice)
 
 
-def _acceleration_violation(
-    name: str, axis: Axis, unit: str, time_s: FloatArray, command: FloatArray
-) -> Violation | None:
-    if axis.max_acceleration is None or len(time_s) < 2:
+def _acceleration_violation(path: _Path) -> Violation | None:
+    most = path.axis.max_acceleration
+    if most is None or len(path.time_s) < 2:
         return None
-    seen = accelerations(time_s, command, resolution_of(axis), axis.max_acceleration)
+    resolution = resolution_of(path.axis)
     # Four roundings enter a second difference: two of the middle command, one of each other.
-    rounding = 4.0 * (resolution_of(axis) + _float_rounding(command)) / seen.window_s**2
-    allowed = axis.max_acceleration * (1.0 + RATE_SLACK) + rounding
-    excess = np.abs(seen.value) - allowed
-    row = int(np.argmax(excess))
-    if excess[row] <= 0:
+    rounding = 4.0 * (resolution + _float_rounding(path.command))
+    worst, value, time_s = 0.0, 0.0, 0.0
+    for seen in accelerations(path.time_s, path.command, resolution, most, path.period_s):
+        allowed = most * (1.0 + RATE_SLACK) + rounding / seen.window_s**2
+        excess = np.abs(seen.value) - allowed
+        at = int(np.argmax(excess))
+        if excess[at] > worst:
+            worst, value, time_s = float(excess[at]), float(seen.value[at]), float(seen.time_s[at])
+    if worst <= 0:
         return None
-    value = float(seen.value[row])
-    bound = float(np.copysign(axis.max_acceleration, value))
-    return Violation(
-        name, Quantity.ACCELERATION, float(seen.time_s[row]), value, bound, f"{unit}/s²"
+    bound = float(np.copysign(most, value))
+    row = min(int(np.searchsorted(path.time_s, time_s, side="left")), len(path.time_s) - 1)
+    around = path.time_s[max(row - 1, 0) : row + 2]
+    held = held_rows(around, path.period_s)
+    advice = _stretch((value / bound) ** 0.5)
+    if held.any():
+        advice = _resample(float(np.diff(around).max()), path.period_s)
+    unit = f"{path.unit}/s²"
+    return Violation(path.name, Quantity.ACCELERATION, time_s, value, bound, unit, advice)
+
+
+def _stretch(factor: float) -> str:
+    return f"stretch its time by a factor of {factor:.3g} or more, or smooth it there"
+
+
+def _resample(interval_s: float, period_s: float) -> str:
+    """Say what to do about rows that are farther apart than the device's set-points."""
+    return (
+        f"rows are {interval_s:.3g} s apart there and the device holds each, then jumps: resample "
+        f"the trajectory at {1.0 / period_s:.6g} Hz (linear or cubic)"
     )
 
 

@@ -8,8 +8,9 @@ import pytest
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory.dry_run import as_played, dry_run
-from rotemina.sim.trajectory.limits import Quantity
+from rotemina.sim.trajectory import prediction
+from rotemina.sim.trajectory.dry_run import dry_run
+from rotemina.sim.trajectory.limits import OutOfLimitsError, Quantity
 from rotemina.sim.trajectory.wording import readable
 
 ROBOT = load_robot("rotemina")
@@ -67,27 +68,78 @@ def free_mass(limit):
 
 def test_a_loop_sampled_too_slowly_has_no_prediction_but_a_reason():
     slow = sine("q", 0.1, 0.02, 0.5, "m", duration_s=100.0, rate_hz=20.0)
-    run = dry_run(free_mass(limit=1e308), slow)
+    run = dry_run(free_mass(limit=1e308), slow, setpoint_period_s=0.05)
     assert run.axes["q"].tracking_rms is None
     assert "grows" in run.prediction_fault
+    assert not run.allowed
+    assert [violation.quantity for violation in run.violations] == [Quantity.MOTION]
+    assert "cannot predict" in run.objections[-1]
 
 
 def test_an_absurd_but_finite_response_has_figures():
     slow = sine("q", 0.1, 0.02, 0.5, "m", duration_s=100.0, rate_hz=20.0)
-    figures = dry_run(free_mass(limit=1e250), slow).axes["q"]
+    run = dry_run(free_mass(limit=1e250), slow, setpoint_period_s=0.05)
+    figures = run.axes["q"]
     assert 1e200 < figures.tracking_rms < figures.tracking_peak
+    assert not run.allowed
 
 
-def test_only_commands_are_played_and_from_rest():
+def steps(axis, positions, interval_s, unit="m"):
+    time_s = np.arange(len(positions)) * interval_s
+    return Record.from_signals(time_s, {(axis, Tap.CMD): np.array(positions)}, {axis: unit})
+
+
+def test_rows_far_apart_do_not_slow_a_loop_down():
+    """Half a second between rows: a loop closed there would shake the axis out of its range."""
+    emps = load_robot("emps")
+    gentle = steps("q", [0.05, 0.06, 0.07, 0.06, 0.06, 0.06, 0.06, 0.06], 0.5)
+    run = dry_run(emps, gentle)
+    assert run.allowed
+    assert run.axes["q"].tracking_peak == pytest.approx(0.01, rel=1e-2)
+    assert not dry_run(emps, gentle, setpoint_period_s=0.5).allowed
+
+
+@pytest.mark.parametrize(
+    ("top", "allowed"), [(4.9e-6, False), (4.0e-6, False), (2.4e-6, True)], ids=str
+)
+@pytest.mark.parametrize("back", [[], [0.0]], ids=["last", "back"])
+def test_a_motion_that_swings_out_of_the_range_is_refused(top, allowed, back):
+    """The mirror has no declared bounds; a jump of h rings up to almost 2h, between the rows."""
+    run = dry_run(load_robot("fsm"), steps("m1", [0.0, top, *back], 0.001))
+    assert run.allowed is allowed
+    if not allowed:
+        (violation,) = run.violations
+        assert violation.quantity is Quantity.MOTION
+        assert violation.value == pytest.approx(top * (1 + np.exp(-np.pi * 0.02)), rel=0.02)
+        for word in ("axis m1: predicted motion", "5 µm", "0.1 µm (1 % of the range)"):
+            assert word in str(violation)
+        with pytest.raises(OutOfLimitsError, match="predicted motion"):
+            run.require()
+
+
+def test_a_long_trajectory_is_predicted_piece_by_piece_as_a_whole(monkeypatch):
+    trajectory = sine("q", 0.1, 0.02, 0.5, "m")
+    whole = dry_run(load_robot("emps"), trajectory).axes["q"]
+    monkeypatch.setattr(prediction, "_CHUNK", 77)
+    pieces = dry_run(load_robot("emps"), trajectory).axes["q"]
+    assert pieces.tracking_peak == pytest.approx(whole.tracking_peak, rel=1e-12)
+    assert pieces.tracking_rms == pytest.approx(whole.tracking_rms, rel=1e-12)
+
+
+def test_what_is_allowed_is_sealed():
+    time_s, command = np.arange(4.0), np.full(4, 0.01)
     measured = Record.from_signals(
-        np.arange(3.0),
-        {("x", Tap.CMD): np.full(3, 0.01), ("x", Tap.MEAS): np.zeros(3)},
+        time_s,
+        {("x", Tap.CMD): command, ("x", Tap.MEAS): np.zeros(4)},
         {"x": "m"},
-        {"history": "unknown", "mode": "open_loop"},
+        {"history": "unknown", "mode": "open_loop", "name": "rest"},
     )
-    played = as_played(ROBOT, measured)
-    assert [str(channel) for channel in played.columns] == ["x.cmd"]
-    assert played.history == "rest"
+    checked = dry_run(ROBOT, measured).require()
+    assert [str(channel) for channel in checked.commands.columns] == ["x.cmd"]
+    assert checked.commands.metadata["name"] == "rest"
+    assert checked.robot is ROBOT
+    time_s[1] = 1.5
+    np.testing.assert_array_equal(checked.commands.time_s, np.arange(4.0))
 
 
 @pytest.mark.parametrize("example", range(1, 9))
