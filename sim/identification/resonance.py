@@ -16,17 +16,19 @@ _CONVERGED = 1e-13
 
 
 class Resonance(NamedTuple):
-    """``H(ω) = gain ω0² / (ω0² − ω² + 2jζω0ω) + rest`` within a band.
+    """``H(ω) = gain e^(jφ) ω0² / (ω0² − ω² + 2jζω0ω) + rest`` within a band.
 
-    ``gain`` and the complex ``rest`` (what other modes add, constant over the band) in the unit
-    of the response; each ``…_deviation`` is a standard deviation, from the residual or from the
-    lines' own where those were given and say more; ``misfit`` = ‖H − model‖ / ‖H‖, which is large
-    where the band holds another mode.
+    ``phase_rad`` φ is what a delay or a lag has turned the mode by where it lies (about π: its sign
+    is negative). ``gain`` ≥ 0 and the complex ``rest`` (what other modes add, constant over the
+    band) in the unit of the response; each ``…_deviation`` is a standard deviation, from the
+    residual or from the lines' own where those were given and say more; ``misfit`` = ‖H − model‖
+    / ‖H‖, which is large where the band holds another mode.
     """
 
     frequency_hz: float
     damping_ratio: float
     gain: float
+    phase_rad: float
     rest: complex
     frequency_deviation: float
     damping_deviation: float
@@ -107,8 +109,10 @@ def _fit(
     variance = float(error @ error) / max(len(error) - len(parameters), 1)
     if known:  # half of each line's variance on each of its parts; more where the fit is worse
         variance = max(variance, 1.0 / size**2 / 2.0)
-    spread = np.sqrt(variance * np.diag(np.linalg.pinv(real.T @ real)))
-    root, damping, gain = (float(each) for each in parameters[:3])
+    covariance = variance * np.linalg.pinv(real.T @ real)
+    spread = np.sqrt(np.diag(covariance))
+    root, damping = float(parameters[0]), float(parameters[1])
+    gain = complex(parameters[2], parameters[3])
     seen = damping * root >= _NARROWEST * float(np.diff(s).max())
     if not (s[0] < root < s[-1] and seen and damping < _OVERDAMPED):
         raise ExcitationError(
@@ -116,25 +120,32 @@ def _fit(
             f"no peak inside the band {line_hz[0]:g} to {line_hz[-1]:g} Hz; choose a band around "
             "a peak"
         )
-    rest = complex(parameters[3], parameters[4]) * size if with_rest else 0j
+    along = parameters[2:4] / max(abs(gain), 1e-300)
+    rest = complex(parameters[4], parameters[5]) * size if with_rest else 0j
     return Resonance(
         root * middle,
         damping,
-        gain * size,
+        abs(gain) * size,
+        float(np.angle(gain)),
         rest,
         float(spread[0]) * middle,
         float(spread[1]),
-        float(spread[2]) * size,
+        float(np.sqrt(along @ covariance[2:4, 2:4] @ along)) * size,
         float(np.linalg.norm(goal - model) / np.linalg.norm(goal)),
     )
 
 
 def _start(s: FloatArray, goal: ComplexArray, with_rest: bool) -> FloatArray:
-    """Return ω0, ζ, gain (and rest) of the linear fit ``H (a − s² + jbs) = c + r (…)``."""
-    columns: list[ComplexArray] = [-goal, -1j * s * goal, np.ones_like(goal)]
+    """Return ω0, ζ, complex gain (and rest) of the linear fit ``H (a − s² + jbs) = c + r (…)``."""
+    columns: list[ComplexArray] = [
+        -goal,
+        -1j * s * goal,
+        np.ones_like(goal),
+        1j * np.ones_like(goal),
+    ]
     if with_rest:  # the rest times the denominator, its coefficients left free
         line = s.astype(np.complex128)
-        columns += [1j * np.ones_like(goal), line, 1j * line, line**2, 1j * line**2]
+        columns += [line, 1j * line, line**2, 1j * line**2]
     solution, *_ = np.linalg.lstsq(
         _stacked(np.column_stack(columns)), _stacked(-goal * s**2), rcond=None
     )
@@ -144,7 +155,9 @@ def _start(s: FloatArray, goal: ComplexArray, with_rest: bool) -> FloatArray:
     if not s[0] < root < s[-1] or damping == 0.0:
         root, damping = float(s[peak]), 0.02
     shape = _shape(s, root, damping)
-    parts = [shape] + ([np.ones_like(goal), 1j * np.ones_like(goal)] if with_rest else [])
+    parts = [shape, 1j * shape] + (
+        [np.ones_like(goal), 1j * np.ones_like(goal)] if with_rest else []
+    )
     linear, *_ = np.linalg.lstsq(_stacked(np.column_stack(parts)), _stacked(goal), rcond=None)
     return np.concatenate([[root, damping], linear])
 
@@ -156,15 +169,16 @@ def _shape(s: FloatArray, root: float, damping: float) -> ComplexArray:
 def _model(
     s: FloatArray, parameters: FloatArray, with_rest: bool
 ) -> tuple[ComplexArray, ComplexArray]:
-    """Return the model (k,) and its derivatives (k, 3 or 5)."""
-    root, damping, gain = parameters[:3]
+    """Return the model (k,) and its derivatives (k, 4 or 6)."""
+    root, damping = parameters[:2]
+    gain = parameters[2] + 1j * parameters[3]
     shape = _shape(s, root, damping)
     by_root = gain * (2.0 * shape / root - shape**2 / root**2 * (2.0 * root + 2j * damping * s))
     by_damping = -gain * shape**2 / root**2 * 2j * root * s
-    columns, model = [by_root, by_damping, shape], gain * shape
+    columns, model = [by_root, by_damping, shape, 1j * shape], gain * shape
     if with_rest:
         columns += [np.ones_like(shape), 1j * np.ones_like(shape)]
-        model = model + parameters[3] + 1j * parameters[4]
+        model = model + parameters[4] + 1j * parameters[5]
     return model, np.column_stack(columns)
 
 
