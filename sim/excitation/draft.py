@@ -56,7 +56,11 @@ class Signal:
 
 @dataclass(slots=True, eq=False)
 class Draft:
-    """One axis, its limits (SI, infinite where undeclared) and the adjustments so far."""
+    """One axis, its limits (SI, infinite where undeclared) and the adjustments so far.
+
+    ``most`` is the greatest amplitude with which the axis is expected to stay inside its range;
+    ``centre`` and ``reach`` are the offset and amplitude that were given out.
+    """
 
     axis: str
     unit: str
@@ -69,6 +73,9 @@ class Draft:
     rate_hz: float
     rng: np.random.Generator
     strict: bool = False
+    most: float = inf
+    centre: float = 0.0
+    reach: float = 0.0
     adjustments: list[Adjustment] = field(default_factory=list)
 
     @classmethod
@@ -80,6 +87,7 @@ class Draft:
         rng: np.random.Generator,
         *,
         strict: bool = False,
+        most: float = inf,
     ) -> "Draft":
         """Start the draft of an axis: its room is the range that its voltage reaches, too."""
         low, high = axis.range
@@ -99,6 +107,7 @@ class Draft:
             rate_hz=rate_hz,
             rng=rng,
             strict=strict,
+            most=most,
         )
 
     def limited(
@@ -143,9 +152,10 @@ class Draft:
         ExcitationError
             If it leaves no room to move.
         """
-        middle = (self.low + self.high) / 2.0
-        if asked is None:
-            return middle
+        self.centre = (self.low + self.high) / 2.0 if asked is None else self._stated(asked)
+        return self.centre
+
+    def _stated(self, asked: Amount) -> float:
         share = isinstance(asked, Share)
         value = self.low + asked.of_whole * self.span if isinstance(asked, Share) else asked
         if not (isfinite(value) and self.low < value < self.high):
@@ -170,6 +180,12 @@ class Draft:
         """
         room = min(offset - self.low, self.high - offset)
         most = {self._range_cause(): room, **(allowed or {})}
+        if self.most < inf:
+            most[f"{self._range_cause()} of the motion that the model predicts"] = self.most
+        self.reach = self._reach(asked, most)
+        return self.reach
+
+    def _reach(self, asked: Amount | None, most: Mapping[str, float]) -> float:
         if asked is None:
             return min(AMPLITUDE * self.span, *most.values())
         value = asked.of_whole * self.span if isinstance(asked, Share) else asked

@@ -2,24 +2,31 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import isfinite, lcm
-from typing import ClassVar, Protocol
+from math import inf, isfinite
+from typing import ClassVar, NamedTuple, Protocol
 
 import numpy as np
 
-from rotemina.sim.excitation.draft import MOST_ROWS, Adjustment, Draft, Signal, natural_frequency
+from rotemina.sim.excitation.assembly import Drawn, assembled
+from rotemina.sim.excitation.draft import Adjustment, Draft, Signal, natural_frequency
 from rotemina.sim.excitation.levels import Prbs, Staircase, Steps
 from rotemina.sim.excitation.quantity import ExcitationError
 from rotemina.sim.excitation.swings import DecayingTriangle, Sweeps, Triangle
 from rotemina.sim.excitation.tones import Chirp, Multisine, Sine
-from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.limits import check_trajectory
+from rotemina.sim.trajectory.dry_run import dry_run
+from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
+from rotemina.sim.trajectory.limits import OutOfLimitsError, Quantity, Violation
 
 _PER_RESONANCE = 4.0  # rows in a period of the fastest resonance, at the default rate
 _RATES_HZ = (1_000.0, 2_000.0, 5_000.0, 10_000.0)
 _FASTEST_HZ = 1e6
-_SETPOINTS_HZ = 1_000.0  # a device's own: it holds a row until the next one is due
+_SLOWEST_HZ = 1.0 / SETPOINT_PERIOD_S  # a device holds a row until the next one is due
+
+_TRIES = 10  # at amplitudes with which the predicted motion, too, stays inside the range
+_SMALLER = 0.95  # at most, from try to try
+_OF_COMMANDS = (Quantity.RANGE, Quantity.VOLTAGE, Quantity.SPEED, Quantity.ACCELERATION)
 
 
 class Kind(Protocol):
@@ -84,7 +91,9 @@ def excite(
     ExcitationError
         If a parameter is impossible, or in a strict run exceeds a limit: with axis, value, bound.
     TrajectoryError
-        If the robot has no such axis, or one that nothing would make follow.
+        If nothing would make an axis follow.
+    OutOfLimitsError
+        If the model predicts a motion beyond the range whatever the amplitude.
     """
     if not plan:
         raise ExcitationError("excitation: no axis is named; name one at least")
@@ -93,17 +102,54 @@ def excite(
     _check_rate(robot, plan, rate)
     if seed < 0:
         raise ExcitationError(f"seed {seed}: must be 0 or more")
-    signals, adjustments = {}, []
-    for name, kind in plan.items():
-        index = list(robot.axes).index(name)
-        rng = np.random.default_rng([seed, index])
-        draft = Draft.of(name, robot.axes[name], rate, rng, strict=strict)
-        signal = kind.draw(draft)
-        signals[name] = (draft, signal)
-        adjustments += draft.adjustments
-    record = _record(robot, plan, signals, rate, seed)
-    check_trajectory(robot, record)
-    return Excitation(record, tuple(adjustments))
+    request = _Request(robot, plan, rate, seed, strict)
+    most: dict[str, float] = {}
+    for _ in range(_TRIES):
+        parts = _drawn(request, most)
+        record = assembled(parts, rate, {"robot": robot.name, "seed": str(seed)})
+        beyond = dry_run(robot, record).violations
+        if not beyond:
+            changes = (each for part in parts.values() for each in part.draft.adjustments)
+            return Excitation(record, tuple(changes))
+        most |= {each.axis: _smaller(parts[each.axis].draft, each) for each in beyond}
+    raise OutOfLimitsError(beyond[0].message)
+
+
+class _Request(NamedTuple):
+    robot: Robot
+    plan: Mapping[str, Kind]
+    rate_hz: float
+    seed: int
+    strict: bool
+
+
+def _drawn(request: _Request, most: Mapping[str, float]) -> dict[str, Drawn]:
+    """Draw every axis with the amplitudes that it may have at most, m or rad."""
+    parts = {}
+    for name, kind in request.plan.items():
+        rng = np.random.default_rng([request.seed, list(request.robot.axes).index(name)])
+        draft = Draft.of(
+            name,
+            request.robot.axes[name],
+            request.rate_hz,
+            rng,
+            strict=request.strict,
+            most=most.get(name, inf),
+        )
+        parts[name] = Drawn(kind.kind, draft, kind.draw(draft))
+    return parts
+
+
+def _smaller(draft: Draft, beyond: Violation) -> float:
+    """Return the amplitude with which an axis ought to stay inside, m or rad.
+
+    Commands are inside every limit, so what goes beyond is the motion that the model predicts:
+    in a linear model it grows with the amplitude.
+    """
+    if beyond.quantity in _OF_COMMANDS or beyond.value == draft.centre:
+        raise OutOfLimitsError(beyond.message)
+    share = (beyond.bound - draft.centre) / (beyond.value - draft.centre)
+    return draft.reach * min(share, _SMALLER)
 
 
 def default_rate(robot: Robot, plan: Mapping[str, Kind]) -> float:
@@ -130,72 +176,12 @@ def _check_rate(robot: Robot, plan: Mapping[str, Kind], rate_hz: float) -> None:
         raise ExcitationError(
             f"rate {rate_hz:.6g} Hz: must lie above 0 and up to {_FASTEST_HZ:.6g} Hz"
         )
-    if rate_hz >= _SETPOINTS_HZ:
+    if rate_hz >= _SLOWEST_HZ:
         return
     for name in plan:
         axis = robot.axes[name]
         if axis.max_speed is not None or axis.max_acceleration is not None:
             raise ExcitationError(
-                f"axis {name}: rate {rate_hz:.6g} Hz is below {_SETPOINTS_HZ:.6g} Hz: the device "
+                f"axis {name}: rate {rate_hz:.6g} Hz is below {_SLOWEST_HZ:.6g} Hz: the device "
                 "would stand between rows and jump, beyond its speed and acceleration"
             )
-
-
-def _record(
-    robot: Robot,
-    plan: Mapping[str, Kind],
-    signals: Mapping[str, tuple[Draft, Signal]],
-    rate_hz: float,
-    seed: int,
-) -> Record:
-    rows = max(len(signal.values) for _, signal in signals.values())
-    if rows * len(signals) > MOST_ROWS:
-        raise ExcitationError(
-            f"excitation: {rows} rows of {len(signals)} axes are more than {MOST_ROWS} values; "
-            "shorten it or lower the rate"
-        )
-    commands = {}
-    for name, (draft, signal) in signals.items():
-        held = np.pad(signal.values, (0, rows - len(signal.values)), mode="edge")
-        # An amplitude may be all the room that there is: rounding must not pass its ends.
-        commands[name, Tap.CMD] = np.clip(held, draft.low, draft.high)
-    return Record.from_signals(
-        np.arange(rows) / rate_hz,
-        commands,
-        {name: draft.unit for name, (draft, _) in signals.items()},
-        {
-            **_description(robot, plan, rate_hz, seed),
-            **{f"excitation {name}": _words(plan[name], s) for name, (_, s) in signals.items()},
-            **_history([signal for _, signal in signals.values()], rows),
-        },
-    )
-
-
-def _description(
-    robot: Robot, plan: Mapping[str, Kind], rate_hz: float, seed: int
-) -> dict[str, str]:
-    kinds = ", ".join(dict.fromkeys(kind.kind for kind in plan.values()))
-    return {
-        "name": f"{kinds} of {', '.join(plan)}",
-        "excitation": kinds,
-        "robot": robot.name,
-        "rate_hz": repr(rate_hz),
-        "seed": str(seed),
-    }
-
-
-def _words(kind: Kind, signal: Signal) -> str:
-    said = (f"{key} = {_plain(value)}" for key, value in signal.parameters.items())
-    return "; ".join([kind.kind, *said])
-
-
-def _plain(value: object) -> str:
-    return f"{value:.9g}" if isinstance(value, float) else str(value)
-
-
-def _history(signals: list[Signal], rows: int) -> dict[str, str]:
-    periods = [signal.period for signal in signals if signal.period is not None]
-    if len(periods) < len(signals) or any(len(signal.values) < rows for signal in signals):
-        return {}
-    period = lcm(*periods)
-    return {} if rows % period else {"history": "periodic", "period_samples": str(period)}

@@ -12,6 +12,7 @@ from rotemina.sim.excitation.levels import Prbs, Staircase, Steps
 from rotemina.sim.excitation.quantity import ExcitationError, Share
 from rotemina.sim.excitation.swings import DecayingTriangle, Sweeps, Triangle
 from rotemina.sim.excitation.tones import Chirp, Multisine, Sine
+from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Tap
 from rotemina.sim.records.writing import write_record
@@ -154,7 +155,7 @@ def test_so_it_does_on_axes_of_other_makes(data):
         max_acceleration=acceleration,
         sensor=None,  # nothing is forgiven for rounding
     )
-    robot = replace(robot, axes={"x": axis})
+    robot = replace(robot, axes={"x": axis}, couplings=())
     kind = data.draw(st.sampled_from(list(KINDS)).filter(lambda name: name != "sweeps"))
     made = excite(robot, {"x": data.draw(STRATEGIES[kind])}, rate_hz=1000.0)
     assert find_violations(robot, made.record) == ()
@@ -236,7 +237,7 @@ def test_what_is_beyond_a_limit_is_reduced_and_said_or_refused(asked, parameter,
 @pytest.mark.parametrize("kind", [Sine, Triangle])
 def test_a_periodic_record_may_start_and_stop_at_the_greatest_acceleration(kind):
     robot = ROBOTS["rotemina"]
-    exact = replace(robot, axes={"x": replace(robot.axes["x"], sensor=None)})
+    exact = replace(robot, axes={"x": replace(robot.axes["x"], sensor=None)}, couplings=())
     asked = kind(amplitude=Share(0.4), frequency_hz=10.0, periodic=True)
     made = excite(exact, {"x": asked}, rate_hz=1000.0)
     steps = np.diff(np.pad(cmd(made, "x"), 1, mode="edge"), n=2) * 1e6
@@ -244,6 +245,17 @@ def test_a_periodic_record_may_start_and_stop_at_the_greatest_acceleration(kind)
     # Their amplitudes at the bound: a/(2πf)², and a(T/2)²/8 with a third less for the stop.
     most = 0.2 / (20 * np.pi) ** 2 if kind is Sine else 0.2 / 1.5 * 0.05**2 / 8
     assert made.adjustments[0].used == pytest.approx(most, rel=5e-3)
+
+
+def test_the_motion_that_the_model_predicts_stays_in_the_range_too():
+    asked = Sine(amplitude=Share(0.4), frequency_hz=1000.0, duration_s=0.2)  # at the resonance
+    made = excite(ROBOTS["fsm"], {"m1": asked}, rate_hz=20_000.0)
+    (adjustment,) = made.adjustments
+    assert "the motion that the model predicts" in adjustment.message
+    motion = nominal_response(ROBOTS["fsm"], made.record).signal("m1", Tap.REF)
+    assert 4.5e-6 < np.abs(motion).max() < 5.05e-6  # 25 times as far as the command
+    with pytest.raises(ExcitationError, match="the motion that the model predicts"):
+        excite(ROBOTS["fsm"], {"m1": asked}, rate_hz=20_000.0, strict=True)
 
 
 def test_a_strict_run_accepts_what_fits():

@@ -196,7 +196,7 @@ def test_a_step_is_a_minimum_jerk_move():
 )
 def test_a_step_takes_the_time_that_the_tightest_bound_asks(bounds, peak):
     axis = replace(ROBOT.axes["x"], **{"max_speed": None, "max_acceleration": None, **bounds})
-    robot = replace(ROBOT, axes={"x": axis})
+    robot = replace(ROBOT, axes={"x": axis}, couplings=())
     limit = next(iter(bounds.values()), 2.0)
     kind = Steps(amplitude=1e-3, rise_s=1e-3, hold_s=0.1, jerk=None if bounds else limit)
     values = drawn(kind, "x", robot, rate_hz=5000.0)
