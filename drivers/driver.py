@@ -18,7 +18,9 @@ from rotemina.drivers.settings import SettingValue, resolve
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.limits import check_target, check_trajectory
+from rotemina.sim.trajectory.checked import CheckedTrajectory, accepted
+from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
+from rotemina.sim.trajectory.limits import check_target
 
 _CLOSED = DeviceStatus(DeviceState.CLOSED)
 
@@ -220,12 +222,36 @@ class Driver(ABC):
 class TrajectoryPlayer(Driver, ABC):
     """A device that plays a whole trajectory on its own clock."""
 
+    @property
+    def setpoint_period_s(self) -> float:
+        """How often the device applies set-points, s: it holds rows that are farther apart.
+
+        A driver that knows its device says so here; trajectories are judged by it.
+        """
+        return SETPOINT_PERIOD_S
+
     @final
-    def play(self, trajectory: Record) -> None:
+    def accept(self, trajectory: Record | CheckedTrajectory) -> CheckedTrajectory:
+        """Return what :meth:`play` would play; asks the device nothing.
+
+        One that was checked for this robot and set-point period is not checked again.
+
+        Raises
+        ------
+        LimitError
+            If the trajectory exceeds a limit or is not one for this robot.
+        """
+        try:
+            return accepted(self.robot, trajectory, self.setpoint_period_s)
+        except InputError as error:
+            raise LimitError(str(error)) from error
+
+    @final
+    def play(self, trajectory: Record | CheckedTrajectory) -> None:
         """Begin to play the ``cmd`` channels of a trajectory. Returns at once.
 
         The device first goes to the first row within its limits and settles; its samples name the
-        row of the trajectory that they belong to. Axes that the trajectory does not name hold.
+        row of the trajectory that began to act. Axes that the trajectory does not name hold.
 
         Raises
         ------
@@ -237,11 +263,7 @@ class TrajectoryPlayer(Driver, ABC):
         state = self._require_sound("play")
         if state is not DeviceState.IDLE:
             raise StateError(f"{self.name}: it is still {state}; stop it or wait before playing")
-        try:
-            check_trajectory(self.robot, trajectory)
-        except InputError as error:
-            raise LimitError(str(error)) from error
-        self._play(trajectory)
+        self._play(self.accept(trajectory).commands)
 
     @abstractmethod
     def _play(self, trajectory: Record) -> None:

@@ -41,11 +41,11 @@ def run(options: argparse.Namespace) -> int:
     trajectory = read_record(options.trajectory, columns=options.columns, robot=robot)
     checked = dry_run(robot, trajectory)
     if not checked.allowed:
-        raise InputError(f"{options.trajectory}: {checked.violations[0]}{_more(checked)}")
+        raise InputError(f"{options.trajectory}: {checked.objections[0]}{_more(checked)}")
     if options.dry_run:
         print(f"{options.trajectory}: {checked.duration_s:.6g} s, {checked.rows} rows, in limits")
         return 0
-    record = play_offline(robot, trajectory, seed=options.seed, progress=_progress())
+    record = play_offline(robot, checked.require(), seed=options.seed, progress=_progress())
     output = options.output or Path(f"{_stem(options.trajectory)}-record.csv")
     write_record(record, output)
     print(f"{output}: {len(record.time_s)} rows, {record.duration_s:.6g} s")
@@ -53,7 +53,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _more(checked: DryRun) -> str:
-    others = len(checked.violations) - 1
+    others = len(checked.objections) - 1
     return f" (and {others} more)" if others else ""
 
 

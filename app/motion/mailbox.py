@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from rotemina.sim.errors import InputError
-from rotemina.sim.records.record import Record
+from rotemina.sim.trajectory.checked import CheckedTrajectory
 
 
 class RefusedError(InputError):
@@ -24,7 +24,7 @@ class Move:
 class Play:
     """Play a trajectory."""
 
-    trajectory: Record
+    trajectory: CheckedTrajectory
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +49,7 @@ class Mailbox:
         self.capacity = capacity
         self.bell = threading.Event()
         self._commands: deque[Command] = deque()
+        self._in_hand: Command | None = None
         self._generation = 0
         self._connect = False
         self._lock = threading.Lock()
@@ -79,22 +80,30 @@ class Mailbox:
         self.bell.set()
 
     def take(self) -> Taken | None:
-        """Return the oldest command, or None."""
+        """Return the oldest command, or None; the one taken before counts as done."""
         with self._lock:
-            if not self._commands:
-                return None
-            return Taken(self._commands.popleft(), self._generation)
+            self._in_hand = self._commands.popleft() if self._commands else None
+            return Taken(self._in_hand, self._generation) if self._in_hand else None
 
     def clear(self) -> None:
         """Drop every command, and mark those already taken as overtaken."""
         with self._lock:
             self._commands.clear()
+            self._in_hand = None
             self._generation += 1
 
     def holds_play(self) -> bool:
         """Whether a trajectory waits to be played."""
         with self._lock:
             return any(isinstance(command, Play) for command in self._commands)
+
+    def target_of(self, axis: str) -> float | None:
+        """Return where the latest move that waits, or is being handed over, sends an axis."""
+        with self._lock:
+            for command in (*reversed(self._commands), self._in_hand):
+                if isinstance(command, Move) and axis in command.targets:
+                    return command.targets[axis]
+        return None
 
     def request_connection(self) -> None:
         """Ask the worker to open the device, and ring."""

@@ -11,13 +11,14 @@ from rotemina.drivers.samples import DeviceState
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
+from rotemina.sim.trajectory.checked import CheckedTrajectory
 
 _STEP_S = 0.5  # device time between two looks at the progress
 
 
 def play_offline(
     robot: Robot,
-    trajectory: Record,
+    trajectory: Record | CheckedTrajectory,
     seed: int = 0,
     *,
     driver: str = "simulator",
@@ -40,11 +41,12 @@ def play_offline(
     clock = VirtualClock()
     make = _virtual_player(driver)
     device = make(robot, {**(settings or {}), "seed": seed}, clock=clock)
-    recorder = PlaybackRecorder(robot, trajectory, device.name)
+    checked = device.accept(trajectory)
+    recorder = PlaybackRecorder(checked, device.name)
     device.open()
     try:
         device.read()
-        device.play(trajectory)
+        device.play(checked)
         while device.status().state is DeviceState.PLAYING:
             clock.advance(_STEP_S)
             recorder.add(device.read())

@@ -1,83 +1,155 @@
 """Cutting the record of a playback out of the samples that a device delivers."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator
 
 import numpy as np
 
 from rotemina.drivers.samples import Samples
-from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.sim.records.record import Channel, Record, RecordError, Tap
 from rotemina.sim.robot.model import Robot, StepperAxis
-from rotemina.sim.trajectory.dry_run import as_played
+from rotemina.sim.trajectory.checked import CheckedTrajectory
+from rotemina.sim.trajectory.dry_run import mode_of
+
+_BLOCK = 1 << 16  # samples kept together: large enough to be given back to the system at once
+_SHORT = 32  # rows of a trajectory whose times its record names
+# Device times are told apart to this many parts of a second: the rounding of a late device time
+# must not make every interval a different one.
+_PER_SECOND = 1e9
 
 
 class PlaybackRecorder:
-    """Collects the samples that belong to rows of one trajectory.
+    """Collects what a device did from the first row of a trajectory to the last.
 
-    The record has the trajectory's axes with ``cmd``, ``u`` (not of steppers, and only where the
-    device tells it) and ``meas``, at the trajectory's own times from 0. Its metadata say mode,
-    robot, device, and the trajectory's name where that has one (``# trajectory:`` or ``# name:``).
+    The record has every sample of the device in between, on the device's time from 0, and of the
+    trajectory's axes ``cmd``, ``u`` (not of steppers, and only where the device tells it) and
+    ``meas``. Its metadata say mode, robot, driver, and which trajectory was asked for: name (its
+    ``# trajectory:`` or ``# name:``), rows, duration, digest, and the times of a short one.
+
+    A sample takes 8 bytes a column: 128 with six axes of which three tell a voltage, 460 MB an
+    hour at 1 kHz. :meth:`finish` lets go of what it has copied, so the record is not held twice.
     """
 
-    def __init__(self, robot: Robot, trajectory: Record, device: str) -> None:
-        played = as_played(robot, trajectory)
-        self._robot = robot
-        self._units = played.units
-        self._time_s = trajectory.time_s - trajectory.time_s[0]
-        self._axes = played.axes
-        self._parts: list[Samples] = []
-        self._rows = 0
-        self._metadata = {
-            "mode": played.metadata["mode"],
-            "robot": robot.name,
-            "device": device,
-            **_name_of(trajectory.metadata),
-        }
+    def __init__(self, trajectory: CheckedTrajectory, driver: str) -> None:
+        self._trajectory = trajectory
+        self._metadata = _metadata(trajectory, driver)
+        self._channels = tuple(_channels(trajectory.robot, trajectory.commands.axes))
+        self._told = np.ones(len(self._channels), dtype=np.bool_)
+        self._samples = _Samples(1 + len(self._channels))
+        self._rows = 0  # samples up to the latest row that began
+        self._row = -1
 
     @property
     def complete(self) -> bool:
-        """Whether every row of the trajectory was sampled."""
-        return self._rows == len(self._time_s)
+        """Whether the last row of the trajectory was sampled."""
+        return self._row == len(self._trajectory.commands.time_s) - 1
 
     def add(self, samples: Samples) -> None:
-        """Take what belongs to the trajectory."""
-        own = samples.playback_row >= 0
-        if own.any():
-            self._parts.append(
-                Samples(
-                    samples.device_time_s[own],
-                    samples.command[own],
-                    samples.measured[own],
-                    samples.inputs[own],
-                    samples.playback_row[own],
-                )
-            )
-            self._rows += int(own.sum())
-
-    def finish(self) -> Record | None:
-        """Return the record of what was played; None if that never began.
+        """Take what belongs to the trajectory.
 
         Raises
         ------
         RecordError
-            If the device named rows that do not follow one another.
+            If the device names rows that do not follow one another.
         """
-        if not self._parts:
+        began = np.flatnonzero(samples.playback_row >= 0)
+        if self.complete and not len(began):
+            return
+        self._check_rows(samples, began)
+        first = int(began[0]) if self._row < 0 and len(began) else 0
+        if self._row < 0 and not len(began):
+            return
+        if len(began):
+            self._rows = len(self._samples) + int(began[-1]) + 1 - first
+            self._row = int(samples.playback_row[began[-1]])
+        self._samples.append(self._table(samples, first))
+
+    def finish(self) -> Record | None:
+        """Return the record of what was played, once; None if that never began."""
+        if self._row < 0:
             return None
-        order = tuple(self._robot.axes)
-        samples = Samples.joined(self._parts, len(order))
-        signals = {}
-        for name in self._axes:
-            column = order.index(name)
-            signals[name, Tap.CMD] = samples.command[:, column]
-            voltage = samples.inputs[:, column]
-            stepper = isinstance(self._robot.axes[name], StepperAxis)
-            if not stepper and np.isfinite(voltage).all():
-                signals[name, Tap.U] = voltage
-            signals[name, Tap.MEAS] = samples.measured[:, column]
-        time_s = self._time_s[samples.playback_row]
-        return Record.from_signals(time_s, signals, self._units, self._metadata)
+        told = np.flatnonzero(self._told)
+        device_time_s, values = self._samples.drained(self._rows, told)
+        time_s = np.rint((device_time_s - device_time_s[0]) * _PER_SECOND) / _PER_SECOND
+        channels = tuple(self._channels[column] for column in told)
+        return Record(time_s, channels, values, self._trajectory.commands.units, self._metadata)
+
+    def _check_rows(self, samples: Samples, began: IntArray) -> None:
+        rows = np.concatenate([[self._row], samples.playback_row[began]])
+        wrong = np.flatnonzero(np.diff(rows) <= 0)
+        last = len(self._trajectory.commands.time_s) - 1
+        if len(wrong) or rows[-1] > last:
+            at = int(wrong[0]) if len(wrong) else len(rows) - 2
+            raise RecordError(
+                f"playback: the device went from row {rows[at]} to row {rows[at + 1]} of a "
+                f"trajectory whose rows are 0 to {last}"
+            )
+
+    def _table(self, samples: Samples, first: int) -> FloatArray:
+        """Return time and channels (n, 1 + c) from one sample on."""
+        order = tuple(self._trajectory.robot.axes)
+        taps = {Tap.CMD: samples.command, Tap.U: samples.inputs, Tap.MEAS: samples.measured}
+        table = np.empty((len(samples) - first, 1 + len(self._channels)))
+        table[:, 0] = samples.device_time_s[first:]
+        for column, (axis, tap) in enumerate(self._channels):
+            table[:, 1 + column] = taps[tap][first:, order.index(axis)]
+        self._told &= np.isfinite(table[:, 1:]).all(axis=0)
+        return table
 
 
-def _name_of(metadata: Mapping[str, str]) -> dict[str, str]:
-    name = metadata.get("trajectory") or metadata.get("name")
-    return {"trajectory": name} if name else {}
+class _Samples:
+    """Times and values of samples, in blocks."""
+
+    def __init__(self, columns: int) -> None:
+        self._columns = columns
+        self._blocks: list[FloatArray] = []
+        self._rows = 0
+
+    def __len__(self) -> int:
+        return self._rows
+
+    def append(self, table: FloatArray) -> None:
+        while len(table):
+            used = self._rows % _BLOCK
+            if used == 0:
+                self._blocks.append(np.empty((_BLOCK, self._columns)))
+            part = table[: _BLOCK - used]
+            self._blocks[-1][used : used + len(part)] = part
+            self._rows += len(part)
+            table = table[len(part) :]
+
+    def drained(self, rows: int, columns: IntArray) -> tuple[FloatArray, FloatArray]:
+        """Return times (rows,) and some columns (rows, c); nothing is left here."""
+        time_s, values = np.empty(rows), np.empty((rows, len(columns)), order="F")
+        blocks, self._blocks, self._rows = self._blocks[::-1], [], 0
+        for begin in range(0, rows, _BLOCK):
+            block = blocks.pop()[: rows - begin]
+            time_s[begin : begin + _BLOCK] = block[:, 0]
+            values[begin : begin + _BLOCK] = block[:, 1 + columns]
+        return time_s, values
+
+
+def _channels(robot: Robot, axes: tuple[str, ...]) -> Iterator[Channel]:
+    for axis in axes:
+        yield Channel(axis, Tap.CMD)
+        if not isinstance(robot.axes[axis], StepperAxis):
+            yield Channel(axis, Tap.U)
+        yield Channel(axis, Tap.MEAS)
+
+
+def _metadata(trajectory: CheckedTrajectory, driver: str) -> dict[str, str]:
+    asked = trajectory.commands
+    since_s = asked.time_s - asked.time_s[0]
+    name = asked.metadata.get("trajectory") or asked.metadata.get("name")
+    metadata = {
+        "mode": mode_of(trajectory.robot, asked.axes),
+        "robot": trajectory.robot.name,
+        "driver": driver,
+        **({"trajectory": name} if name else {}),
+        "trajectory_rows": str(len(since_s)),
+        "trajectory_duration_s": repr(asked.duration_s),
+        "trajectory_digest": trajectory.digest,
+    }
+    if len(since_s) <= _SHORT:
+        metadata["trajectory_times_s"] = " ".join(repr(each) for each in since_s.tolist())
+    return metadata

@@ -9,11 +9,8 @@ from rotemina.app.motion.history import LiveHistory
 from rotemina.app.motion.mailbox import ClearFault, Mailbox, Move, Play, RefusedError
 from rotemina.app.motion.state import (
     Callback,
-    CommandRefused,
     Connection,
     Event,
-    Faulted,
-    PlaybackFinished,
     SessionState,
 )
 from rotemina.app.motion.worker import Worker
@@ -21,7 +18,9 @@ from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver, TrajectoryPlayer
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.records.record import Record
-from rotemina.sim.trajectory.limits import check_target, check_trajectory
+from rotemina.sim.trajectory.checked import CheckedTrajectory, accepted
+from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
+from rotemina.sim.trajectory.limits import check_target
 
 _LOG = logging.getLogger(__name__)
 
@@ -71,7 +70,6 @@ class MotionSession:
         self._closing = threading.Event()
         # Guards what follows; never held while the driver is called.
         self._lock = threading.Lock()
-        self._targets: dict[str, float] = {}
         self._callbacks: list[Callback] = []
         self._stop_latency_s: float | None = None
 
@@ -103,6 +101,16 @@ class MotionSession:
         if thread is not threading.current_thread():
             thread.join(timeout_s)
         return not thread.is_alive()
+
+    @property
+    def setpoint_period_s(self) -> float:
+        """How often the device applies set-points, s; what a dry run for it is to be told."""
+        driver = self.driver
+        return (
+            driver.setpoint_period_s
+            if isinstance(driver, TrajectoryPlayer)
+            else (SETPOINT_PERIOD_S)
+        )
 
     def connect(self) -> None:
         """Ask the worker to connect; for a program that steps :meth:`run_once` itself."""
@@ -149,11 +157,13 @@ class MotionSession:
             check_target(self.robot, axis, 0.0)
         with self._lock:
             self._refuse_if_locked()
-            start = self._targets.get(axis, self._worker.state.command.get(axis, float("nan")))
-            self._post_move({axis: start + distance})
+            self._post_move({axis: self._target_of(axis) + distance})
 
-    def play(self, trajectory: Record) -> None:
+    def play(self, trajectory: Record | CheckedTrajectory) -> None:
         """Play a trajectory; events tell how it ends, with the record.
+
+        A bare record is checked on the caller's thread, which takes half a second for a million
+        rows; what a dry run allowed (``dry_run(…).require()``) is not checked again.
 
         Raises
         ------
@@ -164,13 +174,12 @@ class MotionSession:
         """
         if not isinstance(self.driver, TrajectoryPlayer):
             raise RefusedError(f"driver {self.driver.name!r} cannot play trajectories")
-        check_trajectory(self.robot, trajectory)
+        checked = accepted(self.robot, trajectory, self.setpoint_period_s)
         with self._lock:
             self._refuse_if_locked()
             if self._worker.state.activity is not DeviceState.IDLE or len(self._mailbox):
                 raise RefusedError("the machine is still moving; stop it or wait before playing")
-            self._mailbox.post(Play(trajectory))
-            self._targets.clear()
+            self._mailbox.post(Play(checked))
 
     def stop(self) -> None:
         """Halt every axis now; any thread, any time. Never waits and never raises.
@@ -188,7 +197,6 @@ class MotionSession:
         self._worker.stopped(asked_s, failure)
         with self._lock:
             self._stop_latency_s = latency_s
-            self._targets.clear()
 
     def clear_fault(self) -> None:
         """Acknowledge a device's fault; nothing happens without one.
@@ -237,7 +245,15 @@ class MotionSession:
         for axis, position in targets.items():
             check_target(self.robot, axis, position)
         self._mailbox.post(Move(targets))
-        self._targets.update(targets)
+
+    def _target_of(self, axis: str) -> float:
+        """Return where an axis was last sent by a command that nobody refused, or stands."""
+        target = self._mailbox.target_of(axis)
+        if target is None:
+            target = self._worker.targets.get(axis)
+        if target is None:
+            target = self._worker.state.command.get(axis, float("nan"))
+        return target
 
     def _refuse_if_locked(self) -> None:
         state = self.snapshot()
@@ -248,8 +264,6 @@ class MotionSession:
 
     def _emit(self, event: Event) -> None:
         with self._lock:
-            if isinstance(event, CommandRefused | Faulted | PlaybackFinished):
-                self._targets.clear()
             callbacks = tuple(self._callbacks)
         for callback in callbacks:
             try:

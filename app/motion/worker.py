@@ -4,7 +4,7 @@ It is stepped, not timed: :meth:`Worker.run_once` is one cycle, called by the se
 without any thread, by a test.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from types import MappingProxyType
@@ -33,7 +33,8 @@ from rotemina.sim.errors import InputError
 class Worker:
     """Connects, executes queued commands, takes samples, records, and publishes ``state``.
 
-    ``state`` is replaced as a whole, so any thread may look at it.
+    ``state`` is replaced as a whole, so any thread may look at it; so are ``targets``, where the
+    device was last sent, of each axis that it has been sent anywhere since it last held.
     """
 
     def __init__(
@@ -45,6 +46,7 @@ class Worker:
         emit: Callable[[Event], None],
     ) -> None:
         self.state = SessionState(locked=_NOT_CONNECTED)
+        self.targets: Mapping[str, float] = _NOWHERE
         self._driver = driver
         self._mailbox = mailbox
         self._history = history
@@ -59,8 +61,10 @@ class Worker:
 
     def stopped(self, host_time_s: float, failure: Exception | None) -> None:
         """Note, from any thread, that a stop was handed to the device, or failed to be."""
+        self.targets = _NOWHERE
         self._stop_asked_s = host_time_s
-        self._stop_failure = failure
+        if failure is not None:  # a later stop that succeeds does not mend what this one found
+            self._stop_failure = failure
         self._mailbox.bell.set()
 
     def run_once(self) -> None:
@@ -100,6 +104,7 @@ class Worker:
         self._publish()
         self._mailbox.clear()
         self._stop_failure = None
+        self.targets = _NOWHERE
         self._driver.open()
         self._history.clear()
         self._model.restart()
@@ -113,23 +118,27 @@ class Worker:
                 self._emit(CommandRefused(str(error)))
             # A stop that came while the command was on its way must not be undone by it.
             if self._mailbox.generation != taken.generation:
+                self.targets = _NOWHERE
                 self._driver.stop()
 
     def _do(self, command: Command) -> None:
         if isinstance(command, Move):
             self._driver.move_to(command.targets)
+            self.targets = MappingProxyType({**self.targets, **command.targets})
         elif isinstance(command, Play):
             self._play(command)
         elif isinstance(command, ClearFault):
             self._driver.clear_fault()
+            self.targets = _NOWHERE
             self._model.restart()
             self._next = replace(self._next, fault=None)
 
     def _play(self, command: Play) -> None:
         driver = self._driver
         assert isinstance(driver, TrajectoryPlayer), "the session refuses to play on any other"
-        recorder = PlaybackRecorder(driver.robot, command.trajectory, driver.name)
+        recorder = PlaybackRecorder(command.trajectory, driver.name)
         driver.play(command.trajectory)
+        self.targets = _NOWHERE
         self._recorder = recorder
 
     def _take_samples(self) -> None:
@@ -142,6 +151,7 @@ class Worker:
         faulted = status.state is DeviceState.FAULT and self.state.fault != self._next.fault
         if faulted:
             self._mailbox.clear()
+            self.targets = _NOWHERE
         # Published before events tell of it: a subscriber may answer with the next command.
         self._publish()
         if self._recorder is not None:
@@ -183,16 +193,13 @@ class Worker:
         recorder, self._recorder = self._recorder, None
         if recorder is None:
             return
-        try:
-            record = recorder.finish()
-        except InputError as error:
-            self._emit(CommandRefused(f"the playback gave no usable record: {error}"))
-            record = None
+        record = recorder.finish()
         self._emit(PlaybackFinished(record, completed and recorder.complete and record is not None))
 
     def _fail(self, message: str) -> None:
         """Lock motion; only an explicit reconnection ends this."""
         self._mailbox.clear()
+        self.targets = _NOWHERE
         with suppress(Exception):  # best effort: the device is expected not to answer
             self._driver.stop()
         with suppress(Exception):
@@ -218,6 +225,7 @@ class Worker:
             self._emit(StateChanged(self.state))
 
 
+_NOWHERE: Mapping[str, float] = MappingProxyType({})
 _NOT_CONNECTED = "not connected; connect first"
 
 

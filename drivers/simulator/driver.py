@@ -67,6 +67,11 @@ class Simulator(TrajectoryPlayer):
         self._stops_s: deque[float] = deque()
         self._unread: list[Samples] = []
 
+    @property
+    def setpoint_period_s(self) -> float:
+        """The interval between samples, at which loops are closed too, s."""
+        return self._tick_s
+
     def _number(self, name: str, least: float, greatest: float) -> float:
         value = self.settings[name]
         if isinstance(value, str) or not least <= value <= greatest:

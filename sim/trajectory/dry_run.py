@@ -15,7 +15,6 @@ from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S, accelerations,
 from rotemina.sim.trajectory.limits import (
     OutOfLimitsError,
     Violation,
-    commands_of,
     controller_of,
     find_violations,
     resolution_of,
@@ -127,21 +126,6 @@ def dry_run(
         violations,
         prediction.fault,
         sealed if sound else None,
-    )
-
-
-def as_played(robot: Robot, trajectory: Record) -> Record:
-    """Return the commands of a trajectory alone, in the mode in which the robot plays them.
-
-    Axes with a controller are under it, and the run starts at rest, whatever an earlier
-    measurement of the same commands said.
-    """
-    commands = commands_of(robot, trajectory)
-    return Record.from_signals(
-        trajectory.time_s,
-        {(name, Tap.CMD): command for name, command in commands.items()},
-        {name: trajectory.units[name] for name in commands},
-        {"mode": mode_of(robot, commands)},
     )
 
 

@@ -94,14 +94,13 @@ def accelerations(
 
 
 def _staircase(time_s: FloatArray, command: FloatArray, period_s: float, keep: int) -> _Path:
-    """Add the points at which a device stands between rows, a period or less apart.
+    """Add the points at which a device stands between rows, about a period apart.
 
-    Of a long stand the ``keep`` first and last are enough: what spans the rest sees no motion.
+    Less than half a period more than one is no stand but a row that comes late. Of a long stand
+    the ``keep`` first and last are enough: what spans the rest sees no motion.
     """
     interval = np.diff(time_s)
-    stands = np.where(
-        held_rows(time_s, period_s), np.ceil(interval / period_s - 1.0 - ON_TIME), 0.0
-    )
+    stands = np.maximum(np.rint(interval / period_s) - 1.0, 0.0)
     if not stands.any():
         return _Path(time_s, command)
     spacing = np.append((interval - period_s) / np.maximum(stands, 1.0), 0.0)

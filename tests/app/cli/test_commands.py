@@ -49,12 +49,46 @@ def test_play_then_compare_finds_only_noise(in_tmp, tour, capsys):
     assert "thx.meas" in capsys.readouterr().out
 
 
-def test_the_record_of_a_playback_has_the_trajectorys_rows(in_tmp, tour):
-    assert main(["play", str(tour)]) == 0
-    record, asked = read_record("six_axis_tour-record.csv"), read_record(tour)
-    np.testing.assert_allclose(record.time_s, asked.time_s, atol=1e-9)
-    for axis in asked.axes:
-        np.testing.assert_array_equal(record.signal(axis, Tap.CMD), asked.signal(axis, Tap.CMD))
+def write_trajectory(name, axis, time_s, command, unit="m"):
+    record = Record.from_signals(time_s, {(axis, Tap.CMD): command}, {axis: unit}, {"name": name})
+    write_record(record, f"{name}.csv")
+    return record
+
+
+@pytest.mark.parametrize(
+    ("robot", "axis", "centre", "rate_hz"),
+    [("rotemina", "zn", 3e-5, 1000), ("rotemina", "zn", 3e-5, 70), ("emps", "q", 0.1, 300)],
+)
+def test_a_record_holds_what_the_device_did_and_what_was_asked(
+    in_tmp, robot, axis, centre, rate_hz
+):
+    """Every row asked for begins within a tick of its time; the device goes on between rows."""
+    time_s = 7.0 + np.arange(rate_hz + 1) / rate_hz
+    command = centre * (1.0 + 0.05 * np.sin(np.pi * (time_s - 7.0)) ** 2)
+    asked = write_trajectory("hum", axis, time_s, command)
+    assert main(["play", "hum.csv", "--robot", robot]) == 0
+    record = read_record("hum-record.csv")
+    assert record.time_s[0] == 0.0
+    assert np.diff(record.time_s).max() <= 1e-3 * (1 + 1e-9)
+    assert len(record.time_s) >= 1001
+    applied = record.signal(axis, Tap.CMD)
+    changes = np.flatnonzero(np.diff(applied)) + 1
+    for since_s, row in zip(time_s - 7.0, command, strict=True):
+        at = np.searchsorted(record.time_s, since_s - 1e-9)
+        assert record.time_s[at] - since_s <= 1e-3
+        assert applied[at] == row
+    assert len(changes) <= len(asked.time_s)
+    assert record.metadata["driver"] == "simulator"
+    assert record.metadata["trajectory"] == "hum"
+    assert record.metadata["trajectory_rows"] == str(rate_hz + 1)
+    assert float(record.metadata["trajectory_duration_s"]) == pytest.approx(1.0)
+
+
+def test_the_record_of_a_short_trajectory_names_its_times(in_tmp):
+    write_trajectory("steps", "zn", np.array([0.0, 0.25, 1.0 / 3]), np.array([1e-5] * 3))
+    assert main(["play", "steps.csv"]) == 0
+    times = read_record("steps-record.csv").metadata["trajectory_times_s"]
+    assert [float(text) for text in times.split()] == [0.0, 0.25, 1.0 / 3]
 
 
 def test_the_same_seed_gives_the_same_record(in_tmp, tour):
@@ -151,11 +185,20 @@ def test_a_trajectory_beyond_a_limit_is_not_played(in_tmp, capsys):
     Path("far.csv").write_text("t [s],x [mm]\n0,54.9\n1,55.3\n", "utf-8")
     assert main(["play", "far.csv"]) == 2
     error = capsys.readouterr().err
-    assert error.startswith("rotemina: far.csv: ")
-    assert "55" in error
+    assert error.startswith("rotemina: far.csv: axis x: ")
+    assert "position 55.3 mm" in error
+    assert "limit 55 mm" in error
+    assert "(and 2 more)" in error
     assert not Path("far-record.csv").exists()
     # It may be looked at all the same.
     assert main(["convert", "far.csv", "-o", "copy.csv"]) == 0
+
+
+def test_a_trajectory_that_would_swing_out_of_the_range_is_not_played(in_tmp, capsys):
+    Path("swing.csv").write_text("t [s],m1 [um]\n0,0\n0.001,4.9\n", "utf-8")
+    assert main(["play", "swing.csv", "--robot", "fsm"]) == 2
+    assert "predicted motion" in capsys.readouterr().err
+    assert not Path("swing-record.csv").exists()
 
 
 def test_a_dry_run_writes_nothing(in_tmp, tour, capsys):

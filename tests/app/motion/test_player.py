@@ -11,6 +11,7 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
+from rotemina.sim.trajectory.dry_run import dry_run
 
 ROBOT = load_robot("rotemina")
 
@@ -51,6 +52,28 @@ def test_progress_rises_to_one():
 def test_what_breaks_a_limit_is_refused():
     with pytest.raises(LimitError, match="axis thx"):
         play_offline(ROBOT, tilt(amplitude=4e-4))
+
+
+def test_under_control_the_record_of_distant_rows_is_the_model_to_rounding():
+    """The loop ran at the device's ticks, which are the record's rows."""
+    emps = load_robot("emps")
+    command = 0.06 + 1e-3 * np.arange(7)
+    asked = Record.from_signals(np.arange(7) * 0.5, {("q", Tap.CMD): command}, {"q": "m"})
+    record = play_offline(emps, asked)
+    assert record.closed_loop
+    np.testing.assert_array_equal(record.time_s, np.arange(3001) / 1000)
+    modelled = nominal_response(emps, record)
+    # From 0.5 s on: the model begins at the command, the device where the force has pushed it.
+    for tap, rounding in ((Tap.MEAS, 1e-12), (Tap.U, 1e-7)):
+        deviation = record.signal("q", tap) - modelled.signal("q", tap)
+        assert np.abs(deviation[500:]).max() < rounding
+
+
+def test_a_checked_trajectory_is_played_too():
+    checked = dry_run(ROBOT, tilt()).require()
+    np.testing.assert_array_equal(
+        play_offline(ROBOT, checked, seed=2).values, play_offline(ROBOT, tilt(), seed=2).values
+    )
 
 
 @pytest.mark.parametrize(

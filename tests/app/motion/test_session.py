@@ -19,6 +19,9 @@ from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
+from rotemina.sim.trajectory import checked as checked_module
+from rotemina.sim.trajectory.checked import check
+from rotemina.sim.trajectory.dry_run import dry_run
 from rotemina.sim.trajectory.limits import OutOfLimitsError, TrajectoryError
 
 
@@ -125,14 +128,17 @@ def test_a_playback_gives_its_record(stepped):
     (finished,) = stepped.told(PlaybackFinished)
     assert finished.completed
     record = finished.record
-    np.testing.assert_array_equal(record.time_s, trajectory.time_s - 2.0)
+    np.testing.assert_allclose(record.time_s, trajectory.time_s - 2.0, rtol=0, atol=1e-9)
     np.testing.assert_array_equal(record.signal("x", Tap.CMD), trajectory.signal("x", Tap.CMD))
     assert [str(column) for column in record.columns] == ["x.cmd", "x.meas"]
     assert dict(record.metadata) == {
         "mode": "open_loop",
         "robot": "RoTeMiNa",
-        "device": "unruly",
+        "driver": "unruly",
         "trajectory": "there and back",
+        "trajectory_rows": "501",
+        "trajectory_duration_s": "0.5",
+        "trajectory_digest": check(stepped.session.robot, trajectory, 1e-3).digest,
     }
     assert stepped.session.snapshot().progress == 1.0
 
@@ -228,6 +234,49 @@ def test_stop_neither_waits_nor_raises(stepped):
     assert "cable pulled" in state.fault
 
 
+def test_a_stop_that_succeeds_does_not_hide_one_that_failed(stepped):
+    stepped.driver.before["stop"] = raising(ConnectionLostError("cable pulled"))
+    stepped.session.stop()
+    stepped.driver.before.clear()
+    stepped.session.stop()
+    state = stepped.step()
+    assert state.connection is Connection.FAILED
+    assert "cable pulled" in state.fault
+
+
+def test_what_was_checked_is_not_checked_again(stepped, monkeypatch):
+    checked = dry_run(stepped.session.robot, there_and_back()).require()
+
+    def again(*_, **__):
+        raise AssertionError("checked again")
+
+    monkeypatch.setattr("rotemina.sim.trajectory.checked.check_trajectory", again)
+    stepped.session.play(checked)
+    stepped.until_idle()
+    assert stepped.told(PlaybackFinished)[0].completed
+    with pytest.raises(AssertionError, match="checked again"):
+        stepped.session.play(there_and_back())
+
+
+def test_a_record_is_checked_once(stepped, monkeypatch):
+    calls = []
+    checking = checked_module.check_trajectory
+    monkeypatch.setattr(
+        checked_module,
+        "check_trajectory",
+        lambda *args, **more: calls.append(args) or checking(*args, **more),
+    )
+    stepped.session.play(there_and_back())
+    stepped.until_idle()
+    assert stepped.told(PlaybackFinished)[0].completed
+    assert len(calls) == 1
+
+
+def test_a_session_tells_the_set_point_period_of_its_device(make_stepped):
+    assert make_stepped(settings={"sample_rate_hz": 500.0}).session.setpoint_period_s == 2e-3
+    assert make_stepped("picma", driver=Faulty).session.setpoint_period_s == 1e-3
+
+
 @pytest.mark.parametrize("hook", ["read", "move_to"])
 @pytest.mark.parametrize(
     "error",
@@ -290,6 +339,33 @@ def test_a_refusal_of_the_device_is_told_and_changes_nothing(stepped):
     stepped.driver.before.clear()
     stepped.session.jog("x", 1e-4)
     assert stepped.until_idle().command["x"] == 0.0275 + 1e-4
+
+
+def test_a_refusal_of_one_axis_leaves_the_targets_of_all_alone(stepped):
+    stepped.session.go_to({"x": 0.05, "y": 0.03})
+    stepped.step(0.1, 2)
+    stepped.driver.before["move_to"] = raising(StateError("door open"))
+    stepped.session.go_to({"x": 0.04})
+    stepped.step()
+    assert len(stepped.told(CommandRefused)) == 1
+    stepped.driver.before.clear()
+    stepped.session.jog("x", 1e-3)
+    stepped.session.jog("y", 1e-3)
+    state = stepped.until_idle()
+    assert state.command["x"] == pytest.approx(0.051, abs=1e-15)
+    assert state.command["y"] == pytest.approx(0.031, abs=1e-15)
+
+
+def test_a_jog_from_within_a_command_counts_from_that_command(stepped):
+    """Another thread jogs in the very moment in which a move is handed over."""
+
+    def jog_once():
+        stepped.driver.before.clear()
+        stepped.session.jog("x", 1e-3)
+
+    stepped.driver.before["move_to"] = jog_once
+    stepped.session.go_to({"x": 0.03})
+    assert stepped.until_idle().command["x"] == pytest.approx(0.031, abs=1e-15)
 
 
 def test_a_silent_device_locks_motion(stepped):

@@ -199,6 +199,14 @@ def test_a_held_jump_is_a_start_and_a_halt_however_long_the_rows_are_held(interv
     assert value == pytest.approx(step / 7e-3**2, rel=1e-6)
 
 
+def test_rows_that_come_a_little_late_are_followed_not_held():
+    """A recorded command has jitter; a stand of 10 µs would pose as a halt."""
+    robot = with_axis("x", sensor=None)
+    late = np.random.default_rng(0).uniform(0.8e-3, 1.2e-3, 2000).cumsum()
+    assert found(robot, rows(late, 0.02 + 0.002 * np.cos(late * np.pi / late[-1]) ** 2)) == {}
+    assert found(robot, rows(2 * late, 0.02 + 0.002 * np.cos(late * np.pi / late[-1]) ** 2))
+
+
 def test_steps_of_one_resolution_may_be_as_far_apart_as_they_like():
     steps = 0.01 + 1e-7 * np.arange(50)
     assert find_violations(ROBOT, trajectory("x", steps, rate_hz=20.0)) == ()
