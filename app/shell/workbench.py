@@ -139,7 +139,7 @@ class Workbench(QObject):
         if plan is None:
             self.notify(Level.WARNING, "There is no trajectory to play: load one first.")
         else:
-            self._ask(lambda: self.session.play(plan.trajectory))
+            self._ask(lambda: self.session.play(plan.dry_run.require()))
 
     def reconnect(self) -> None:
         """Connect again after a failure; a refusal becomes a notice."""
@@ -152,17 +152,13 @@ class Workbench(QObject):
 
         def work() -> Plan:
             trajectory = read_record(path, columns=columns, robot=self.robot)
-            return Plan(path.name, trajectory, dry_run(self.robot, trajectory))
+            return self._tried(path.name, trajectory)
 
         self._work("plan", f"Reading {path.name} …", work, self._set_plan)
 
     def plan_trajectory(self, name: str, trajectory: Record) -> None:
         """Try a trajectory on the model and take it in hand."""
-
-        def work() -> Plan:
-            return Plan(name, trajectory, dry_run(self.robot, trajectory))
-
-        self._work("plan", "Dry run …", work, self._set_plan)
+        self._work("plan", "Dry run …", lambda: self._tried(name, trajectory), self._set_plan)
 
     def open_record(self, path: Path, columns: str | None = None) -> None:
         """Read a record as "real" and compare it with the model."""
@@ -207,11 +203,15 @@ class Workbench(QObject):
         self.busy_changed.emit(doing)
         self._background.run(kind, work, finished, failed)  # type: ignore[arg-type]
 
+    def _tried(self, name: str, trajectory: Record) -> Plan:
+        period_s = self.session.setpoint_period_s
+        return Plan(name, trajectory, dry_run(self.robot, trajectory, setpoint_period_s=period_s))
+
     def _set_plan(self, plan: Plan) -> None:
         self.plan = plan
         self.plan_changed.emit(plan)
         if not plan.dry_run.allowed:
-            self.notify(Level.WARNING, f"{plan.name}: {plan.dry_run.violations[0].message}")
+            self.notify(Level.WARNING, f"{plan.name}: {plan.dry_run.objections[0]}")
 
     def _set_run(self, run: Run) -> None:
         self.run = run

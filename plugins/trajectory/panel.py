@@ -76,8 +76,8 @@ class TrajectoryPanel(Panel):
         if run.allowed:
             self.verdict.setText("Dry run: inside all limits of range, speed and acceleration.")
         else:
-            more = f" (and {len(run.violations) - 1} more)" if len(run.violations) > 1 else ""
-            self.verdict.setText(f"Not playable: {run.violations[0].message}{more}")
+            more = f" (and {len(run.objections) - 1} more)" if len(run.objections) > 1 else ""
+            self.verdict.setText(f"Not playable: {run.objections[0]}{more}")
         self.verdict.setProperty("bad", not run.allowed)
         self.verdict.style().polish(self.verdict)
         self._fill(plan)
