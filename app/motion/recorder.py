@@ -11,7 +11,8 @@ from rotemina.sim.robot.model import Robot, StepperAxis
 from rotemina.sim.trajectory.checked import CheckedTrajectory
 from rotemina.sim.trajectory.dry_run import mode_of
 
-_BLOCK = 1 << 16  # samples kept together: large enough to be given back to the system at once
+# Samples are kept in blocks so large that allocators give each back to the system at once.
+_BLOCK_BYTES = 1 << 26
 _SHORT = 32  # rows of a trajectory whose times its record names
 # Device times are told apart to this many parts of a second: the rounding of a late device time
 # must not make every interval a different one.
@@ -102,6 +103,7 @@ class _Samples:
 
     def __init__(self, columns: int) -> None:
         self._columns = columns
+        self._block = max(1, _BLOCK_BYTES // (8 * columns))
         self._blocks: list[FloatArray] = []
         self._rows = 0
 
@@ -110,10 +112,10 @@ class _Samples:
 
     def append(self, table: FloatArray) -> None:
         while len(table):
-            used = self._rows % _BLOCK
+            used = self._rows % self._block
             if used == 0:
-                self._blocks.append(np.empty((_BLOCK, self._columns)))
-            part = table[: _BLOCK - used]
+                self._blocks.append(np.empty((self._block, self._columns)))
+            part = table[: self._block - used]
             self._blocks[-1][used : used + len(part)] = part
             self._rows += len(part)
             table = table[len(part) :]
@@ -122,10 +124,12 @@ class _Samples:
         """Return times (rows,) and some columns (rows, c); nothing is left here."""
         time_s, values = np.empty(rows), np.empty((rows, len(columns)), order="F")
         blocks, self._blocks, self._rows = self._blocks[::-1], [], 0
-        for begin in range(0, rows, _BLOCK):
+        for begin in range(0, rows, self._block):
             block = blocks.pop()[: rows - begin]
-            time_s[begin : begin + _BLOCK] = block[:, 0]
-            values[begin : begin + _BLOCK] = block[:, 1 + columns]
+            here = slice(begin, begin + len(block))
+            time_s[here] = block[:, 0]
+            for to, column in enumerate(columns):
+                values[here, to] = block[:, 1 + column]
         return time_s, values
 
 

@@ -84,7 +84,7 @@ def test_a_voltage_that_the_device_does_not_tell_is_left_out():
 
 def test_a_long_playback_is_kept_once_and_let_go_of(monkeypatch):
     """Blocks are given back while the record is filled: at the end only the record is left."""
-    monkeypatch.setattr(recorder_module, "_BLOCK", 4096)
+    monkeypatch.setattr(recorder_module, "_BLOCK_BYTES", 1 << 19)
     rows, reads = 100_000, 1000
     recorder = recorder_of(rows, axes=tuple(ROBOT.axes))
     tracemalloc.start()
