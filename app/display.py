@@ -3,6 +3,8 @@
 import math
 from dataclasses import dataclass
 
+from rotemina.sim.records.record import Record
+from rotemina.sim.records.resampling import induced_velocity
 from rotemina.sim.robot.model import Axis, Robot
 from rotemina.sim.units import symbol, to_unit
 
@@ -60,3 +62,14 @@ def step_presets(unit: str, span: float) -> tuple[float, ...]:
     finest = 1e-6 if unit == "rad" else 1e-8
     decades = math.floor(math.log10(span / 10 / finest) + 1e-9)
     return tuple(finest * 10**power for power in range(max(decades, 0) + 1))
+
+
+def speed_changes(before: Record, after: Record) -> str:
+    """Return one line an axis: its fastest command in one record and in another."""
+    old, new = induced_velocity(before), induced_velocity(after)
+    lines = []
+    for axis in old:
+        unit = "mrad" if before.units[axis] == "rad" else "mm"
+        values = (f"{to_unit(speeds[axis], unit):.4g}" for speeds in (old, new))
+        lines.append(f"{label(axis)}: {' → '.join(values)} {symbol(unit)}/s")
+    return "\n".join(lines)

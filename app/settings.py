@@ -33,7 +33,7 @@ class Settings:
         if type(value) is not type(default):
             logger.warning("%s: %s = %r is ignored, %r is used", self._path, key, value, default)
             return default
-        return value  # type: ignore[return-value]  # its type was compared just above
+        return value
 
     def set(self, key: str, value: str | bool | int | float) -> None:
         """Keep a preference and write the file; a failure is logged, not raised."""

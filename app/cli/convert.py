@@ -4,12 +4,13 @@ import argparse
 from pathlib import Path
 
 from rotemina.app.cli.options import add_columns, add_robot, robot_of
+from rotemina.app.display import speed_changes
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
-from rotemina.sim.records.resampling import induced_velocity, resample
+from rotemina.sim.records.resampling import resample
 from rotemina.sim.records.writing import write_record
-from rotemina.sim.units import canonical, quantity, symbol, to_unit
+from rotemina.sim.units import canonical, quantity
 
 
 def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -47,7 +48,8 @@ def run(options: argparse.Namespace) -> int:
     record = read_record(options.source, columns=options.columns, robot=robot_of(options))
     if options.resample is not None:
         converted = resample(record, options.resample, options.method)
-        print(_velocities(record, converted))
+        print("fastest command, before → after resampling:")
+        print(speed_changes(record, converted))
         record = converted
     write_record(
         record,
@@ -65,14 +67,3 @@ def _axis_units(record: Record, names: list[str]) -> dict[str, str]:
         if kind not in ("m", "rad"):
             raise InputError(f"--units {chosen[kind]}: a position's unit is a length or an angle")
     return {axis: chosen[unit] for axis, unit in record.units.items() if unit in chosen}
-
-
-def _velocities(before: Record, after: Record) -> str:
-    """Say the fastest command of each axis before and after resampling."""
-    fast, faster = induced_velocity(before), induced_velocity(after)
-    lines = ["fastest command, before → after resampling:"]
-    for axis in fast:
-        unit = "mm" if after.units[axis] == "m" else "mrad"
-        speeds = (f"{to_unit(speed, unit):.4g}" for speed in (fast[axis], faster[axis]))
-        lines.append(f"  {axis}: {' → '.join(speeds)} {symbol(unit)}/s")
-    return "\n".join(lines)

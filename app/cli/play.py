@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 from rotemina.app.cli.options import add_columns, add_robot, robot_of
@@ -61,7 +62,7 @@ def _stem(path: Path) -> str:
     return path.name.removesuffix(".gz").rsplit(".", 1)[0]
 
 
-def _progress():
+def _progress() -> Callable[[float], None] | None:
     if not sys.stderr.isatty():
         return None
 

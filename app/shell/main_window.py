@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from PySide6.QtCore import QByteArray, QEvent, QObject, Qt
-from PySide6.QtGui import QAction, QCloseEvent, QKeySequence
+from PySide6.QtGui import QAction, QCloseEvent, QKeyEvent, QKeySequence
 from PySide6.QtWidgets import (
     QApplication,
     QDockWidget,
@@ -63,9 +63,13 @@ class EscapeKey(QObject):
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
         """Stop, and let the event pass."""
-        if event.type() == QEvent.Type.KeyPress and event.key() == Qt.Key.Key_Escape:
-            self._stop()
+        if isinstance(event, QKeyEvent) and event.type() == QEvent.Type.KeyPress:
+            self._press(event)
         return False
+
+    def _press(self, event: QKeyEvent) -> None:
+        if event.key() == Qt.Key.Key_Escape:
+            self._stop()
 
 
 class Command(NamedTuple):
@@ -88,6 +92,7 @@ class MainWindow(QMainWindow):
         self.notices = NoticeBar()
         self.panels, broken = make_panels(workbench)
         self.docks: dict[str, QDockWidget] = {}
+        self._menus: dict[str, QMenu] = {}
         self._make_tool_bar()
         self._make_docks()
         self._make_menus()
@@ -202,10 +207,10 @@ class MainWindow(QMainWindow):
         ]
 
     def _menu(self, title: str) -> QMenu:
-        for action in self.menuBar().actions():
-            if action.text() == title:
-                return action.menu()
-        return self.menuBar().addMenu(title)
+        """Return a menu of the menu bar, made when it is first asked for."""
+        if title not in self._menus:
+            self._menus[title] = self.menuBar().addMenu(title)
+        return self._menus[title]
 
     def _make_status_bar(self) -> None:
         self._status = StatusText(self.workbench)

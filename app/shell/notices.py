@@ -1,6 +1,6 @@
 """Notices: what the operator must know, at the top of the window until it is read."""
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
@@ -19,6 +19,8 @@ MOST = 3  # older notices give way; the log keeps them all
 class Notice(QFrame):
     """One message with a button that closes it."""
 
+    closed = Signal()
+
     def __init__(self, level: Level, text: str) -> None:
         super().__init__()
         self.setObjectName("notice")
@@ -34,7 +36,7 @@ class Notice(QFrame):
         close.setAutoRaise(True)
         close.setToolTip("Close this notice")
         close.setAccessibleName("Close this notice")
-        close.clicked.connect(self.deleteLater)
+        close.clicked.connect(self.closed)
         row = QHBoxLayout(self)
         row.setContentsMargins(10, 4, 6, 4)
         row.addWidget(message, 1)
@@ -46,6 +48,7 @@ class NoticeBar(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
+        self._open: list[Notice] = []
         self._column = QVBoxLayout(self)
         self._column.setContentsMargins(0, 0, 0, 0)
         self._column.setSpacing(4)
@@ -55,16 +58,19 @@ class NoticeBar(QWidget):
         for open_notice in self.notices():
             if open_notice.text == text:
                 self._remove(open_notice)
-        self._column.insertWidget(0, Notice(level, text))
+        notice = Notice(level, text)
+        notice.closed.connect(lambda: self._remove(notice))
+        self._open.insert(0, notice)
+        self._column.insertWidget(0, notice)
         for old in self.notices()[MOST:]:
             self._remove(old)
 
     def notices(self) -> list[Notice]:
         """Return the open notices, newest first."""
-        items = (self._column.itemAt(index) for index in range(self._column.count()))
-        return [widget for item in items if isinstance(widget := item.widget(), Notice)]
+        return list(self._open)
 
     def _remove(self, notice: Notice) -> None:
+        self._open.remove(notice)
         self._column.removeWidget(notice)
         notice.hide()
         notice.deleteLater()

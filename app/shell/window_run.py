@@ -23,7 +23,7 @@ def make_application() -> QApplication:
     assert isinstance(application, QApplication)
     application.setApplicationName("RoTeMiNa")
     icon = resources.files("rotemina.resources.icons").joinpath("rotemina.svg").read_bytes()
-    application.setWindowIcon(QIcon(QPixmap.fromImage(QImage.fromData(icon, "svg"))))
+    application.setWindowIcon(QIcon(QPixmap.fromImage(QImage.fromData(icon))))
     pg.setConfigOptions(antialias=False, useOpenGL=False)
     return application
 

@@ -1,10 +1,11 @@
 """What all panels share: the robot, the motion session, and the trajectory and record in hand."""
 
 import logging
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
+from typing import TypeVar
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
@@ -21,6 +22,7 @@ from rotemina.sim.records.writing import write_record
 from rotemina.sim.trajectory.dry_run import DryRun, dry_run
 
 logger = logging.getLogger(__name__)
+Answer = TypeVar("Answer")
 
 FRAME_MS = 33  # screens are read at most this often
 
@@ -185,23 +187,29 @@ class Workbench(QObject):
 
     # --- inside -----------------------------------------------------------------------------------
 
-    def _ask(self, request: object) -> None:
+    def _ask(self, request: Callable[[], object]) -> None:
         try:
-            request()  # type: ignore[operator]
+            request()
         except (InputError, OSError, ValueError, RuntimeError) as error:
             self.notify(Level.ERROR, str(error))
 
-    def _work(self, kind: str, doing: str, work: object, done: object) -> None:
-        def finished(answer: object) -> None:
+    def _work(
+        self,
+        kind: str,
+        doing: str,
+        work: Callable[[], Answer],
+        done: Callable[[Answer], None],
+    ) -> None:
+        def finished(answer: Answer) -> None:
             self.busy_changed.emit("")
-            done(answer)  # type: ignore[operator]
+            done(answer)
 
         def failed(message: str) -> None:
             self.busy_changed.emit("")
             self.notify(Level.ERROR, message)
 
         self.busy_changed.emit(doing)
-        self._background.run(kind, work, finished, failed)  # type: ignore[arg-type]
+        self._background.run(kind, work, finished, failed)
 
     def _tried(self, name: str, trajectory: Record) -> Plan:
         period_s = self.session.setpoint_period_s

@@ -11,11 +11,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.display import label
+from rotemina.app.display import speed_changes
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
-from rotemina.sim.records.resampling import induced_velocity, resample
-from rotemina.sim.units import symbol, to_unit
+from rotemina.sim.records.resampling import resample
 
 PAUSE_MS = 250
 METHODS = {
@@ -69,17 +68,6 @@ class ResamplingDialog(QDialog):
             self.resampled = None
             self.outcome.setText(str(error))
         else:
-            self.outcome.setText(speeds(self._trajectory, self.resampled))
+            self.outcome.setText(speed_changes(self._trajectory, self.resampled))
         ok = self.buttons.button(QDialogButtonBox.StandardButton.Ok)
         ok.setEnabled(self.resampled is not None)
-
-
-def speeds(before: Record, after: Record) -> str:
-    """Return one line an axis: its fastest command before and after."""
-    old, new = induced_velocity(before), induced_velocity(after)
-    lines = []
-    for axis in old:
-        unit = "mrad" if before.units[axis] == "rad" else "mm"
-        values = (f"{to_unit(speed[axis], unit):.4g}" for speed in (old, new))
-        lines.append(f"{label(axis)}: {' → '.join(values)} {symbol(unit)}/s")
-    return "\n".join(lines)

@@ -121,7 +121,7 @@ def test_convert_changes_units_rate_and_header(in_tmp, capsys):
     assert main(["convert", "r.csv", "-o", "um.csv.gz", "--units", "um"]) == 0
     assert b"x.cmd [um]" in gzip.decompress(Path("um.csv.gz").read_bytes())
     assert main(["convert", "r.csv", "-o", "fast.csv", "--resample", "1000"]) == 0
-    assert "x: 1 → 10 mm/s" in capsys.readouterr().out
+    assert "X: 1 → 10 mm/s" in capsys.readouterr().out
     assert len(read_record("fast.csv").time_s) == 31
     assert main(["convert", "r.csv", "-o", "plain.txt", "--no-header"]) == 0
     assert Path("plain.txt").read_text("utf-8").splitlines()[0][0].isdigit()
