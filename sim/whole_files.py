@@ -30,6 +30,8 @@ def replaced(path: str | PathLike[str]) -> Iterator[BinaryIO]:
     try:
         if place.is_dir():
             raise FileWriteError(f"{name}: it is a folder; name a file in it")
+        if place.exists() and not place.is_file():
+            raise FileWriteError(f"{name}: it is a device and no file; name a file")
         with draft.open("xb") as file:
             yield file
             file.flush()

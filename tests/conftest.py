@@ -36,7 +36,7 @@ def settings(tmp_path):
 
 
 @pytest.fixture
-def make_robot_window(qtbot, settings):
+def make_robot_window(qtbot, settings, tmp_path):
     """Make windows on the simulator of any robot; all are closed, and no thread stays."""
     import threading
 
@@ -49,7 +49,7 @@ def make_robot_window(qtbot, settings):
 
     def make(robot="rotemina"):
         session = MotionSession(Simulator(load_robot(robot), {"settle_s": 0.02}))
-        window = make_window(session, settings)
+        window = make_window(session, settings, tmp_path / "played")
         windows.append(window)
         window.show()
         window.workbench.start()

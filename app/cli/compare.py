@@ -1,14 +1,16 @@
 """``rotemina compare``: how far the nominal model is from a record of the real machine."""
 
 import argparse
+from contextlib import ExitStack
 from pathlib import Path
 
 from rotemina.app.cli.options import add_columns, add_robot, robot_of
-from rotemina.app.files import write_json
+from rotemina.app.files import json_text
 from rotemina.sim.comparison.comparison import FITTABLE, compare
-from rotemina.sim.comparison.figure import save_figure
+from rotemina.sim.comparison.figure import draw_figure, format_of
 from rotemina.sim.comparison.table import table
 from rotemina.sim.records.reading import read_record
+from rotemina.sim.whole_files import replaced
 
 
 def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -39,10 +41,13 @@ def run(options: argparse.Namespace) -> int:
     robot = robot_of(options)
     record = read_record(options.record, columns=options.columns, robot=robot)
     comparison = compare(robot, record, fit=options.fit)
-    if options.plot is not None:
-        save_figure(comparison, options.plot)
-    if options.json is not None:
-        write_json(comparison.as_json(), options.json)
-    if options.json != "-":
-        print(table(comparison))
+    # Both files appear together or neither: a failure at one leaves the other's place alone.
+    with ExitStack() as files:
+        if options.plot is not None:
+            picture_format = format_of(options.plot)
+            draw_figure(comparison, files.enter_context(replaced(options.plot)), picture_format)
+        if options.json not in (None, "-"):
+            text = json_text(comparison.as_json())
+            files.enter_context(replaced(options.json)).write(text.encode("utf-8"))
+    print(json_text(comparison.as_json()) if options.json == "-" else table(comparison))
     return 0

@@ -45,6 +45,8 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 
 def run(options: argparse.Namespace) -> int:
     """Convert one file, and say what resampling does to the speeds."""
+    if options.output.exists() and options.output.samefile(options.source):
+        raise InputError(f"{options.output}: it is the file that is read; name another by -o")
     record = read_record(options.source, columns=options.columns, robot=robot_of(options))
     if options.resample is not None:
         converted = resample(record, options.resample, options.method)

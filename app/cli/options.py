@@ -8,11 +8,11 @@ from rotemina.sim.robot.model import Robot
 COLUMNS_HELP = "name the columns of a file without a header, e.g. 't [s], x [mm], thx [urad]'"
 
 
-def add_robot(parser: argparse.ArgumentParser) -> None:
-    """Add ``--robot``."""
+def add_robot(parser: argparse.ArgumentParser, *, default: str = argparse.SUPPRESS) -> None:
+    """Add ``--robot``; a subcommand leaves what stands before it unless it is given again."""
     parser.add_argument(
         "--robot",
-        default="rotemina",
+        default=default,
         metavar="NAME_OR_FILE",
         help=f"a robot file, or a shipped robot: {', '.join(shipped_robots())} (default: rotemina)",
     )

@@ -46,8 +46,8 @@ def run(options: argparse.Namespace) -> int:
     if options.dry_run:
         print(f"{options.trajectory}: {checked.duration_s:.6g} s, {checked.rows} rows, in limits")
         return 0
+    output = options.output or _free_name(options.trajectory)
     record = play_offline(robot, checked.require(), seed=options.seed, progress=_progress())
-    output = options.output or Path(f"{_stem(options.trajectory)}-record.csv")
     write_record(record, output)
     print(f"{output}: {len(record.time_s)} rows, {record.duration_s:.6g} s")
     return 0
@@ -58,8 +58,13 @@ def _more(checked: DryRun) -> str:
     return f" (and {others} more)" if others else ""
 
 
-def _stem(path: Path) -> str:
-    return path.name.removesuffix(".gz").rsplit(".", 1)[0]
+def _free_name(trajectory: Path) -> Path:
+    """Name the record after the trajectory; what is there already is not overwritten unasked."""
+    stem = trajectory.name.removesuffix(".gz").rsplit(".", 1)[0]
+    output = Path(f"{stem}-record.csv")
+    if output.exists():
+        raise InputError(f"{output}: it exists already; name the record by -o")
+    return output
 
 
 def _progress() -> Callable[[float], None] | None:

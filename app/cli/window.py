@@ -8,7 +8,7 @@ from rotemina.app.cli.options import add_robot
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the window to the top level."""
-    add_robot(parser)
+    add_robot(parser, default="rotemina")
     parser.add_argument(
         "--driver", default="simulator", metavar="NAME", help="what to drive (default: simulator)"
     )

@@ -1,7 +1,9 @@
 """The dialog that names the columns of a file without a header; its answer is remembered."""
 
+from collections.abc import Callable
 from pathlib import Path
 
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
@@ -24,26 +26,42 @@ from rotemina.sim.units import units_of
 TIMES = ("t [s]", "t [ms]", "t [us]")
 
 
-def columns_for(path: Path, workbench: Workbench, parent: QWidget) -> tuple[bool, str | None]:
-    """Return whether to go on, and the column names if the file has no header of its own.
+def ask_columns(
+    path: Path, workbench: Workbench, parent: QWidget, use: Callable[[Path, str | None], None]
+) -> None:
+    """Call ``use`` with a file and, if it has no header of its own, the names of its columns.
 
-    The names last given to a file of the same shape are offered again.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read.
+    The file's beginning is read in the background. The names last given to a file of the same
+    shape are offered again. Nothing happens if the dialog is cancelled; a file that cannot be
+    read becomes a notice.
     """
-    seen = preview(path)
-    if seen.has_header:
-        return True, None
-    key = f"columns.{seen.fingerprint}"
-    dialog = ColumnMappingDialog(path, seen, workbench.robot, parent)
+
+    def seen(look: Preview) -> None:
+        if look.has_header:
+            use(path, None)
+        else:
+            _open_dialog(path, look, workbench, parent, use)
+
+    workbench.work("preview", f"Looking at {path.name} …", lambda: preview(path), seen)
+
+
+def _open_dialog(
+    path: Path,
+    look: Preview,
+    workbench: Workbench,
+    parent: QWidget,
+    use: Callable[[Path, str | None], None],
+) -> None:
+    key = f"columns.{look.fingerprint}"
+    dialog = ColumnMappingDialog(path, look, workbench.robot, parent)
     dialog.set_columns(workbench.settings.get(key, ""))
-    if dialog.exec() != QDialog.DialogCode.Accepted:
-        return False, None
-    workbench.settings.set(key, dialog.columns)
-    return True, dialog.columns
+
+    def accept() -> None:
+        workbench.settings.set(key, dialog.columns)
+        use(path, dialog.columns)
+
+    dialog.accepted.connect(accept)
+    dialog.show()
 
 
 class ColumnMappingDialog(QDialog):
@@ -52,6 +70,7 @@ class ColumnMappingDialog(QDialog):
     def __init__(self, path: Path, seen: Preview, robot: Robot, parent: QWidget) -> None:
         super().__init__(parent)
         self.setWindowTitle(f"Columns of {path.name}")
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._robot = robot
         self._choices = [_choice(robot) for _ in range(seen.column_count)]
         self._choices[0].setCurrentText("t [s]")

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from PySide6.QtCore import QByteArray, QEvent, QObject, Qt
-from PySide6.QtGui import QAction, QCloseEvent, QKeyEvent, QKeySequence
+from PySide6.QtGui import QAction, QCloseEvent, QKeyEvent, QKeySequence, QMouseEvent
 from PySide6.QtWidgets import (
     QApplication,
     QDockWidget,
@@ -26,13 +26,12 @@ from PySide6.QtWidgets import (
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell import theme as themes
-from rotemina.app.shell.column_mapping import columns_for
+from rotemina.app.shell.column_mapping import ask_columns
 from rotemina.app.shell.host import make_panels
 from rotemina.app.shell.notices import NoticeBar
 from rotemina.app.shell.status import StatusText
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.drivers.samples import DeviceState
-from rotemina.sim.errors import InputError
 
 LAYOUT_VERSION = 1
 FILES = "Records and trajectories (*.csv *.txt *.dat *.gz);;All files (*)"
@@ -51,21 +50,30 @@ def _decoded(text: str) -> QByteArray:
         return QByteArray()
 
 
-class EscapeKey(QObject):
-    """Stops all motion on Esc, whatever has the focus: a dialog that is open as well.
+class StopWatch(QObject):
+    """Stops all motion on Esc and on the stop button, whatever else is open.
 
-    The key goes on to where it was typed, so that a dialog closes too.
+    The event goes on to where it was meant for, so that Esc closes a dialog too.
     """
 
-    def __init__(self, stop: Callable[[], None]) -> None:
+    def __init__(self, stop: Callable[[], None], button: QPushButton) -> None:
         super().__init__()
         self._stop = stop
+        self._button = button
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
         """Stop, and let the event pass."""
         if isinstance(event, QKeyEvent) and event.type() == QEvent.Type.KeyPress:
             self._press(event)
+        elif isinstance(event, QMouseEvent) and event.type() == QEvent.Type.MouseButtonPress:
+            self._click(event)
         return False
+
+    def _click(self, event: QMouseEvent) -> None:
+        """Stop where the button was pressed although a menu that is open takes the click."""
+        place = self._button.mapFromGlobal(event.globalPosition().toPoint())
+        if self._button.isVisible() and self._button.rect().contains(place):
+            self._stop()
 
     def _press(self, event: QKeyEvent) -> None:
         if event.key() == Qt.Key.Key_Escape:
@@ -100,8 +108,8 @@ class MainWindow(QMainWindow):
         self._restore()
         application = QApplication.instance()
         assert application is not None
-        self._escape = EscapeKey(workbench.stop)
-        application.installEventFilter(self._escape)
+        self._stop_watch = StopWatch(workbench.stop, self.stop_button)
+        application.installEventFilter(self._stop_watch)
         workbench.noticed.connect(self.notices.show_notice)
         workbench.refreshed.connect(self._refresh)
         workbench.run_changed.connect(self._show_comparison)
@@ -127,6 +135,7 @@ class MainWindow(QMainWindow):
         self.stop_button.pressed.connect(self.workbench.stop)
         self._title = QLabel(self.workbench.robot.name)
         self._title.setProperty("heading", True)
+        self._title.setTextFormat(Qt.TextFormat.PlainText)
         self._activity = QLabel()
         space = QWidget()
         space.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
@@ -228,33 +237,36 @@ class MainWindow(QMainWindow):
         self._ask_and("Open record", self.workbench.open_record)
 
     def _ask_and(self, title: str, use: Callable[[Path, str | None], None]) -> None:
-        folder = self.workbench.settings.get("files.folder", "")
-        name, _ = QFileDialog.getOpenFileName(self, title, folder, FILES)
-        if name:
-            self.workbench.settings.set("files.folder", str(Path(name).parent))
-            self.use_file(Path(name), use)
+        dialog = self._file_dialog(title, FILES)
+        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
+        dialog.fileSelected.connect(lambda name: self.use_file(Path(name), use))
+        dialog.show()
 
     def use_file(self, path: Path, use: Callable[[Path, str | None], None]) -> None:
         """Hand a file on, with its columns named first where it has no header."""
-        try:
-            accepted, columns = columns_for(path, self.workbench, self)
-        except InputError as error:
-            self.workbench.notify(Level.ERROR, str(error))
-            return
-        if accepted:
-            use(path, columns)
+        ask_columns(path, self.workbench, self, use)
 
     def ask_save(self) -> None:
         """Ask where to, and save the record in hand."""
         if self.workbench.record is None:
             self.workbench.notify(Level.WARNING, "There is no record to save: play or open one.")
             return
-        folder = Path(self.workbench.settings.get("files.folder", ""))
-        name, _ = QFileDialog.getSaveFileName(
-            self, "Save record", str(folder / "record.csv"), "Records (*.csv *.csv.gz)"
+        dialog = self._file_dialog("Save record", "Records (*.csv *.csv.gz)")
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.selectFile("record.csv")
+        dialog.fileSelected.connect(lambda name: self.workbench.save_record(Path(name)))
+        dialog.show()
+
+    def _file_dialog(self, title: str, filters: str) -> QFileDialog:
+        """Return a dialog beside which the window, and its stop button, can still be used."""
+        settings = self.workbench.settings
+        dialog = QFileDialog(self, title, settings.get("files.folder", ""), filters)
+        dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.fileSelected.connect(
+            lambda name: settings.set("files.folder", str(Path(name).parent))
         )
-        if name:
-            self.workbench.save_record(Path(name))
+        return dialog
 
     # --- layout and theme -------------------------------------------------------------------------
 
@@ -308,7 +320,12 @@ class MainWindow(QMainWindow):
         return playing or self.workbench.unsaved is not None
 
     def _may_discard(self) -> bool:
+        button = QMessageBox.StandardButton
         answer = QMessageBox.question(
-            self, "Quit", "The last played record is not saved. Quit without saving it?"
+            self,
+            "Quit",
+            "The last played record is not kept in any file yet. Quit and lose it?",
+            button.Yes | button.No,
+            button.No,
         )
-        return answer == QMessageBox.StandardButton.Yes
+        return answer == button.Yes

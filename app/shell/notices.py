@@ -1,5 +1,7 @@
 """Notices: what the operator must know, at the top of the window until it is read."""
 
+from html import escape
+
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QFrame,
@@ -13,6 +15,7 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.shell.workbench import Level
 
+MOST_HEIGHT = 62
 MOST = 3  # older notices give way; the log keeps them all
 
 
@@ -26,6 +29,8 @@ class Notice(QFrame):
         self.setObjectName("notice")
         self.setProperty("level", str(level))
         self.text = text
+        self.setMaximumHeight(MOST_HEIGHT)  # a long message must not push the panels away
+        self.setToolTip(escape(text))
         message = QLabel(text)
         message.setWordWrap(True)
         message.setTextFormat(Qt.TextFormat.PlainText)  # file names and values are not markup

@@ -1,11 +1,11 @@
 """The window's main job without a display: play, compare, and leave picture and report."""
 
-import json
+import signal
 from pathlib import Path
 
 from PySide6.QtCore import QEventLoop, QTimer
 
-from rotemina.app.files import write_text
+from rotemina.app.files import json_text, write_text
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import SessionState
 from rotemina.app.settings import Settings
@@ -21,6 +21,7 @@ from rotemina.sim.trajectory.example import example_for
 
 TIME_LIMIT_MS = 120_000
 SIZE = (1280, 800)
+_INTERRUPTED = "interrupted"
 
 
 class OffscreenError(InputError):
@@ -40,7 +41,7 @@ def run(session: MotionSession, output: Path) -> int:
     except OSError as error:
         raise OffscreenError(f"{output}: the folder cannot be made: {error.strerror}") from error
     settings = Settings(output / "settings.json")
-    window = make_window(session, settings)
+    window = make_window(session, settings, output / "played")
     try:
         window.resize(*SIZE)
         window.show()
@@ -81,6 +82,7 @@ def play(window: MainWindow, trajectory: Record) -> Run:
             bench.play()
 
     bench.plan_trajectory(trajectory.metadata.get("name", "example"), trajectory)
+    before = signal.signal(signal.SIGINT, lambda *_: finish(_INTERRUPTED))
     bench.noticed.connect(noticed)
     bench.run_changed.connect(finish)
     bench.refreshed.connect(begin)
@@ -88,6 +90,9 @@ def play(window: MainWindow, trajectory: Record) -> Run:
     loop.exec()
     bench.noticed.disconnect(noticed)
     bench.run_changed.disconnect(finish)
+    signal.signal(signal.SIGINT, before)
+    if outcome[0] == _INTERRUPTED:
+        raise KeyboardInterrupt
     if isinstance(outcome[0], str):
         raise OffscreenError(outcome[0])
     QTimer.singleShot(200, loop.quit)  # the panels draw what they have just been given
@@ -99,7 +104,7 @@ def _report(run: Run, output: Path) -> None:
     comparison = run.comparison
     write_record(run.record, output / "record.csv")
     save_figure(comparison, output / "comparison.svg")
-    write_text(output / "comparison.json", json.dumps(comparison.as_json(), indent=1) + "\n")
+    write_text(output / "comparison.json", json_text(comparison.as_json()))
     text = f"{run.name}: {run.record.duration_s:.3f} s, {len(run.record.time_s)} samples\n\n"
     write_text(output / "report.txt", text + table(comparison) + "\n")
     print(table(comparison))

@@ -29,7 +29,7 @@ def main(folder: Path) -> int:
     count = 0
     with tempfile.TemporaryDirectory() as kept:
         settings = Settings(Path(kept) / "settings.json")
-        window = make_window(MotionSession(Simulator(robot)), settings)
+        window = make_window(MotionSession(Simulator(robot)), settings, Path(kept))
         window.show()
         window.workbench.start()
         play(window, example_for(robot))

@@ -2,8 +2,10 @@
 
 import signal
 from importlib import resources
+from pathlib import Path
 
 import pyqtgraph as pg
+from platformdirs import user_data_path
 from PySide6.QtCore import QTimer
 from PySide6.QtGui import QIcon, QImage, QPixmap
 from PySide6.QtWidgets import QApplication
@@ -28,12 +30,18 @@ def make_application() -> QApplication:
     return application
 
 
-def make_window(session: MotionSession, settings: Settings) -> MainWindow:
-    """Make the window with its workbench, in the theme last used; it is not shown yet."""
+def make_window(
+    session: MotionSession, settings: Settings, played_folder: Path | None = None
+) -> MainWindow:
+    """Make the window with its workbench, in the theme last used; it is not shown yet.
+
+    Played records are kept in ``played_folder``, by default among the user's own data.
+    """
+    folder = played_folder or user_data_path("rotemina", appauthor=False) / "played"
     application = make_application()
     theme = themes.theme_named(settings.get("window.theme", DEFAULT_THEME))
     themes.apply(application, theme)
-    return MainWindow(Workbench(session, settings, theme))
+    return MainWindow(Workbench(session, settings, theme, folder))
 
 
 def run(session: MotionSession, settings: Settings) -> int:

@@ -3,6 +3,7 @@
 import logging
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from datetime import datetime
 from enum import StrEnum
 from pathlib import Path
 from typing import TypeVar
@@ -20,6 +21,7 @@ from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.trajectory.dry_run import DryRun, dry_run
+from rotemina.sim.whole_files import FileWriteError
 
 logger = logging.getLogger(__name__)
 Answer = TypeVar("Answer")
@@ -63,7 +65,8 @@ class Workbench(QObject):
     """The window's state and its requests; every panel holds the same one.
 
     ``plan`` is the trajectory in hand, ``run`` the last comparison, ``record`` what would be
-    saved, and ``unsaved`` a played record that no file holds yet.
+    saved, and ``unsaved`` a played record that no file holds yet: each is written into
+    ``played_folder`` by itself as soon as it ends.
 
     Signals
     -------
@@ -83,8 +86,11 @@ class Workbench(QObject):
     theme_changed = Signal(object)
     _happened = Signal(object)
 
-    def __init__(self, session: MotionSession, settings: Settings, theme: Theme) -> None:
+    def __init__(
+        self, session: MotionSession, settings: Settings, theme: Theme, played_folder: Path
+    ) -> None:
         super().__init__()
+        self.played_folder = played_folder
         self.session = session
         self.robot = session.robot
         self.settings = settings
@@ -110,6 +116,11 @@ class Workbench(QObject):
         self._unsubscribe()
         self.session.close()
         self._background.wait()
+
+    @property
+    def busy(self) -> bool:
+        """Whether work in the background has yet to end."""
+        return self._background.busy
 
     def notify(self, level: Level, text: str) -> None:
         """Tell the operator something."""
@@ -156,11 +167,11 @@ class Workbench(QObject):
             trajectory = read_record(path, columns=columns, robot=self.robot)
             return self._tried(path.name, trajectory)
 
-        self._work("plan", f"Reading {path.name} …", work, self._set_plan)
+        self.work("plan", f"Reading {path.name} …", work, self._set_plan)
 
     def plan_trajectory(self, name: str, trajectory: Record) -> None:
         """Try a trajectory on the model and take it in hand."""
-        self._work("plan", "Dry run …", lambda: self._tried(name, trajectory), self._set_plan)
+        self.work("plan", "Dry run …", lambda: self._tried(name, trajectory), self._set_plan)
 
     def open_record(self, path: Path, columns: str | None = None) -> None:
         """Read a record as "real" and compare it with the model."""
@@ -169,7 +180,7 @@ class Workbench(QObject):
             record = read_record(path, columns=columns, robot=self.robot)
             return Run(path.name, compare(self.robot, record))
 
-        self._work("run", f"Reading {path.name} …", work, self._set_run)
+        self.work("run", f"Reading {path.name} …", work, self._set_run)
 
     def save_record(self, path: Path) -> None:
         """Write the record in hand to a file; it counts as unsaved until that is done."""
@@ -183,7 +194,7 @@ class Workbench(QObject):
                 self.unsaved = None
             self.notify(Level.GOOD, f"Saved {path}")
 
-        self._work("save", f"Writing {path.name} …", lambda: write_record(record, path), done)
+        self.work("save", f"Writing {path.name} …", lambda: write_record(record, path), done)
 
     # --- inside -----------------------------------------------------------------------------------
 
@@ -193,13 +204,19 @@ class Workbench(QObject):
         except (InputError, OSError, ValueError, RuntimeError) as error:
             self.notify(Level.ERROR, str(error))
 
-    def _work(
+    def work(
         self,
         kind: str,
         doing: str,
         work: Callable[[], Answer],
         done: Callable[[Answer], None],
     ) -> None:
+        """Do something in the background and hand its answer on; a failure becomes a notice.
+
+        ``kind`` tells requests apart: of one kind only the latest answer counts. ``doing`` is
+        shown meanwhile.
+        """
+
         def finished(answer: Answer) -> None:
             self.busy_changed.emit("")
             done(answer)
@@ -232,16 +249,36 @@ class Workbench(QObject):
         elif isinstance(event, PlaybackFinished):
             self._compare_played(event.record, event.completed)
 
+    def _keep(self, record: Record, name: str) -> None:
+        """Write a played record into the folder of played records."""
+        stamp = datetime.now().strftime("%Y-%m-%d_%H-%M-%S-%f")
+        stem = "".join(c if c.isalnum() or c in "-_" else "_" for c in Path(name).stem)[:40]
+        path = self.played_folder / f"{stamp}_{stem}.csv.gz"
+
+        def write() -> None:
+            try:
+                path.parent.mkdir(parents=True, exist_ok=True)
+            except OSError as error:
+                raise FileWriteError(f"{path.parent}: cannot be made: {error.strerror}") from error
+            write_record(record, path)
+
+        def done(_: None) -> None:
+            if self.unsaved is record:
+                self.unsaved = None
+
+        self.work(f"keep {path.name}", f"Keeping {path.name} …", write, done)
+
     def _compare_played(self, record: Record | None, completed: bool) -> None:
         name = self.plan.name if self.plan else "playback"
         if record is None:
             self.notify(Level.WARNING, f"{name}: stopped before its first row was played.")
             return
-        # Kept from here on: a comparison that fails or is overtaken must not lose it.
+        # Kept before anything else: no comparison that fails, nor the next run, may lose it.
         self.record = self.unsaved = record
+        self._keep(record, name)
         if not completed:
             self.notify(Level.WARNING, f"{name}: stopped after {record.duration_s:.2f} s.")
-        self._work(
+        self.work(
             "played run",
             "Comparing model and real …",
             lambda: Run(name, compare(self.robot, record), completed),

@@ -1,5 +1,6 @@
 """Model and real of a whole run: figures of every tap, and the traces of the chosen one."""
 
+from collections.abc import Sequence
 from html import escape
 
 from PySide6.QtCore import Qt
@@ -47,6 +48,7 @@ class ComparisonPanel(Panel):
         self.save.setEnabled(False)
         self.summary = QLabel(EMPTY)
         self.summary.setWordWrap(True)
+        self.summary.setTextFormat(Qt.TextFormat.PlainText)
         self.table = _table()
         self.table.itemSelectionChanged.connect(self._draw)
         self.signals, self.gap = SignalPlot(workbench.theme), SignalPlot(workbench.theme)
@@ -90,7 +92,7 @@ class ComparisonPanel(Panel):
                 if column:
                     item.setTextAlignment(RIGHT)
                 self.table.setItem(row, column, item)
-        self.table.selectRow(0)
+        self.table.selectRow(_worst(run.comparison.taps))
         self._draw()
 
     def _draw(self) -> None:
@@ -122,6 +124,12 @@ class ComparisonPanel(Panel):
         self.signals.set_theme(theme)
         self.gap.set_theme(theme)
         self._draw()
+
+
+def _worst(taps: Sequence[TapComparison]) -> int:
+    """Return the tap whose gap is the largest share of its range: the one to look at first."""
+    shares = [tap.share_of_range or 0.0 for tap in taps]
+    return shares.index(max(shares))
 
 
 def _titled(title: QLabel, plot: SignalPlot) -> QWidget:

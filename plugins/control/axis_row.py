@@ -1,5 +1,8 @@
 """One axis of the control menu: readout, place in the range, jog, go-to."""
 
+import re
+from html import escape
+
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import (
@@ -20,6 +23,10 @@ from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.control.step_choice import StepChoice
 from rotemina.sim.units import from_unit
+
+# What float() takes beside this (1_0, digits of other scripts, a comma in some locales) is likelier
+# a slip than a position.
+PLAIN_NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 
 
 class RangeBar(QWidget):
@@ -69,6 +76,7 @@ class AxisRow(QFrame):
         self._scale: Scale = axis_scale(workbench.robot.axes[axis])
         self._bar = RangeBar(workbench, axis)
         self._readout = QLabel("–")
+        self._readout.setTextFormat(Qt.TextFormat.PlainText)
         self._readout.setProperty("readout", True)
         self._readout.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self._readout.setAccessibleName(f"{label(axis)} position")
@@ -79,7 +87,7 @@ class AxisRow(QFrame):
         self.minus, self.plus = self._jog_button("−", -1), self._jog_button("+", +1)
         self.target = self._target_field()
         self.go = QPushButton("Go")
-        self.go.setToolTip(f"Move {label(axis)} to the typed position")
+        self.go.setToolTip(f"Move {escape(label(axis))} to the typed position")
         self.go.clicked.connect(self._go)
         self._lay_out()
 
@@ -103,6 +111,7 @@ class AxisRow(QFrame):
 
     def _lay_out(self) -> None:
         name = QLabel(label(self._axis))
+        name.setTextFormat(Qt.TextFormat.PlainText)  # a name from a file is no markup
         name.setProperty("heading", True)
         name.setMinimumWidth(52)
         low, high = self._workbench.robot.axes[self._axis].range
@@ -128,7 +137,9 @@ class AxisRow(QFrame):
         button = QPushButton(text)
         button.setProperty("jog", True)
         button.setFixedWidth(38)
-        button.setToolTip(f"Move {label(self._axis)} one step {'up' if sign > 0 else 'down'}")
+        button.setToolTip(
+            f"Move {escape(label(self._axis))} one step {'up' if sign > 0 else 'down'}"
+        )
         button.setAccessibleName(f"{label(self._axis)} {text}")
         button.clicked.connect(
             lambda: self._workbench.jog(self._axis, sign * self._steps.step(self._axis))
@@ -144,16 +155,15 @@ class AxisRow(QFrame):
 
     def _go(self) -> None:
         text = self.target.text().strip()
-        try:
-            value = float(text)  # in any locale a comma is no decimal point, nor to be skipped
-        except ValueError:
+        if PLAIN_NUMBER.fullmatch(text) is None:
             self._workbench.notify(
                 Level.WARNING,
                 f"{label(self._axis)}: {text!r} is no position; type a number in "
                 f"{self._scale.symbol} with a decimal point.",
             )
             return
-        self._workbench.go_to({self._axis: float(from_unit(value, self._scale.unit))})
+        target = float(from_unit(float(text), self._scale.unit))
+        self._workbench.go_to({self._axis: target})
 
 
 def _set_property(widget: QWidget, name: str, value: bool) -> None:

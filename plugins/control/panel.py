@@ -46,6 +46,7 @@ class ControlPanel(Panel):
     def _add_stage(self, column: QVBoxLayout, stage: str, axes: tuple[str, ...]) -> None:
         heading = QLabel(f"{stage.capitalize()} stage" if stage != "axes" else "Axes")
         heading.setProperty("heading", True)
+        heading.setTextFormat(Qt.TextFormat.PlainText)
         column.addWidget(heading)
         steps = StepChoice(self.workbench.robot, axes)
         column.addWidget(steps)

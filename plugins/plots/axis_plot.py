@@ -3,6 +3,7 @@
 from enum import StrEnum
 
 import numpy as np
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from rotemina.app.display import axis_scale, label
@@ -34,6 +35,7 @@ class AxisPlot(QWidget):
         self._floor = floor or axis.span * 1e-6
         self._title = QLabel(label(name))
         self._title.setProperty("heading", True)
+        self._title.setTextFormat(Qt.TextFormat.PlainText)
         self._unit = QLabel()
         self._unit.setProperty("quiet", True)
         self._gap = QLabel()

@@ -1,8 +1,8 @@
 """Trajectories: load one, see what it asks of each axis, play it."""
 
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QDialog,
     QHBoxLayout,
     QHeaderView,
     QLabel,
@@ -48,6 +48,8 @@ class TrajectoryPanel(Panel):
         self.name.setProperty("heading", True)
         self.verdict = QLabel(EMPTY)
         self.verdict.setWordWrap(True)
+        self.name.setTextFormat(Qt.TextFormat.PlainText)
+        self.verdict.setTextFormat(Qt.TextFormat.PlainText)
         self.table = _table()
         self._lay_out()
         workbench.plan_changed.connect(self._show_plan)
@@ -74,7 +76,10 @@ class TrajectoryPanel(Panel):
         self.name.show()
         self.resample.setEnabled(True)
         if run.allowed:
-            self.verdict.setText("Dry run: inside all limits of range, speed and acceleration.")
+            self.verdict.setText(
+                "Dry run: inside all limits of range, speed and acceleration. "
+                "Play first moves the axes to the first row, within the same limits."
+            )
         else:
             more = f" (and {len(run.objections) - 1} more)" if len(run.objections) > 1 else ""
             self.verdict.setText(f"Not playable: {run.objections[0]}{more}")
@@ -87,8 +92,13 @@ class TrajectoryPanel(Panel):
         if plan is None:
             return
         dialog = ResamplingDialog(plan.trajectory, self)
-        if dialog.exec() == QDialog.DialogCode.Accepted and dialog.resampled is not None:
-            self.workbench.plan_trajectory(f"{plan.name}, resampled", dialog.resampled)
+
+        def use() -> None:
+            if dialog.resampled is not None:
+                self.workbench.plan_trajectory(f"{plan.name}, resampled", dialog.resampled)
+
+        dialog.accepted.connect(use)
+        dialog.show()
 
     def _fill(self, plan: Plan) -> None:
         figures = plan.dry_run.axes

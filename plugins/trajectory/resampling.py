@@ -1,6 +1,6 @@
 """The dialog that resamples a trajectory, with the speeds that this induces."""
 
-from PySide6.QtCore import QTimer
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
@@ -30,6 +30,7 @@ class ResamplingDialog(QDialog):
     def __init__(self, trajectory: Record, parent: QWidget) -> None:
         super().__init__(parent)
         self.setWindowTitle("Resample the trajectory")
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._trajectory = trajectory
         self.resampled: Record | None = None
         self.rate = QLineEdit("1000")

@@ -1,6 +1,7 @@
 """A picture of a comparison: model and real on the left, what is left between them on the right."""
 
 from pathlib import Path
+from typing import BinaryIO
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
@@ -12,6 +13,7 @@ from rotemina.sim.decimation import envelope
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Tap
 from rotemina.sim.units import drawing_unit, symbol, to_unit
+from rotemina.sim.whole_files import replaced
 
 FORMATS = (".svg", ".png", ".pdf")
 MODEL_COLOUR, REAL_COLOUR, GAP_COLOUR = "#2f6fb5", "#d1642c", "#5b5b66"
@@ -20,15 +22,32 @@ _ROW_INCHES = 2.1
 
 
 def save_figure(comparison: Comparison, path: Path) -> None:
-    """Write the picture; its format follows from the name's ending (.svg, .png or .pdf).
+    """Write the picture, whole or not at all; the name's ending tells its format.
 
     Raises
     ------
     InputError
-        If the ending is another one or the file cannot be written.
+        If the ending is none of :data:`FORMATS` or the file cannot be written.
+    """
+    with replaced(path) as file:
+        draw_figure(comparison, file, format_of(path))
+
+
+def format_of(path: Path) -> str:
+    """Return the format that a picture's name asks for: its ending without the dot.
+
+    Raises
+    ------
+    InputError
+        If it is none of :data:`FORMATS`.
     """
     if path.suffix.lower() not in FORMATS:
         raise InputError(f"{path}: a picture's name ends in {', '.join(FORMATS)}")
+    return path.suffix.lower()[1:]
+
+
+def draw_figure(comparison: Comparison, file: BinaryIO, picture_format: str) -> None:
+    """Draw the picture into an open file, as ``svg``, ``png`` or ``pdf``."""
     rows = len(comparison.taps)
     figure = Figure(figsize=(11.0, 0.9 + _ROW_INCHES * rows), layout="constrained")
     grid = figure.subplots(rows, 2, sharex=True, squeeze=False)
@@ -38,15 +57,13 @@ def save_figure(comparison: Comparison, path: Path) -> None:
     grid[-1][1].set_xlabel("time [s]")
     handles, labels = grid[0][0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper right", ncols=2, frameon=False)
-    try:
-        # A fixed salt and no date: the same comparison gives the same file.
-        with mpl.rc_context({"svg.hashsalt": "rotemina", "svg.fonttype": "none"}):
-            figure.savefig(path, dpi=120, metadata=_NO_DATE.get(path.suffix.lower()))
-    except OSError as error:
-        raise InputError(f"{path}: the picture cannot be written: {error.strerror}") from error
+    # A fixed salt and no date: the same comparison gives the same file.
+    with mpl.rc_context({"svg.hashsalt": "rotemina", "svg.fonttype": "none"}):
+        no_date = _NO_DATE.get(picture_format)
+        figure.savefig(file, format=picture_format, dpi=120, metadata=no_date)
 
 
-_NO_DATE = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
+_NO_DATE = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
 
 
 def _draw_row(signals: Axes, gap: Axes, comparison: Comparison, tap: TapComparison) -> None:

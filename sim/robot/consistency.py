@@ -5,6 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from rotemina.sim.records.layout import check_axis_name
+from rotemina.sim.records.record import RecordError
 from rotemina.sim.robot.matrices import inertia_matrices
 from rotemina.sim.robot.model import (
     VOLTAGE_SLACK,
@@ -18,7 +20,6 @@ from rotemina.sim.robot.model import (
 # A range may exceed what the voltage reaches by this share of it: drives saturate there, but a
 # larger difference is a slip of the unit or of the decimal point.
 REACH_SLACK = 0.05
-FORBIDDEN_IN_NAMES = set(".,;[]\"'\\") | set(" \t\n\r")
 
 
 class Problem(NamedTuple):
@@ -40,8 +41,10 @@ def find_problem(robot: Robot) -> Problem | None:
         for check in _AXIS_CHECKS:
             for key, value, bound in check(axis):
                 return Problem(f"axis.{name}.{key}", value, bound)
-        if not name or FORBIDDEN_IN_NAMES & set(name):
-            return Problem("robot.axes", repr(name), "a name has no blank and none of . , ; [ ]")
+        try:
+            check_axis_name(name, "robot.axes")
+        except RecordError as error:
+            return Problem("robot.axes", repr(name[:40]), str(error).split("; ", 1)[-1])
     return next((p for check in _ROBOT_CHECKS for p in check(robot)), None)
 
 

@@ -21,7 +21,9 @@ Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0)]
 NotNegative = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0)]
 Count = Annotated[int, Field(strict=True, ge=1)]
 Switch = Annotated[bool, Field(strict=True)]
-Range = tuple[Number, Number]
+# Far beyond any machine, and far from where squares of numbers overflow.
+Bound = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=-1e6, le=1e6)]
+Range = tuple[Bound, Bound]
 
 VOLTAGE_SLACK = 1e-6  # relative slack of voltage limits
 

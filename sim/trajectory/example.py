@@ -12,7 +12,7 @@ from rotemina.sim.trajectory.dry_run import dry_run
 
 TOUR = "six_axis_tour.csv"
 RATE_HZ = 1000.0  # rows that a device follows one by one: it holds what is farther apart
-SHORTEST_S = 4.0
+SHORTEST_S, LONGEST_S = 4.0, 60.0
 _SWING = 0.2  # of the range, to each side of its middle
 _SHARE = 0.5  # of the speed and acceleration that are allowed
 
@@ -29,11 +29,14 @@ def example_for(robot: Robot) -> Record:
 
 def swing(robot: Robot) -> Record:
     """Return a smooth swing of all axes about the middle of their ranges, from rest to rest."""
-    duration = max(SHORTEST_S, *(_needed_s(axis) for axis in robot.axes.values()))
+    needed = {name: _needed_s(axis) for name, axis in robot.axes.items()}
+    duration = min(max(SHORTEST_S, *needed.values()), LONGEST_S)
+    # A very slow axis swings less rather than for hours: speeds go with the height of the swing.
+    height = {n: _SWING * min(1.0, (duration / max(s, 1e-9)) ** 2) for n, s in needed.items()}
     time_s = np.arange(int(np.ceil(duration * RATE_HZ)) + 1) / RATE_HZ
     shape = _shape(time_s / time_s[-1])
     signals = {
-        (name, Tap.CMD): sum(axis.range) / 2 + _SWING * axis.span * shape
+        (name, Tap.CMD): axis.range[0] + axis.span * (0.5 + height[name] * shape)
         for name, axis in robot.axes.items()
     }
     units = {name: axis.unit or "m" for name, axis in robot.axes.items()}

@@ -32,7 +32,8 @@ class FirstPaint(QObject):
 
 application = make_application()
 session = MotionSession(Simulator(load_robot("rotemina")))
-window = make_window(session, Settings(Path(tempfile.mkdtemp()) / "settings.json"))
+folder = Path(tempfile.mkdtemp())
+window = make_window(session, Settings(folder / "settings.json"), folder)
 watcher = FirstPaint()
 window.panels["plots"].plots["x"].plot.viewport().installEventFilter(watcher)
 window.show()
@@ -72,7 +73,7 @@ def test_six_scrolling_plots(tmp_path, capsys):
     application = make_application()
     robot = load_robot("rotemina")
     session = MotionSession(Simulator(robot))
-    window = make_window(session, Settings(tmp_path / "settings.json"))
+    window = make_window(session, Settings(tmp_path / "settings.json"), tmp_path)
     window.resize(1920, 1080)
     window.show()
     centres = np.array([sum(axis.range) / 2 for axis in robot.axes.values()])

@@ -68,6 +68,16 @@ def test_a_target_beyond_the_range_is_refused_with_the_bound(qtbot, window, pane
     assert window.workbench.session.snapshot().command["x"] == pytest.approx(0.0275)
 
 
+@pytest.mark.parametrize("text", ["1_0", "٢٥", "nan", "inf", "0x10", "2 8", "", "1e"])
+def test_only_plain_numbers_move_an_axis(qtbot, window, panel, text):
+    row = panel.rows["x"]
+    qtbot.waitUntil(row.go.isEnabled, timeout=LONG_MS)
+    row.target.setText(text)
+    qtbot.mouseClick(row.go, Qt.MouseButton.LeftButton)
+    assert "is no position" in window.notices.notices()[0].text
+    assert window.workbench.session.snapshot().command["x"] == pytest.approx(0.0275)
+
+
 def test_a_decimal_comma_is_never_a_thousands_separator(qtbot, window, panel):
     row = panel.rows["x"]
     qtbot.waitUntil(row.go.isEnabled, timeout=LONG_MS)

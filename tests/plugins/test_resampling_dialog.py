@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from PySide6.QtWidgets import QDialog, QDialogButtonBox
+from PySide6.QtWidgets import QDialogButtonBox
 
 from rotemina.plugins.trajectory.resampling import ResamplingDialog
 from rotemina.sim.records.record import Record, Tap
@@ -45,9 +45,9 @@ def test_the_accepted_trajectory_is_planned(qtbot, window, monkeypatch):
     def accept(dialog):
         dialog.method.setCurrentIndex(1)
         dialog._try()
-        return QDialog.DialogCode.Accepted
+        dialog.accept()
 
-    monkeypatch.setattr(ResamplingDialog, "exec", accept)
+    monkeypatch.setattr(ResamplingDialog, "show", accept)
     with qtbot.waitSignal(window.workbench.plan_changed, timeout=30_000):
         window.panels["trajectory"].resample.click()
     assert window.workbench.plan.name == "ramp, resampled"

@@ -2,7 +2,9 @@
 
 import gzip
 import json
+import os
 import re
+import stat
 import subprocess
 import sys
 from importlib import resources
@@ -199,6 +201,38 @@ def test_a_trajectory_that_would_swing_out_of_the_range_is_not_played(in_tmp, ca
     assert main(["play", "swing.csv", "--robot", "fsm"]) == 2
     assert "predicted motion" in capsys.readouterr().err
     assert not Path("swing-record.csv").exists()
+
+
+def test_the_robot_may_stand_before_the_subcommand(in_tmp, capsys):
+    Path("q.csv").write_text("t [s],q [m],q.u [V]\n0,0.1,0\n0.01,0.1,0\n", "utf-8")
+    assert main(["--robot", "emps", "convert", "q.csv", "-o", "out.csv"]) == 0
+    assert main(["convert", "q.csv", "-o", "out2.csv"]) == 2
+
+
+def test_nothing_is_overwritten_unasked(in_tmp, tour, capsys):
+    assert main(["play", str(tour), "-o", "run.csv"]) == 0
+    Path("six_axis_tour-record.csv").write_text("mine", "utf-8")
+    assert main(["play", str(tour)]) == 2
+    assert Path("six_axis_tour-record.csv").read_text("utf-8") == "mine"
+    before = Path("run.csv").read_bytes()
+    assert main(["convert", "run.csv", "-o", "./run.csv", "--units", "um"]) == 2
+    assert Path("run.csv").read_bytes() == before
+
+
+def test_figures_and_picture_are_written_together_or_not_at_all(in_tmp, capsys):
+    Path("r.csv").write_text(HEADER + ROWS, "utf-8")
+    Path("p.svg").write_text("old", "utf-8")
+    arguments = ["compare", "r.csv", "--plot", "p.svg", "--json", "no/such/out.json"]
+    assert main(arguments) == 2
+    assert Path("p.svg").read_text("utf-8") == "old"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="devices are no files there")
+def test_a_device_is_not_replaced_by_a_file(in_tmp, capsys):
+    os.mkfifo("pipe")
+    Path("r.csv").write_text(HEADER + ROWS, "utf-8")
+    assert main(["convert", "r.csv", "-o", "pipe"]) == 2
+    assert stat.S_ISFIFO(Path("pipe").stat().st_mode)
 
 
 def test_a_dry_run_writes_nothing(in_tmp, tour, capsys):

@@ -1,9 +1,9 @@
 """Naming the columns of a file without a header."""
 
 import pytest
-from PySide6.QtWidgets import QDialog, QDialogButtonBox
+from PySide6.QtWidgets import QDialogButtonBox
 
-from rotemina.app.shell.column_mapping import ColumnMappingDialog, columns_for
+from rotemina.app.shell.column_mapping import ColumnMappingDialog, ask_columns
 from rotemina.sim.records.preview import preview
 
 ROWS = "0;20,0;500\n0,01;20,1;501\n0,02;20,2;502\n"
@@ -19,17 +19,30 @@ def path(tmp_path):
 
 @pytest.fixture
 def answer(monkeypatch):
-    """Answer the dialog as a person would, without its event loop."""
+    """Answer the dialog as a person would, as soon as it is shown."""
 
-    def give(columns, code=QDialog.DialogCode.Accepted):
-        def run(dialog):
+    def give(columns, accept=True):
+        def show(dialog):
             if columns:
                 dialog.set_columns(columns)
-            return code
+            (dialog.accept if accept else dialog.reject)()
 
-        monkeypatch.setattr(ColumnMappingDialog, "exec", run)
+        monkeypatch.setattr(ColumnMappingDialog, "show", show)
 
     return give
+
+
+@pytest.fixture
+def asked(qtbot, window):
+    """Ask for a file's columns, and return what came of it."""
+
+    def ask(path):
+        used = []
+        ask_columns(path, window.workbench, window, lambda *given: used.append(given))
+        qtbot.waitUntil(lambda: not window.workbench.busy, timeout=30_000)
+        return used
+
+    return ask
 
 
 def test_the_first_rows_are_shown_and_wrong_names_are_refused(qtbot, window, path):
@@ -45,13 +58,13 @@ def test_the_first_rows_are_shown_and_wrong_names_are_refused(qtbot, window, pat
         assert dialog._complaint.text()
 
 
-def test_the_names_are_remembered_for_files_of_the_same_shape(qtbot, window, path, answer):
+def test_the_names_are_remembered_for_files_of_the_same_shape(path, answer, asked):
     answer(NAMED)
-    assert columns_for(path, window.workbench, window) == (True, NAMED)
+    assert asked(path) == [(path, NAMED)]
     other = path.with_name("others.txt")
     other.write_text(ROWS.replace("20", "21"), "utf-8")
     answer(None)
-    assert columns_for(other, window.workbench, window) == (True, NAMED)
+    assert asked(other) == [(other, NAMED)]
 
 
 def test_the_named_file_is_loaded(qtbot, window, path, answer):
@@ -61,14 +74,21 @@ def test_the_named_file_is_loaded(qtbot, window, path, answer):
     assert window.workbench.plan.trajectory.axes == ("x", "thx")
 
 
-def test_cancelling_changes_nothing(window, path, answer):
-    answer(None, QDialog.DialogCode.Rejected)
-    assert columns_for(path, window.workbench, window) == (False, None)
-    window.use_file(path, window.workbench.load_trajectory)
+def test_cancelling_changes_nothing(window, path, answer, asked):
+    answer(NAMED, accept=False)
+    assert asked(path) == []
     assert window.workbench.plan is None
 
 
-def test_a_file_with_a_header_needs_no_dialog(window, tmp_path):
+def test_a_file_with_a_header_needs_no_dialog(tmp_path, asked):
     path = tmp_path / "named.csv"
     path.write_text("t [s],x [mm]\n0,20\n", "utf-8")
-    assert columns_for(path, window.workbench, window) == (True, None)
+    assert asked(path) == [(path, None)]
+
+
+def test_the_window_can_be_used_beside_the_dialog(qtbot, window, path):
+    ask_columns(path, window.workbench, window, lambda *_: None)
+    qtbot.waitUntil(lambda: window.findChild(ColumnMappingDialog) is not None, timeout=30_000)
+    dialog = window.findChild(ColumnMappingDialog)
+    assert not dialog.isModal()
+    dialog.close()

@@ -147,10 +147,10 @@ def test_a_bad_file_is_one_notice_and_changes_nothing(qtbot, window, tmp_path, c
     assert window.workbench.run is None
 
 
-def test_a_folder_and_a_missing_file_are_notices(window, tmp_path):
+def test_a_folder_and_a_missing_file_are_notices(qtbot, window, tmp_path):
     for path in (tmp_path, tmp_path / "nothing.csv"):
         window.use_file(path, window.workbench.open_record)
-        assert str(path) in notices(window)[0]
+        qtbot.waitUntil(lambda path=path: any(str(path) in n for n in notices(window)))
 
 
 def test_a_record_is_opened_beside_the_model(qtbot, window, shared_dir):
@@ -170,48 +170,53 @@ def test_any_robot_gets_its_window(qtbot, make_robot_window):
         assert notices(window) == []
 
 
-def test_saving_asks_where_and_leaves_nothing_unsaved(qtbot, window, tmp_path, monkeypatch):
-    window.ask_save()
-    assert "no record to save" in notices(window)[0]
-    load(qtbot, window, short_trajectory(tmp_path / "move.csv"))
+def played(qtbot, window, path):
+    load(qtbot, window, short_trajectory(path))
     with qtbot.waitSignal(window.workbench.run_changed, timeout=LONG_MS):
         window.workbench.play()
+
+
+@pytest.fixture
+def question(monkeypatch):
+    """What the window asks, and what it is answered."""
+    asked, answers = [], [QMessageBox.StandardButton.No, QMessageBox.StandardButton.Yes]
+    monkeypatch.setattr(QMessageBox, "question", lambda *a: asked.append(a) or answers.pop(0))
+    return asked
+
+
+def test_saving_asks_where(qtbot, window, tmp_path, monkeypatch):
+    window.ask_save()
+    assert "no record to save" in notices(window)[0]
+    played(qtbot, window, tmp_path / "move.csv")
     target = tmp_path / "saved.csv"
-    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(target), ""))
+    monkeypatch.setattr(QFileDialog, "show", lambda dialog: dialog.fileSelected.emit(str(target)))
     window.ask_save()
     qtbot.waitUntil(target.exists, timeout=LONG_MS)
     np.testing.assert_array_equal(read_record(target).values, window.workbench.run.record.values)
-    asked = []
-    monkeypatch.setattr(QMessageBox, "question", lambda *_: asked.append(1))
-    qtbot.waitUntil(lambda: any("Saved" in text for text in notices(window)), timeout=LONG_MS)
+
+
+def test_every_playback_is_kept_in_a_file_by_itself(qtbot, window, tmp_path, question):
+    for count in (1, 2):
+        played(qtbot, window, tmp_path / "move.csv")
+        qtbot.waitUntil(lambda: window.workbench.unsaved is None, timeout=LONG_MS)
+        assert len(list(window.workbench.played_folder.glob("*_move.csv.gz"))) == count
+    newest = max(window.workbench.played_folder.iterdir())
+    np.testing.assert_array_equal(read_record(newest).values, window.workbench.record.values)
     assert window.close()
-    assert not asked
+    assert not question
 
 
-def test_an_unsaved_playback_is_not_lost_without_asking(qtbot, window, tmp_path, monkeypatch):
-    load(qtbot, window, short_trajectory(tmp_path / "move.csv"))
-    with qtbot.waitSignal(window.workbench.run_changed, timeout=LONG_MS):
-        window.workbench.play()
-    answers = [QMessageBox.StandardButton.No, QMessageBox.StandardButton.Yes]
-    monkeypatch.setattr(QMessageBox, "question", lambda *_: answers.pop(0))
+def test_a_playback_that_could_not_be_kept_is_not_lost_without_asking(
+    qtbot, window, tmp_path, question
+):
+    window.workbench.played_folder.write_text("no folder", "utf-8")
+    played(qtbot, window, tmp_path / "move.csv")
+    qtbot.waitUntil(lambda: any("cannot be made" in n for n in notices(window)), timeout=LONG_MS)
     assert not window.close()
     assert window.isVisible()
     assert window.close()
-
-
-def test_a_record_that_could_not_be_saved_is_still_unsaved(qtbot, window, tmp_path, monkeypatch):
-    load(qtbot, window, short_trajectory(tmp_path / "move.csv"))
-    with qtbot.waitSignal(window.workbench.run_changed, timeout=LONG_MS):
-        window.workbench.play()
-    window.workbench.save_record(tmp_path / "no" / "such" / "folder.csv")
-    qtbot.waitUntil(lambda: notices(window) != [], timeout=LONG_MS)
-    assert "cannot be written" in notices(window)[0]
-    asked = []
-    monkeypatch.setattr(
-        QMessageBox, "question", lambda *_: asked.append(1) or QMessageBox.StandardButton.Yes
-    )
-    assert window.close()
-    assert asked
+    assert len(question) == 2
+    assert question[0][-1] == QMessageBox.StandardButton.No  # what Enter chooses
 
 
 def test_quitting_during_a_playback_stops_first_and_then_asks(qtbot, window, tmp_path, monkeypatch):
@@ -228,23 +233,35 @@ def test_quitting_during_a_playback_stops_first_and_then_asks(qtbot, window, tmp
     monkeypatch.setattr(QMessageBox, "question", ask)
     assert not window.close()
     assert stopped_before_asking == [True]
-    qtbot.waitUntil(lambda: window.workbench.unsaved is not None, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: window.workbench.record is not None, timeout=LONG_MS)
 
 
-def test_a_record_whose_comparison_fails_can_still_be_saved(qtbot, window, tmp_path, monkeypatch):
+def test_a_record_whose_comparison_fails_is_kept_all_the_same(qtbot, window, tmp_path, monkeypatch):
     monkeypatch.setattr(
         "rotemina.app.shell.workbench.compare", lambda *_: (_ for _ in ()).throw(InputError("no"))
     )
     load(qtbot, window, short_trajectory(tmp_path / "move.csv"))
     window.workbench.play()
     qtbot.waitUntil(lambda: notices(window) == ["no"], timeout=LONG_MS)
-    window.workbench.save_record(tmp_path / "kept.csv")
-    qtbot.waitUntil((tmp_path / "kept.csv").exists, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: window.workbench.unsaved is None, timeout=LONG_MS)
+    assert list(window.workbench.played_folder.iterdir())
+
+
+def test_the_stop_button_works_under_an_open_menu(qtbot, window):
+    session = window.workbench.session
+    session.go_to({"x": 0.05})
+    qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.MOVING, timeout=LONG_MS)
+    menu = window.menuBar().actions()[0].menu()
+    menu.popup(window.mapToGlobal(window.rect().topLeft()))
+    place = window.stop_button.mapToGlobal(window.stop_button.rect().center())
+    qtbot.mousePress(menu, Qt.MouseButton.LeftButton, pos=menu.mapFromGlobal(place))
+    qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
+    assert session.snapshot().command["x"] < 0.049
+    menu.close()
 
 
 def test_every_command_of_the_menus_works(qtbot, window, monkeypatch):
-    monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: ("", ""))
-    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: ("", ""))
+    monkeypatch.setattr(QFileDialog, "show", lambda dialog: dialog.close())
     texts = {command.text for command in window.commands()}
     seen = set()
     for menu in window.menuBar().actions():

@@ -111,6 +111,8 @@ def test_any_number_and_names_of_axes():
         (MINIMAL, 'axes = ["a"]', 'axes = ["a", "b"]', r"robot\.axes = b: .*\[axis\.b\]"),
         (MINIMAL, 'axes = ["a"]', "axes = []", r"robot\.axes = .*at least one"),
         (MINIMAL, 'axes = ["a"]', 'axes = ["a", "a"]', r"robot\.axes .*once"),
+        (MINIMAL, "[0.0, 1.0]", "[-1e300, 1e300]", r"axis\.a\.range\[0\] = -1e\+300: .*-1000000"),
+        (MINIMAL, 'axes = ["a"]', 'axes = ["#a"]', r"."),
         (MINIMAL, 'name = "one"', "", r"robot\.name: missing"),
         (MINIMAL, 'name = "one"', "name = 3", r"robot\.name = 3: must be text"),
         (MINIMAL, "[robot]", "[robt]\nx = 1\n[robot]", r"robt = .*: unknown key; .*'robot'"),
@@ -136,6 +138,13 @@ def test_a_wrong_value_is_named_with_file_key_value_and_bound(text, old, new, me
     assert old in text
     with pytest.raises(RobotFileError, match=r"^lab\.toml: .*" + message):
         parse_robot(text.replace(old, new, 1), source="lab.toml")
+
+
+@pytest.mark.parametrize("name", ["#x", "-x", "a.b", "a,b", "x" * 201, ""])
+def test_a_name_that_no_record_could_carry_is_refused(name):
+    text = MINIMAL.replace('"a"', f'"{name}"').replace("axis.a", f'axis."{name}"')
+    with pytest.raises(RobotFileError, match=r"robot\.axes"):
+        parse_robot(text)
 
 
 def coupled(matrix, value, axes='["a", "b"]'):
