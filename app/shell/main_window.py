@@ -112,7 +112,8 @@ class MainWindow(QMainWindow):
         application.installEventFilter(self._stop_watch)
         workbench.noticed.connect(self.notices.show_notice)
         workbench.refreshed.connect(self._refresh)
-        workbench.run_changed.connect(self._show_comparison)
+        workbench.plan_changed.connect(lambda _: self._bring_up("trajectory"))
+        workbench.run_changed.connect(lambda _: self._bring_up("comparison"))
         for name, reason in broken.items():
             workbench.notify(Level.ERROR, f"Panel {name!r} is left out: {reason}")
 
@@ -301,9 +302,9 @@ class MainWindow(QMainWindow):
     def _refresh(self, state: SessionState) -> None:
         self._activity.setText(StatusText.activity(state))
 
-    def _show_comparison(self) -> None:
-        if "comparison" in self.docks:
-            self.docks["comparison"].raise_()
+    def _bring_up(self, name: str) -> None:
+        if name in self.docks:
+            self.docks[name].raise_()
 
     def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 (Qt's name)
         """Stop first, and then ask where a played record would be lost."""

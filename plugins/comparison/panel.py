@@ -92,7 +92,9 @@ class ComparisonPanel(Panel):
                 if column:
                     item.setTextAlignment(RIGHT)
                 self.table.setItem(row, column, item)
-        self.table.selectRow(_worst(run.comparison.taps))
+        worst = _worst(run.comparison.taps)
+        self.table.selectRow(worst)
+        self.table.scrollToItem(self.table.item(worst, 0))
         self._draw()
 
     def _draw(self) -> None:
