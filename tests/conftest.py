@@ -38,7 +38,10 @@ def settings(tmp_path):
 @pytest.fixture
 def make_robot_window(qtbot, settings, tmp_path):
     """Make windows on the simulator of any robot; all are closed, and no thread stays."""
+    import gc
     import threading
+
+    from PySide6.QtCore import QCoreApplication, QEvent
 
     from rotemina.app.motion.session import MotionSession
     from rotemina.app.shell.window_run import make_window
@@ -46,6 +49,7 @@ def make_robot_window(qtbot, settings, tmp_path):
     from rotemina.sim.robot.file import load_robot
 
     windows = []
+    gc.disable()  # as the program does: the session's thread must not free what is Qt's
 
     def make(robot="rotemina"):
         session = MotionSession(Simulator(load_robot(robot), {"settle_s": 0.02}))
@@ -61,6 +65,10 @@ def make_robot_window(qtbot, settings, tmp_path):
         window.workbench.close()
         window.hide()
         window.deleteLater()
+    windows.clear()
+    QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    gc.collect()
+    gc.enable()
     assert not [thread for thread in threading.enumerate() if thread.name == "motion session"]
 
 

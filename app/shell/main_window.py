@@ -56,8 +56,8 @@ class StopWatch(QObject):
     The event goes on to where it was meant for, so that Esc closes a dialog too.
     """
 
-    def __init__(self, stop: Callable[[], None], button: QPushButton) -> None:
-        super().__init__()
+    def __init__(self, stop: Callable[[], None], button: QPushButton, parent: QObject) -> None:
+        super().__init__(parent)
         self._stop = stop
         self._button = button
 
@@ -96,6 +96,7 @@ class MainWindow(QMainWindow):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
         self.workbench = workbench
+        workbench.setParent(self)  # so that Qt ends it with the window, on this thread
         self.setWindowTitle(f"RoTeMiNa – {workbench.robot.name}")
         self.notices = NoticeBar()
         self.panels, broken = make_panels(workbench)
@@ -108,7 +109,7 @@ class MainWindow(QMainWindow):
         self._restore()
         application = QApplication.instance()
         assert application is not None
-        self._stop_watch = StopWatch(workbench.stop, self.stop_button)
+        self._stop_watch = StopWatch(workbench.stop, self.stop_button, self)
         application.installEventFilter(self._stop_watch)
         workbench.noticed.connect(self.notices.show_notice)
         workbench.refreshed.connect(self._refresh)

@@ -73,7 +73,7 @@ class SignalPlot(pg.PlotWidget):
         A wide line is thinned further: it hides what is narrower than itself.
         """
         _, width = self._pens[name]
-        buckets = max(self.width(), 200) // (2 * width)
+        buckets = max(self.width(), 200) // (width + 1)
         self._curves[name].setData(*envelope(time_s, values, buckets))
 
     def clear_signal(self, name: str) -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pyqtgraph as pg
 from platformdirs import user_data_path
+from pyqtgraph.util.garbage_collector import GarbageCollector
 from PySide6.QtCore import QTimer
 from PySide6.QtGui import QIcon, QImage, QPixmap
 from PySide6.QtWidgets import QApplication
@@ -48,6 +49,9 @@ def run(session: MotionSession, settings: Settings) -> int:
     """Show the window and run it; return the exit status."""
     application = make_application()
     window = make_window(session, settings)
+    # Python's collector runs on whatever thread happens to allocate, and what it frees on the
+    # session's thread may belong to Qt, which allows that on this one alone.
+    collector = GarbageCollector(interval=1.0)
     window.show()
     window.workbench.start()
     # Only asked for here: a handler may interrupt anything, a lock that closing needs as well.
@@ -56,4 +60,6 @@ def run(session: MotionSession, settings: Settings) -> int:
     wake = QTimer(application, interval=200)
     wake.timeout.connect(lambda: None)
     wake.start()
-    return application.exec()
+    status = application.exec()
+    collector.timer.stop()
+    return status

@@ -20,10 +20,13 @@ def drawn(panel, axis, curve):
 
 def test_command_model_and_measurement_are_drawn_up_to_now(qtbot, window, panel):
     window.workbench.jog("thx", 1e-5)
-    qtbot.waitUntil(
-        lambda: np.ptp(window.workbench.session.history.tail(5.0).command[:, 3]) > 9e-6,
-        timeout=LONG_MS,
-    )
+    history = window.workbench.session.history
+
+    def settled():
+        newest = history.tail(0.1)
+        return abs(newest.command[0, 3] - 5.91775e-4) < 1e-9 and np.ptp(newest.model[:, 3]) < 1e-7
+
+    qtbot.waitUntil(settled, timeout=LONG_MS)
     panel.refresh()
     for curve in ("command", "model", "measured"):
         time_s, values = drawn(panel, "thx", curve)
