@@ -72,7 +72,7 @@ class ComparisonPanel(Panel):
         split.addWidget(self.table)
         split.addWidget(_titled(self.signals_title, self.signals))
         split.addWidget(_titled(self.gap_title, self.gap))
-        split.setSizes([400, 300, 300])
+        split.setSizes([480, 260, 260])
         outer = QVBoxLayout(self)
         outer.setContentsMargins(10, 8, 10, 8)
         outer.addLayout(buttons)

@@ -11,6 +11,7 @@ from rotemina.sim.plant.plant import Plant
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import CascadeController, Robot, StepperAxis
 
+_ROUNDING = 1e-12  # of a signal's size
 _REST_ROWS = 50  # a hold shorter than this says nothing about noise
 _IMPULSE_ROWS = 4000  # samples after which a controller's answer to one noise sample has died
 
@@ -90,15 +91,19 @@ def _between_periods(record: Record, axis: str, tap: Tap) -> float | None:
 def _at_rest(record: Record, axis: str, tap: Tap) -> float | None:
     """Scatter about a line in the second half of every long hold, with the step of the reading."""
     signal = record.signal(axis, tap)
-    scatter = [
-        _about_line(signal[(start + end) // 2 : end])
+    held = [
+        signal[(start + end) // 2 : end]
         for start, end in _holds(record.signal(axis, Tap.CMD))
         if end - start >= _REST_ROWS
     ]
-    if not scatter:
+    if not held:
         return None
-    residual = np.concatenate(scatter)
-    return float(np.sqrt(np.mean(residual**2) + _reading_step(signal) ** 2 / 12.0))
+    residual = np.concatenate([_about_line(part) for part in held])
+    # Within a hold alone: from one hold to the next a reading moves by more than its step.
+    step = min((size for part in held if (size := _reading_step(part)) > 0.0), default=0.0)
+    floor = float(np.sqrt(np.mean(residual**2) + step**2 / 12.0))
+    # A computed signal holds without any noise: what is left then is rounding, no floor.
+    return floor if floor > _ROUNDING * float(np.abs(signal).max()) else None
 
 
 def _holds(command: FloatArray) -> list[tuple[int, int]]:

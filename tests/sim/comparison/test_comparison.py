@@ -95,6 +95,15 @@ def test_an_undeclared_floor_is_measured_at_rest():
     assert tap.noise_floor == pytest.approx(3e-8, rel=0.05)
 
 
+def test_rounding_is_no_noise_floor():
+    command = np.where(TIME_S > 2.0, 2e-5, 1e-5)
+    volts = command / 12.53e-6
+    signals = {("p", Tap.CMD): command, ("p", Tap.U): volts}
+    tap = only(compare(load_robot("picma"), Record.from_signals(TIME_S, signals, {"p": "m"})))
+    assert tap.noise_floor is None
+    assert tap.noise_floor_source is None
+
+
 def test_an_undeclared_floor_is_measured_from_period_to_period():
     robot = load_robot("fsm")
     noise = 2e-8 * np.random.default_rng(4).standard_normal(len(TIME_S))
