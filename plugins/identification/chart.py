@@ -1,0 +1,107 @@
+"""A plot of one picture, with linear or logarithmic axes, in the window's colours."""
+
+from html import escape
+
+import numpy as np
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
+
+from rotemina.app.shell.plot import SignalPlot
+from rotemina.app.shell.theme import Theme
+from rotemina.plugins.identification.findings import Picture
+from rotemina.sim.arrays import FloatArray
+
+_AXIS_WIDTH = 50  # three charts stand side by side
+_LEAST_DECADES = 1.0  # of a logarithmic scale: a narrower one may hold no number to read
+
+
+class PicturePlot(SignalPlot):
+    """A plot whose curves come and go with the picture."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(theme)
+        self.getPlotItem().getAxis("left").setWidth(_AXIS_WIDTH)
+        self.setMinimumSize(110, 120)
+
+    def draw(self, picture: Picture) -> None:
+        """Draw a picture in place of the last."""
+        for curve in self._curves.values():
+            self.removeItem(curve)
+        self._curves.clear()
+        self._pens.clear()
+        item = self.getPlotItem()
+        item.getAxis("left").setLogMode(picture.log_y)
+        item.getAxis("bottom").setLogMode(picture.log_x)
+        item.setLabel("bottom", picture.bottom)
+        for number, curve in enumerate(picture.curves):
+            name = str(number)
+            self.add_curve(name, curve.role, curve.width)
+            x, y = _scaled(curve.x, picture.log_x), _scaled(curve.y, picture.log_y)
+            if picture.in_time:
+                self.show_signal(name, x, y)
+            else:  # a loop comes back: thinning by its highest and lowest would tear it
+                self._curves[name].setData(x, y)
+        self._fit(picture.log_y)
+
+    def values(self, number: int) -> tuple[FloatArray, FloatArray]:
+        """Return the points (n,) of a curve as drawn: logarithms where the axis is so."""
+        x, y = self._curves[str(number)].getData()
+        return np.asarray(x), np.asarray(y)
+
+    def _fit(self, log_y: bool) -> None:
+        self.autoRange(padding=0.04)
+        low, high = self.viewRange()[1]
+        if log_y and high - low < _LEAST_DECADES:
+            middle = (low + high) / 2.0
+            self.setYRange(middle - _LEAST_DECADES / 2, middle + _LEAST_DECADES / 2, padding=0.0)
+
+
+class Chart(QWidget):
+    """A title with the curves' names in their colours, and the plot below."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self._picture: Picture | None = None
+        self.title = QLabel()
+        self.title.setTextFormat(Qt.TextFormat.RichText)
+        # A long title is cut; it must not make the chart wider than its share.
+        self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        self.plot = PicturePlot(theme)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(4, 0, 0, 0)
+        column.setSpacing(2)
+        column.addWidget(self.title)
+        column.addWidget(self.plot, 1)
+
+    def show_picture(self, picture: Picture) -> None:
+        """Draw a picture in place of the last."""
+        self._picture = picture
+        self.plot.draw(picture)
+        self._write_title()
+
+    def set_theme(self, theme: Theme) -> None:
+        """Change all colours."""
+        self._theme = theme
+        self.plot.set_theme(theme)
+        self._write_title()
+
+    def _write_title(self) -> None:
+        if self._picture is None:
+            return
+        title = escape(self._picture.title)
+        named = [curve for curve in self._picture.curves if curve.name]
+        legend = ", ".join(
+            f'<span style="color:{getattr(self._theme, curve.role)}">{escape(curve.name)}</span>'
+            for curve in named
+        )
+        self.title.setText(f"{title}: {legend}" if len(named) > 1 else title)
+        self.title.setToolTip(self._picture.title)
+
+
+def _scaled(values: FloatArray, logarithmic: bool) -> FloatArray:
+    """Return values, or their logarithms; what is not above zero stands at the least that is."""
+    if not logarithmic:
+        return values
+    above = values[values > 0.0]
+    return np.log10(np.maximum(values, above.min() if len(above) else 1.0))

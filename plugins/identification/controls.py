@@ -1,0 +1,133 @@
+"""The row of choices: axis, input, output, view, and the settings of the view in sight."""
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QWidget
+
+from rotemina.app.display import label
+from rotemina.plugins.identification.question import Question, first_axis, taps_of
+from rotemina.plugins.identification.views import View
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.model import Robot
+
+AVERAGES = (4, 8, 16, 32, 64)
+METHODS = (("output error", "oe"), ("ARX", "arx"))
+POLES = (1, 2, 3, 4, 6)
+
+
+class Controls(QWidget):
+    """Choices and buttons of the panel.
+
+    Signals
+    -------
+    asked() : the pair or a setting was changed; the question is another.
+    view_changed() : another view of the same question.
+    """
+
+    asked = Signal()
+    view_changed = Signal()
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open = QPushButton("Open …")
+        self.open.setToolTip("Open a record for this page alone")
+        self.axis = _choice("Axis")
+        self.drive, self.answer = _choice("Input"), _choice("Output")
+        self.view = _choice("What is shown", [(str(view), view) for view in View])
+        self.averages = _choice("Averages", [(f"{n} averages", n) for n in AVERAGES])
+        self.averages.setCurrentIndex(AVERAGES.index(8))
+        self.averages.setToolTip(
+            "Segments of Welch's method: more are smoother, fewer resolve narrower peaks. "
+            "A periodic record is averaged over its periods instead."
+        )
+        self.method = _choice("Method", list(METHODS))
+        self.poles = _choice("Poles", [(f"{n} poles" if n > 1 else "1 pole", n) for n in POLES])
+        self.poles.setCurrentIndex(POLES.index(2))
+        self.copy, self.save = QPushButton("Copy"), QPushButton("Save …")
+        self._lay_out()
+        self.axis.activated.connect(self._change_axis)
+        for choice in (self.drive, self.answer, self.averages, self.method, self.poles):
+            choice.activated.connect(lambda _: self.asked.emit())
+        self.view.currentIndexChanged.connect(self._change_view)
+        self._show_settings()
+        self._record: Record | None = None
+
+    @property
+    def shown(self) -> View:
+        """The view that is chosen."""
+        return View(self.view.currentData())
+
+    def offer(self, record: Record) -> None:
+        """Offer the axes and taps of a record; the choice stays where the record has it."""
+        self._record = record
+        kept = self.axis.currentData()
+        self.axis.clear()
+        for name in record.axes:
+            self.axis.addItem(label(name), name)
+        chosen = kept if kept in record.axes else first_axis(record)
+        self.axis.setCurrentIndex(record.axes.index(chosen))
+        self._offer_taps()
+
+    def question(self, name: str, robot: Robot) -> Question | None:
+        """Return what is asked, or None where the axis has no pair to ask of."""
+        if self._record is None or not (self.drive.count() and self.answer.count()):
+            return None
+        return Question(
+            name,
+            self._record,
+            robot,
+            self.axis.currentData(),
+            Tap(self.drive.currentData()),
+            Tap(self.answer.currentData()),
+            averages=self.averages.currentData(),
+            method=self.method.currentData(),
+            poles=self.poles.currentData(),
+        )
+
+    def _lay_out(self) -> None:
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(6)
+        for widget in (self.open, self.axis, self.drive, self.answer, self.view):
+            row.addWidget(widget)
+        for widget in (self.averages, self.method, self.poles):
+            row.addWidget(widget)
+        row.addStretch(1)
+        row.addWidget(self.copy)
+        row.addWidget(self.save)
+
+    def _change_axis(self) -> None:
+        self._offer_taps()
+        self.asked.emit()
+
+    def _offer_taps(self) -> None:
+        assert self._record is not None
+        inputs, outputs = taps_of(self._record, self.axis.currentData())
+        for choice, taps, word in (
+            (self.drive, inputs, "from"),
+            (self.answer, outputs, "to"),
+        ):
+            kept = choice.currentData()
+            choice.clear()
+            for tap in taps:
+                choice.addItem(f"{word} {tap}", str(tap))
+            choice.setCurrentIndex(max(choice.findData(kept), 0))
+
+    def _change_view(self) -> None:
+        self._show_settings()
+        self.view_changed.emit()
+
+    def _show_settings(self) -> None:
+        self.averages.setVisible(self.shown is View.FREQUENCY)
+        for choice in (self.method, self.poles):
+            choice.setVisible(self.shown is View.MODEL)
+
+
+def _choice(name: str, items: list[tuple[str, object]] | None = None) -> QComboBox:
+    choice = QComboBox()
+    choice.setAccessibleName(name)
+    choice.setToolTip(name)
+    choice.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+    choice.setMinimumWidth(64)  # where the window is narrow, a text is cut rather than the row
+    for text, data in items or []:
+        choice.addItem(text, data)
+    return choice

@@ -1,0 +1,110 @@
+"""What one look at a record has found: pictures, a sheet of figures, numbers to keep, notices."""
+
+import logging
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from rotemina.plugins.identification.question import Question
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.errors import InputError
+from rotemina.sim.units import drawing_unit, per_si, symbol
+
+logger = logging.getLogger(__name__)
+
+NONE = "–"
+
+
+class Curve(NamedTuple):
+    """A line of a picture: its name, the theme's colour role, width in pixels, and points (n,)."""
+
+    name: str
+    role: str
+    x: FloatArray
+    y: FloatArray
+    width: int = 1
+
+
+class Picture(NamedTuple):
+    """Curves over the same axes. Titles name quantities with their units.
+
+    ``in_time`` says that x only grows, so that the drawing may be thinned without loss.
+    """
+
+    title: str
+    bottom: str
+    curves: tuple[Curve, ...]
+    log_x: bool = False
+    log_y: bool = False
+    in_time: bool = True
+
+
+class Column(NamedTuple):
+    """A column of the file that can be saved: heading with unit, one number a row or None."""
+
+    heading: str
+    values: tuple[float | None, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Findings:
+    """The answer to a question.
+
+    Attributes
+    ----------
+    question : what was asked, so that a late answer can be told.
+    pictures : up to three.
+    head, rows : the sheet of figures, as text with units.
+    columns : the numbers behind it, for a file.
+    notices : what the record cannot tell, in words.
+    """
+
+    question: Question
+    pictures: tuple[Picture, ...] = ()
+    head: tuple[str, ...] = ()
+    rows: tuple[tuple[str, ...], ...] = ()
+    columns: tuple[Column, ...] = ()
+    notices: tuple[str, ...] = ()
+
+
+class Scale(NamedTuple):
+    """A unit that reads well: ``symbol`` and how many of it make one SI unit."""
+
+    symbol: str
+    per_si: float
+
+    def text(self, value: float | None) -> str:
+        """Return an SI value in this unit."""
+        if value is None:
+            return NONE
+        return f"{value * self.per_si:.4g} {self.symbol}".rstrip()
+
+
+def scale_of(si_unit: str, largest: float) -> Scale:
+    """Return the unit in which values up to ``largest`` (SI) read best."""
+    unit = drawing_unit(si_unit, largest)
+    return Scale(symbol(unit), per_si(unit))
+
+
+def ratio_scale(question: Question, largest: float) -> Scale:
+    """Return the unit of output over input, none where both are of one kind."""
+    over, under = question.unit(question.answer), question.unit(question.drive)
+    if over == under:
+        return Scale("", 1.0)
+    if under == "V":
+        top = scale_of(over, largest)
+        return Scale(f"{top.symbol}/V", top.per_si)
+    bottom = drawing_unit(under, 1e-6 if under == "m" else 0.0)  # volts a µm or a µrad
+    return Scale(f"V/{symbol(bottom)}", 1.0 / per_si(bottom))
+
+
+def answered(look: Callable[[Question], Findings], question: Question) -> Findings:
+    """Look at a record; what it refuses to tell becomes a notice."""
+    try:
+        return look(question)
+    except InputError as error:
+        return Findings(question, notices=(str(error),))
+    except Exception as error:  # a fault of the program must reach the operator, not vanish
+        logger.exception("identification failed")
+        reason = f"a fault of the program: {type(error).__name__}: {error}"
+        return Findings(question, notices=(reason,))

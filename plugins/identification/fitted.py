@@ -1,0 +1,167 @@
+"""A low-order model fitted to the pair: natural frequency, damping, gain, and how well it fits."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from rotemina.plugins.identification.findings import (
+    NONE,
+    Column,
+    Curve,
+    Findings,
+    Picture,
+    Scale,
+    ratio_scale,
+    scale_of,
+)
+from rotemina.plugins.identification.question import Question
+from rotemina.sim.identification.arx import identify_arx
+from rotemina.sim.identification.model import IdentifiedModel, Orders, simulate
+from rotemina.sim.identification.natural_modes import BAND_SHARE, NaturalMode, natural_modes
+from rotemina.sim.identification.output_error import identify_oe
+from rotemina.sim.identification.signals import Signals
+
+MOST_ROWS = 100_000  # fitted within a second; a mode is known well long before
+METHODS = {"oe": identify_oe, "arx": identify_arx}
+_GOOD_FIT = 80.0
+_WORSE = 10.0  # per cent of fit, lost from prediction to simulation, that tell of noise
+_ROUGH = 0.1  # relative deviation from which a figure is rough
+_HEAD = ("figure", "value", "± deviation")
+
+
+def model_findings(question: Question) -> Findings:
+    """Fit a discrete transfer function and say what it means, or why it means little."""
+    whole = question.signals()
+    signals = replace(whole, inputs=whole.inputs[:MOST_ROWS], outputs=whole.outputs[:MOST_ROWS])
+    orders = Orders(question.poles, question.poles, question.lag_samples)
+    model = METHODS[question.method](signals, orders)
+    modes = natural_modes(model)
+    notices = []
+    if whole.count > signals.count:
+        notices.append(
+            f"Fitted to the first {signals.count} of {whole.count} rows: more would take long."
+        )
+    columns = _columns(model)
+    return Findings(
+        question,
+        _pictures(question, model, signals),
+        _HEAD,
+        _rows(question, model, modes),
+        columns,
+        (*notices, *_doubts(model, modes)),
+    )
+
+
+def _pictures(question: Question, model: IdentifiedModel, signals: Signals) -> tuple[Picture, ...]:
+    measured = signals.outputs[:, 0]
+    output = simulate(model.transfer_function, signals).output
+    if not np.isfinite(output).all():
+        return ()
+    unit = question.unit(question.answer)
+    time_s = np.arange(signals.count) / signals.rate_hz
+    gap = measured - output
+    scale, fine = (scale_of(unit, float(np.abs(each).max())) for each in (measured, gap))
+    return (
+        Picture(
+            f"{question.answer} [{scale.symbol}]",
+            "time [s]",
+            (
+                Curve("fitted", "good", time_s, scale.per_si * output, width=3),
+                Curve("measured", "real", time_s, scale.per_si * measured),
+            ),
+        ),
+        Picture(
+            f"measured − fitted [{fine.symbol}]",
+            "time [s]",
+            (Curve("", "text", time_s, fine.per_si * gap),),
+        ),
+    )
+
+
+def _rows(
+    question: Question, model: IdentifiedModel, modes: tuple[NaturalMode, ...]
+) -> tuple[tuple[str, ...], ...]:
+    gain = model.transfer_function.static_gain
+    scale = ratio_scale(question, abs(gain))
+    rows: list[tuple[str, ...]] = [("fit", f"{model.fit_percent:.2f} %", "")]
+    if model.prediction_percent is not None:
+        rows.append(("fit of one step ahead", f"{model.prediction_percent:.2f} %", ""))
+    for mode in modes:
+        rows += _mode_rows(mode)
+    rows.append(("static gain", scale.text(gain), scale.text(model.static_gain_deviation)))
+    unit = question.unit(question.answer)
+    residual = scale_of(unit, model.residual_rms).text(model.residual_rms)
+    rows.append(("residual rms", residual, ""))
+    rows.append(("delay in samples", str(model.transfer_function.delay), ""))
+    return tuple(rows)
+
+
+def _mode_rows(mode: NaturalMode) -> list[tuple[str, ...]]:
+    frequency = (f"{mode.frequency_hz:.5g} Hz", f"{mode.frequency_deviation:.2g} Hz")
+    if mode.oscillates:
+        ratio = (f"{mode.damping_ratio:.4g}", f"{mode.damping_deviation:.2g}")
+        return [("natural frequency", *frequency), ("damping ratio", *ratio)]
+    lag_s = 1.0 / (2.0 * np.pi * mode.frequency_hz) if mode.frequency_hz else np.inf
+    return [
+        ("corner frequency", *frequency),
+        ("time constant", Scale("ms", 1e3).text(lag_s), NONE),
+    ]
+
+
+def _columns(model: IdentifiedModel) -> tuple[Column, ...]:
+    """Return the transfer function itself: what another program needs to go on."""
+    transfer = model.transfer_function
+    above = tuple(map(float, transfer.numerator))
+    below = tuple(map(float, transfer.denominator))
+    length = max(len(above), len(below))
+
+    def filled(values: tuple[float, ...]) -> tuple[float | None, ...]:
+        return values + (None,) * (length - len(values))
+
+    powers = tuple(float(power) for power in range(length))
+    return (
+        Column("power of z^-1 [1]", powers),
+        Column(f"numerator after {transfer.delay} samples of delay [SI]", filled(above)),
+        Column("denominator [1]", filled(below)),
+    )
+
+
+def _doubts(model: IdentifiedModel, modes: tuple[NaturalMode, ...]) -> list[str]:
+    doubts = []
+    transfer = model.transfer_function
+    if not transfer.stable:
+        doubts.append(
+            "The fitted model is unstable: it stands for noise or drift; fit by output error."
+        )
+    elif model.fit_percent < _GOOD_FIT:
+        doubts.append(
+            f"Fit {model.fit_percent:.1f} %, below {_GOOD_FIT:g} %: noise, distortion, another "
+            "axis or too few poles; frequency and damping are not those of the machine."
+        )
+    predicted = model.prediction_percent
+    if predicted is not None and transfer.stable and predicted - model.fit_percent > _WORSE:
+        doubts.append(
+            f"One step ahead it fits {predicted:.1f} %, simulated {model.fit_percent:.1f} %: noise "
+            "of the sensor spoils ARX; fit by output error."
+        )
+    if modes:
+        doubts += _mode_doubts(modes[0], transfer.rate_hz)
+    return doubts
+
+
+def _mode_doubts(mode: NaturalMode, rate_hz: float) -> list[str]:
+    doubts = []
+    highest_hz = BAND_SHARE * rate_hz / 2.0
+    if not mode.oscillates:
+        doubts.append("The leading pole is real: the record shows a lag, no resonance.")
+    if mode.frequency_hz > highest_hz:
+        doubts.append(
+            f"{mode.frequency_hz:.4g} Hz lies above {highest_hz:.4g} Hz, {BAND_SHARE:g} of half "
+            "the sampling rate: it is a delay or noise, and no mode of the machine."
+        )
+    elif mode.frequency_deviation > _ROUGH * mode.frequency_hz:
+        doubts.append(
+            f"The frequency is known to {mode.frequency_deviation:.2g} Hz alone, more than "
+            f"{100 * _ROUGH:.0f} %: the record hardly excites it; use faster steps or a multisine."
+        )
+    return doubts

@@ -1,0 +1,227 @@
+"""Frequency response of the pair: interval, coherence, and the nominal model's beside it."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from rotemina.plugins.identification.findings import (
+    Column,
+    Curve,
+    Findings,
+    Picture,
+    Scale,
+    ratio_scale,
+)
+from rotemina.plugins.identification.nominal import nominal_signals
+from rotemina.plugins.identification.question import Question
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.errors import InputError
+from rotemina.sim.identification.errors import TooShortError
+from rotemina.sim.identification.frequency_response import FrequencyResponse
+from rotemina.sim.identification.multisine import periodic_response
+from rotemina.sim.identification.resonance import Resonance, fit_resonance
+from rotemina.sim.identification.signals import Signals
+from rotemina.sim.identification.welch import welch_response
+
+INTERVAL = 0.95
+WELCH, MULTISINE = "Welch", "multisine"
+_COHERENT = 0.8
+_PEAK = 2.0  # over the lowest line, from which a resonance is looked for
+_BAND = (0.8, 1.25)  # about the peak, that the resonance is fitted to
+_FEW_LINES = 8
+_NARROW = 4  # lines, below which Welch's window flattens a resonance
+_MISFIT = 0.1
+
+
+class Estimate(NamedTuple):
+    """A response (k lines) and how it was found."""
+
+    method: str
+    averages: str
+    resolution_hz: float
+    lines: FrequencyResponse
+
+    @property
+    def values(self) -> np.ndarray:
+        """The complex response (k,)."""
+        return self.lines.response[:, 0, 0]
+
+    @property
+    def radius(self) -> FloatArray:
+        """The radius (k,) of the interval."""
+        return self.lines.confidence_radius(INTERVAL)[:, 0, 0]
+
+
+def frequency_findings(question: Question) -> Findings:
+    """Estimate the frequency response: exactly for a periodic record, by Welch for any other."""
+    signals = question.signals()
+    measured = estimate(signals, question.averages)
+    notices = []
+    nominal: Estimate | None = None
+    try:
+        nominal = estimate(nominal_signals(question), question.averages)
+    except (InputError, KeyError) as error:
+        notices.append(f"No nominal model beside it: {error}")
+    resonance: Resonance | None = None
+    try:
+        resonance = _resonance(question, measured)
+    except InputError as error:
+        notices.append(str(error))
+    scale = ratio_scale(question, float(np.abs(measured.values).max()))
+    return Findings(
+        question,
+        _pictures(question, scale, measured, nominal),
+        ("figure", "value"),
+        _rows(scale, signals, measured, resonance),
+        _columns(scale, measured, nominal),
+        (*notices, *_doubts(measured, resonance)),
+    )
+
+
+def estimate(signals: Signals, averages: int) -> Estimate:
+    """Estimate a response over whole periods where there are two, else over segments.
+
+    Raises
+    ------
+    IdentificationError
+    """
+    period = signals.period_samples
+    if period is not None and signals.count >= 2 * period:
+        found = periodic_response(signals)
+        averages = f"{found.periods} periods of {period}"
+        return Estimate(MULTISINE, averages, signals.rate_hz / period, found.total)
+    # Segments that overlap by half: 2n / (k + 1) samples make k of them.
+    segment = 2 * signals.count // (averages + 1)
+    if segment < _FEW_LINES:
+        raise TooShortError(
+            f"frequency response: {signals.count} samples in {averages} averages leave segments "
+            f"of {segment}; at least {_FEW_LINES} are needed, record longer or average less"
+        )
+    found = welch_response(signals, segment=segment)
+    name = f"{averages} segments of {segment}"
+    return Estimate(WELCH, name, signals.rate_hz / segment, found)
+
+
+def _resonance(question: Question, measured: Estimate) -> Resonance | None:
+    frequency_hz, size = measured.lines.frequency_hz, np.abs(measured.values)
+    peak = int(np.argmax(size))
+    if size[peak] < _PEAK * size[0] or not 0 < peak < len(size) - 1:
+        return None
+    # Half as many lines on either side as a fit of six numbers wants, however coarse they are.
+    around = frequency_hz[max(peak - 4, 0)], frequency_hz[min(peak + 4, len(size) - 1)]
+    band = (
+        min(_BAND[0] * frequency_hz[peak], around[0]),
+        max(_BAND[1] * frequency_hz[peak], around[1]),
+    )
+    return fit_resonance(
+        frequency_hz,
+        measured.values,
+        band_hz=(float(band[0]), float(band[1])),
+        deviation=measured.lines.deviation[:, 0, 0],
+        held_at_hz=measured.lines.rate_hz if question.lag_samples else None,
+    )
+
+
+def _pictures(
+    question: Question, scale: Scale, measured: Estimate, nominal: Estimate | None
+) -> tuple[Picture, ...]:
+    frequency_hz, size = measured.lines.frequency_hz, np.abs(measured.values)
+    low, high = np.maximum(size - measured.radius, 0.01 * size), size + measured.radius
+    magnitude = [
+        Curve("", "quiet", frequency_hz, scale.per_si * low),
+        Curve(f"{100 * INTERVAL:.0f} %", "quiet", frequency_hz, scale.per_si * high),
+        Curve("measured", "real", frequency_hz, scale.per_si * size),
+    ]
+    phase = [Curve("measured", "real", frequency_hz, _phase_deg(measured))]
+    if nominal is not None:
+        at_hz = nominal.lines.frequency_hz
+        beside = Curve("model", "model", at_hz, scale.per_si * np.abs(nominal.values), width=3)
+        magnitude.insert(2, beside)
+        phase.insert(0, Curve("model", "model", at_hz, _phase_deg(nominal), width=3))
+    coherence = Curve("measured", "real", frequency_hz, measured.lines.coherence[:, 0])
+    pair = f"{question.answer}/{question.drive}"
+    bottom = "frequency [Hz]"
+    return (
+        Picture(f"|{pair}| [{scale.symbol or '1'}]", bottom, tuple(magnitude), True, True),
+        Picture("phase [°]", bottom, tuple(phase), True),
+        Picture("coherence", bottom, (coherence,), True),
+    )
+
+
+def _phase_deg(found: Estimate) -> FloatArray:
+    return np.degrees(found.lines.phase_rad[:, 0, 0])
+
+
+def _rows(
+    scale: Scale, signals: Signals, measured: Estimate, resonance: Resonance | None
+) -> tuple[tuple[str, str], ...]:
+    frequency_hz, size = measured.lines.frequency_hz, np.abs(measured.values)
+    peak = int(np.argmax(size))
+    rows = [
+        ("gain, lowest line", scale.text(size[0])),
+        ("largest gain", scale.text(size[peak])),
+        ("at", f"{frequency_hz[peak]:.5g} Hz"),
+        ("median coherence", f"{np.median(measured.lines.coherence):.4f}"),
+        ("estimator", measured.method),
+        ("averages", measured.averages),
+        ("lines", str(len(size))),
+        ("lowest line", f"{frequency_hz[0]:.5g} Hz"),
+        ("highest line", f"{frequency_hz[-1]:.5g} Hz"),
+        ("resolution", f"{measured.resolution_hz:.4g} Hz"),
+        ("samples", str(signals.count)),
+        ("sampling rate", f"{signals.rate_hz:.6g} Hz"),
+    ]
+    if resonance is None:
+        return tuple(rows)
+    frequency = f"{resonance.frequency_hz:.5g} ± {resonance.frequency_deviation:.2g} Hz"
+    ratio = f"{resonance.damping_ratio:.4g} ± {resonance.damping_deviation:.2g}"
+    misfit = f"{100.0 * resonance.misfit:.3g} %"
+    mode = [("resonance", frequency), ("damping ratio", ratio), ("misfit of the mode", misfit)]
+    return (*mode, *rows)
+
+
+def _columns(scale: Scale, measured: Estimate, nominal: Estimate | None) -> tuple[Column, ...]:
+    unit = scale.symbol or "1"
+    frequency_hz = measured.lines.frequency_hz
+    columns = {
+        "frequency [Hz]": frequency_hz,
+        f"magnitude [{unit}]": scale.per_si * np.abs(measured.values),
+        "phase [deg]": _phase_deg(measured),
+        f"radius of the {100 * INTERVAL:.0f} % interval [{unit}]": scale.per_si * measured.radius,
+        "coherence [1]": measured.lines.coherence[:, 0],
+    }
+    # Where the model is driven by its own signal, its lines may be others: those stay out.
+    if nominal is not None and np.array_equal(nominal.lines.frequency_hz, frequency_hz):
+        columns[f"model magnitude [{unit}]"] = scale.per_si * np.abs(nominal.values)
+        columns["model phase [deg]"] = _phase_deg(nominal)
+    return tuple(Column(name, tuple(map(float, values))) for name, values in columns.items())
+
+
+def _doubts(measured: Estimate, resonance: Resonance | None) -> list[str]:
+    frequency_hz, coherence = measured.lines.frequency_hz, measured.lines.coherence[:, 0]
+    doubts = []
+    if len(frequency_hz) < _FEW_LINES:
+        doubts.append(
+            f"The input excites {len(frequency_hz)} lines alone, up to {frequency_hz[-1]:.4g} Hz "
+            f"({_FEW_LINES} are wanted): nothing is known above; record a multisine or a chirp."
+        )
+    poor = int(np.sum(coherence < _COHERENT))
+    if poor:
+        doubts.append(
+            f"Coherence is below {_COHERENT:g} on {poor} of {len(coherence)} lines: noise, "
+            "distortion, another axis or leakage; look at the interval there."
+        )
+    if resonance is not None:
+        width_hz = 2.0 * resonance.damping_ratio * resonance.frequency_hz
+        if measured.method == WELCH and width_hz < _NARROW * measured.resolution_hz:
+            doubts.append(
+                f"The resonance is {width_hz:.3g} Hz wide, less than {_NARROW} lines of "
+                f"{measured.resolution_hz:.3g} Hz: it looks flatter than it is; average less or "
+                "record longer."
+            )
+        if resonance.misfit > _MISFIT:
+            doubts.append(
+                f"One mode misses the peak by {100 * resonance.misfit:.0f} % (bound "
+                f"{100 * _MISFIT:.0f} %): there may be two; damping is rough."
+            )
+    return doubts

@@ -1,0 +1,250 @@
+"""The identification page: one axis of a record, one pair of taps, four ways to look at it."""
+
+from pathlib import Path
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import (
+    QFileDialog,
+    QLabel,
+    QPlainTextEdit,
+    QSplitter,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.files import write_text
+from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.column_mapping import ask_columns
+from rotemina.app.shell.theme import Theme
+from rotemina.app.shell.workbench import Level, Run, Workbench
+from rotemina.plugins.identification.chart import Chart
+from rotemina.plugins.identification.controls import Controls
+from rotemina.plugins.identification.export import as_csv, as_text
+from rotemina.plugins.identification.findings import Findings, answered
+from rotemina.plugins.identification.question import Question
+from rotemina.plugins.identification.sheet import Sheet
+from rotemina.plugins.identification.views import LOOKS, View
+from rotemina.sim.errors import InputError
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.records.record import Record
+
+EMPTY = "Play a trajectory, or open a record, to see what it says about the machine."
+RECORDS = "Records (*.csv *.txt *.dat *.gz);;All files (*)"
+CHARTS = 3
+# Shares of sheet and charts: an operator's own stay until another number of charts is shown.
+WIDTHS = ([920, 0, 0, 0], [420, 500, 0, 0], [420, 250, 250, 0], [280, 260, 190, 190])
+ONE_LINE, TWO_LINES = 29, 47  # heights of the notices; more is a turn of the wheel away
+MARGIN = 20
+HEIGHT = 240  # with two lines of notices, so that the window does not jump when they come
+
+
+class IdentificationPanel(Panel):
+    """The record that was last played or opened, looked at tap by tap."""
+
+    title = "Identification"
+    area = Area.BOTTOM
+    order = 30
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__(workbench)
+        self.controls = Controls()
+        self.summary = QLabel(EMPTY)
+        self.summary.setTextFormat(Qt.TextFormat.PlainText)
+        self.summary.setWordWrap(True)
+        self.notices = _notices()
+        self.charts = tuple(Chart(workbench.theme) for _ in range(CHARTS))
+        self.sheet = Sheet()
+        self.findings: Findings | None = None
+        self._name = ""
+        self._question: Question | None = None
+        self._known: dict[View, Findings] = {}
+        self._lay_out()
+        self._connect()
+        self._use_theme(workbench.theme)
+        self._show(None)
+        if workbench.run is not None:
+            self._take_run(workbench.run)
+
+    def _lay_out(self) -> None:
+        side = QWidget()
+        column = QVBoxLayout(side)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(2)
+        column.addWidget(self.summary)
+        column.addWidget(self.sheet, 1)
+        self._split = QSplitter(Qt.Orientation.Horizontal)
+        self._split.addWidget(side)
+        for chart in self.charts:
+            self._split.addWidget(chart)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(10, 6, 10, 6)
+        outer.setSpacing(4)
+        outer.addWidget(self.controls)
+        outer.addWidget(self.notices)
+        outer.addWidget(self._split, 1)
+        self.setMinimumHeight(HEIGHT)
+
+    def _connect(self) -> None:
+        self.controls.open.clicked.connect(self._ask_record)
+        self.controls.copy.clicked.connect(self._copy)
+        self.controls.save.clicked.connect(self._ask_save)
+        self.controls.asked.connect(self._ask)
+        self.controls.view_changed.connect(self._look)
+        self.workbench.run_changed.connect(self._take_run)
+        self.workbench.theme_changed.connect(self._use_theme)
+
+    # --- the record -------------------------------------------------------------------------------
+
+    def take_record(self, name: str, record: Record) -> None:
+        """Look at a record."""
+        self._name = name
+        self.controls.offer(record)
+        self._ask()
+
+    def open_record(self, path: Path, columns: str | None = None) -> None:
+        """Read a record for this page alone; the model need not be able to follow it."""
+
+        def work() -> Record | str:
+            try:
+                return read_record(path, columns=columns, robot=self.workbench.robot)
+            except InputError as error:
+                return str(error)
+
+        def done(answer: Record | str) -> None:
+            if isinstance(answer, str):
+                self._say([answer])
+            else:
+                self.take_record(path.name, answer)
+
+        self.workbench.work("identification record", f"Reading {path.name} …", work, done)
+
+    def _take_run(self, run: Run) -> None:
+        self.take_record(run.name, run.record)
+
+    def _ask_record(self) -> None:
+        dialog = self._file_dialog("Open record", RECORDS)
+        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
+        dialog.fileSelected.connect(
+            lambda name: ask_columns(Path(name), self.workbench, self, self.open_record)
+        )
+        dialog.show()
+
+    # --- the question and its answer --------------------------------------------------------------
+
+    def _ask(self) -> None:
+        """Forget what was found: it answers another question."""
+        self._known.clear()
+        self._question = self.controls.question(self._name, self.workbench.robot)
+        self._look()
+
+    def _look(self) -> None:
+        question, view = self._question, self.controls.shown
+        if question is None:
+            self._show(None)
+            if self._name:
+                axis = self.controls.axis.currentText()
+                self._say([f"{self._name}: axis {axis} has no pair of an input and an output."])
+            return
+        if view in self._known:
+            self._show(self._known[view])
+            return
+        self._show(None)
+        self.summary.setText(f"{question.name}: computing …")
+        self.workbench.work(
+            "identification",
+            f"Identification of {question.name} …",
+            lambda: self._answer(question, view),
+            lambda findings: self._receive(view, findings),
+        )
+
+    def _answer(self, question: Question, view: View) -> Findings:
+        """Run in the background; what nobody asks any more is not worked out."""
+        if question is not self._question:
+            return Findings(question)
+        return answered(LOOKS[view], question)
+
+    def _receive(self, view: View, findings: Findings) -> None:
+        """Keep an answer, unless another question was asked meanwhile."""
+        if findings.question is not self._question:
+            return
+        self._known[view] = findings
+        if view is self.controls.shown:
+            self._show(findings)
+
+    def _show(self, findings: Findings | None) -> None:
+        self.findings = findings
+        pictures = findings.pictures if findings is not None else ()
+        if len(pictures) != sum(not chart.isHidden() for chart in self.charts):
+            self._split.setSizes(WIDTHS[len(pictures)])
+        for number, chart in enumerate(self.charts):
+            chart.setVisible(number < len(pictures))
+            if number < len(pictures):
+                chart.show_picture(pictures[number])
+        self.sheet.show_rows(*((findings.head, findings.rows) if findings else ((), ())))
+        self._say(findings.notices if findings is not None else ())
+        for button in (self.controls.copy, self.controls.save):
+            button.setEnabled(findings is not None)
+        if findings is not None:
+            record = findings.question.record
+            self.summary.setText(
+                f"{findings.question.name}: {record.duration_s:.3f} s, {len(record.time_s)} samples"
+            )
+
+    def _say(self, notices: list[str] | tuple[str, ...]) -> None:
+        text = "\n".join(notices)
+        self.notices.setPlainText(text)
+        self.notices.setToolTip(text)
+        fits = self.notices.fontMetrics().horizontalAdvance(text) < self.width() - 2 * MARGIN
+        self.notices.setFixedHeight(ONE_LINE if "\n" not in text and fits else TWO_LINES)
+        self.notices.setVisible(bool(text))
+
+    # --- results out ------------------------------------------------------------------------------
+
+    def _copy(self) -> None:
+        if self.findings is not None:
+            QGuiApplication.clipboard().setText(as_text(self.findings, self.controls.shown))
+
+    def _ask_save(self) -> None:
+        if self.findings is None:
+            return
+        dialog = self._file_dialog("Save results", "Tables (*.csv)")
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setDefaultSuffix("csv")
+        dialog.selectFile("identification.csv")
+        # What is in sight now, whatever comes in while the dialog is open.
+        text = as_csv(self.findings, self.controls.shown)
+        dialog.fileSelected.connect(lambda name: self.save_text(Path(name), text))
+        dialog.show()
+
+    def save_text(self, path: Path, text: str) -> None:
+        """Write results to a file."""
+        self.workbench.work(
+            "identification results",
+            f"Writing {path.name} …",
+            lambda: write_text(path, text),
+            lambda _: self.workbench.notify(Level.GOOD, f"Saved {path}"),
+        )
+
+    def _file_dialog(self, title: str, filters: str) -> QFileDialog:
+        """Return a dialog beside which the window, and its stop button, can still be used."""
+        settings = self.workbench.settings
+        dialog = QFileDialog(self, title, settings.get("files.folder", ""), filters)
+        dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.fileSelected.connect(
+            lambda name: settings.set("files.folder", str(Path(name).parent))
+        )
+        return dialog
+
+    def _use_theme(self, theme: Theme) -> None:
+        self.notices.setStyleSheet(f"color: {theme.warning};")
+        for chart in self.charts:
+            chart.set_theme(theme)
+
+
+def _notices() -> QPlainTextEdit:
+    notices = QPlainTextEdit()
+    notices.setReadOnly(True)
+    notices.setAccessibleName("What the record cannot tell")
+    return notices

@@ -1,0 +1,28 @@
+"""The ways to look at a pair of taps, in the order in which the panel offers them."""
+
+from collections.abc import Callable
+from enum import StrEnum
+
+from rotemina.plugins.identification.findings import Findings
+from rotemina.plugins.identification.fitted import model_findings
+from rotemina.plugins.identification.frequency import frequency_findings
+from rotemina.plugins.identification.hysteresis import loop_findings
+from rotemina.plugins.identification.question import Question
+from rotemina.plugins.identification.staircase import step_findings
+
+
+class View(StrEnum):
+    """A way to look, as the panel names it."""
+
+    FREQUENCY = "Frequency response"
+    LOOP = "Loop"
+    STEPS = "Steps"
+    MODEL = "Fitted model"
+
+
+LOOKS: dict[View, Callable[[Question], Findings]] = {
+    View.FREQUENCY: frequency_findings,
+    View.LOOP: loop_findings,
+    View.STEPS: step_findings,
+    View.MODEL: model_findings,
+}
