@@ -33,6 +33,8 @@ def main(folder: Path) -> int:
         window.show()
         window.workbench.start()
         play(window, example_for(robot))
+        while window.workbench.busy:  # panels that work on what was played
+            QApplication.processEvents()
         for theme in ("dark", "light"):
             window.use_theme(theme)
             for width, height in SIZES:
