@@ -46,6 +46,9 @@ def main(folder: Path) -> int:
                 count += 1
                 panels = window.panels if theme == "dark" else {}
                 for panel_name, panel in panels.items():
+                    if panel_name in window.docks:  # one behind another has no size of its own
+                        window.docks[panel_name].raise_()
+                        QApplication.processEvents()
                     panel.grab().save(str(folder / f"{panel_name}-{name}.png"))
                     count += 1
         window.workbench.close()

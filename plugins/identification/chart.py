@@ -1,5 +1,6 @@
 """A plot of one picture, with linear or logarithmic axes, in the window's colours."""
 
+import math
 from html import escape
 
 import numpy as np
@@ -12,6 +13,8 @@ from rotemina.plugins.identification.findings import Picture
 from rotemina.sim.arrays import FloatArray
 
 _AXIS_WIDTH = 50  # three charts stand side by side
+_FEW_DECADES = 1.6
+_PIXELS_A_NUMBER = 34
 _LEAST_DECADES = 1.0  # of a logarithmic scale: a narrower one may hold no number to read
 
 
@@ -22,6 +25,9 @@ class PicturePlot(SignalPlot):
         super().__init__(theme)
         self.getPlotItem().getAxis("left").setWidth(_AXIS_WIDTH)
         self.setMinimumSize(110, 120)
+        for side in ("left", "bottom"):
+            # Of a logarithmic axis, pyqtgraph numbers all nine parts of a decade: they collide.
+            self.getPlotItem().getAxis(side).logTickValues = log_ticks
 
     def draw(self, picture: Picture) -> None:
         """Draw a picture in place of the last."""
@@ -30,8 +36,11 @@ class PicturePlot(SignalPlot):
         self._curves.clear()
         self._pens.clear()
         item = self.getPlotItem()
-        item.getAxis("left").setLogMode(picture.log_y)
-        item.getAxis("bottom").setLogMode(picture.log_x)
+        for side, logarithmic in (("left", picture.log_y), ("bottom", picture.log_x)):
+            axis = item.getAxis(side)
+            axis.setLogMode(logarithmic)
+            # Lines within a decade carry no number.
+            axis.setStyle(maxTextLevel=0 if logarithmic else 2)
         item.setLabel("bottom", picture.bottom)
         for number, curve in enumerate(picture.curves):
             name = str(number)
@@ -41,19 +50,39 @@ class PicturePlot(SignalPlot):
                 self.show_signal(name, x, y)
             else:  # a loop comes back: thinning by its highest and lowest would tear it
                 self._curves[name].setData(x, y)
-        self._fit(picture.log_y)
+        self._fit(picture)
 
     def values(self, number: int) -> tuple[FloatArray, FloatArray]:
         """Return the points (n,) of a curve as drawn: logarithms where the axis is so."""
         x, y = self._curves[str(number)].getData()
         return np.asarray(x), np.asarray(y)
 
-    def _fit(self, log_y: bool) -> None:
+    def _fit(self, picture: Picture) -> None:
         self.autoRange(padding=0.04)
+        if picture.span is not None:
+            self.setYRange(*picture.span, padding=0.0)
         low, high = self.viewRange()[1]
-        if log_y and high - low < _LEAST_DECADES:
+        if picture.log_y and high - low < _LEAST_DECADES:
             middle = (low + high) / 2.0
             self.setYRange(middle - _LEAST_DECADES / 2, middle + _LEAST_DECADES / 2, padding=0.0)
+
+
+def log_ticks(
+    low: float, high: float, size: float, ticks: list[tuple[float, list[float]]]
+) -> list[tuple[float | None, list[float]]]:
+    """Return ticks of a logarithmic axis from 10^low to 10^high, as pyqtgraph asks for them.
+
+    Those with numbers come first: 1, 2 and 5 of each decade, or whole decades where there are
+    many; then the parts of a decade, as lines alone.
+    """
+    decades = range(math.floor(low), math.ceil(high) + 1)
+    step = max(round(_PIXELS_A_NUMBER * (high - low) / max(size, 1.0)), 1)
+    wide = high - low > _FEW_DECADES
+    steps = (1,) if wide else (1, 2, 5)
+    numbers = [d + math.log10(part) for d in decades if d % step == 0 for part in steps]
+    lines = [d + math.log10(part) for d in decades for part in range(2, 10)] if step == 1 else []
+    inside = [each for each in numbers if low <= each <= high]
+    return [(1.0, inside), (None, [each for each in lines if low < each < high])]
 
 
 class Chart(QWidget):

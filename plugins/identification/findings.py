@@ -28,7 +28,8 @@ class Curve(NamedTuple):
 class Picture(NamedTuple):
     """Curves over the same axes. Titles name quantities with their units.
 
-    ``in_time`` says that x only grows, so that the drawing may be thinned without loss.
+    ``in_time`` says that x only grows, so that the drawing may be thinned without loss; ``span``
+    is what the vertical axis shows, else it follows the curves.
     """
 
     title: str
@@ -37,6 +38,7 @@ class Picture(NamedTuple):
     log_x: bool = False
     log_y: bool = False
     in_time: bool = True
+    span: tuple[float, float] | None = None
 
 
 class Column(NamedTuple):

@@ -144,7 +144,7 @@ def _pictures(
     return (
         Picture(f"|{pair}| [{scale.symbol or '1'}]", bottom, tuple(magnitude), True, True),
         Picture("phase [°]", bottom, tuple(phase), True),
-        Picture("coherence", bottom, (coherence,), True),
+        Picture("coherence", bottom, (coherence,), True, span=(0.0, 1.05)),
     )
 
 

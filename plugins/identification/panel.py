@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QGuiApplication
+from PySide6.QtGui import QGuiApplication, QResizeEvent
 from PySide6.QtWidgets import (
     QFileDialog,
     QLabel,
@@ -195,9 +195,18 @@ class IdentificationPanel(Panel):
         text = "\n".join(notices)
         self.notices.setPlainText(text)
         self.notices.setToolTip(text)
+        self.notices.setVisible(bool(text))
+        self._size_notices()
+
+    def _size_notices(self) -> None:
+        text = self.notices.toPlainText()
         fits = self.notices.fontMetrics().horizontalAdvance(text) < self.width() - 2 * MARGIN
         self.notices.setFixedHeight(ONE_LINE if "\n" not in text and fits else TWO_LINES)
-        self.notices.setVisible(bool(text))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Give the notices the lines that they need at the new width."""
+        super().resizeEvent(event)
+        self._size_notices()
 
     # --- results out ------------------------------------------------------------------------------
 
