@@ -2,31 +2,55 @@
 
 The equation of motion, Eq. (1) of the paper, over the axes of one group::
 
-    q̈ = M⁻¹ ( −D q̇ − C q + E U + F )
+    q̈ = M⁻¹ ( −D q̇ − C q + E U + F + f )
 
-with the constant force ``F = −force_offset`` of force axes. Axes that no coupling joins move
-independently, so a robot falls into groups that are simulated each by itself.
+with the constant force ``F = −force_offset`` of force axes, and further forces f that are zero
+unless an effect or a perturbation sets them. Axes that no coupling joins move independently, so a
+robot falls into groups that are stepped each by itself. Effects may add linear states z of their
+own to a group (:class:`rotemina.sim.effects.formulation.LinearPart`).
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray
+from rotemina.sim.effects.formulation import LinearPart
 from rotemina.sim.robot.matrices import inertia_matrices
-from rotemina.sim.robot.model import Axis, ForceAxis, PiezoAxis, Robot
+from rotemina.sim.robot.model import Axis, ForceAxis, PiezoAxis, Robot, StepperAxis
+
+
+class PlacedPart(NamedTuple):
+    """A linear part at an axis; with a ``port`` its output goes there, not to the position."""
+
+    axis: str
+    part: LinearPart
+    port: int | None = None
+
+
+class Output(NamedTuple):
+    """A position: ``weights · state + through · u`` of ``axis``, or what goes to a ``port``."""
+
+    axis: str
+    port: int | None
+    weights: FloatArray
+    through: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Group:
-    """One set of coupled axes; state ``[q, q̇]`` of length 2m, inputs U of length m.
+    """One set of coupled axes; state ``[q, q̇, z]`` of length n, inputs U of length m.
+
+    A static axis is a group of its own without q and q̇, with the states z of its parts alone.
 
     Attributes
     ----------
     axes : tuple of str, length m
-    generator : (2m + m + 1, 2m + m + 1)
-        The augmented matrix ``[[A, B, f], [0, 0, 0]]`` whose exponential steps the state exactly
-        while the inputs are held.
+    generator : (n + 2m + 1, n + 2m + 1)
+        The augmented matrix ``[[A, B, f, G], [0, 0, 0, 0]]`` whose exponential steps the state
+        exactly while the m inputs, the constant 1 and the m forces are held.
     stiffness : (m, m)
         C of the equation.
     input_gain : (m,)
@@ -35,6 +59,9 @@ class Group:
         F of the equation, N.
     moved_by_force : (m,) bool
         Which axes are of kind ``force``.
+    outputs : tuple of Output
+        The positions of the axes, in their order, then what goes to ports.
+    static : bool
     """
 
     axes: tuple[str, ...]
@@ -43,11 +70,31 @@ class Group:
     input_gain: FloatArray
     force: FloatArray
     moved_by_force: BoolArray
+    outputs: tuple[Output, ...]
+    static: bool = False
 
     @property
     def size(self) -> int:
         """Number of axes m."""
         return len(self.axes)
+
+    @property
+    def states(self) -> int:
+        """Number of states n."""
+        return len(self.generator) - 2 * self.size - 1
+
+    def settled(self, position: FloatArray, inputs: FloatArray) -> FloatArray:
+        """Return the state (n,) at rest at ``position`` (m,) under ``inputs`` (m,)."""
+        own = 0 if self.static else 2 * self.size
+        state = np.zeros(self.states)
+        if not self.static:
+            state[: self.size] = position
+        rows = slice(own, self.states)
+        if self.states > own:
+            load = self.generator[rows, :own] @ state[:own]
+            load = load + self.generator[rows, self.states : self.states + self.size] @ inputs
+            state[rows] = -np.linalg.solve(self.generator[rows, rows], load)
+        return state
 
 
 def input_gain(axis: Axis) -> float:
@@ -59,14 +106,24 @@ def input_gain(axis: Axis) -> float:
     return stiffness * axis.gain if isinstance(axis, PiezoAxis) else stiffness
 
 
-def groups_of(robot: Robot) -> tuple[Group, ...]:
-    """Split a robot into groups of coupled axes, each in the robot's order."""
+def asked_position(axis: Axis) -> float:
+    """Position that one unit of input asks for: gain of a piezo, 1 of a stepper or a force."""
+    return axis.gain if isinstance(axis, PiezoAxis) else 1.0
+
+
+def groups_of(robot: Robot, parts: Sequence[PlacedPart] = ()) -> tuple[Group, ...]:
+    """Split the axes with dynamics into groups of coupled ones, each in the robot's order."""
     names, mass, damping, stiffness = inertia_matrices(robot)
     coupled = (mass != 0) | (damping != 0) | (stiffness != 0)
     return tuple(
-        _group(robot, [names[i] for i in members], mass, damping, stiffness, members)
+        _group(robot, [names[i] for i in members], mass, damping, stiffness, members, parts)
         for members in _connected(coupled)
     )
+
+
+def static_groups_of(robot: Robot, parts: Sequence[PlacedPart] = ()) -> tuple[Group, ...]:
+    """Return a group for each static axis, in the robot's order."""
+    return tuple(_static(name, a, parts) for name, a in robot.axes.items() if a.static)
 
 
 def _connected(coupled: np.ndarray) -> list[list[int]]:
@@ -92,18 +149,95 @@ def _group(
     damping: FloatArray,
     stiffness: FloatArray,
     members: list[int],
+    parts: Sequence[PlacedPart],
 ) -> Group:
     block = np.ix_(members, members)
     gains = np.array([input_gain(robot.axes[name]) for name in axes])
     forced = [axis if isinstance(axis := robot.axes[n], ForceAxis) else None for n in axes]
     force = np.array([-axis.force_offset if axis else 0.0 for axis in forced])
+    own = [placed for placed in parts if placed.axis in axes]
     m = len(axes)
+    n = 2 * m + sum(len(placed.part.a) for placed in own)
     inverse = np.linalg.inv(mass[block])
-    generator = np.zeros((3 * m + 1, 3 * m + 1))
-    generator[:m, m : 2 * m] = np.eye(m)
-    generator[m : 2 * m, :m] = -inverse @ stiffness[block]
-    generator[m : 2 * m, m : 2 * m] = -inverse @ damping[block]
-    generator[m : 2 * m, 2 * m : 3 * m] = inverse * gains
-    generator[m : 2 * m, 3 * m] = inverse @ force
+    generator = np.zeros((n + 2 * m + 1, n + 2 * m + 1))
+    speed = slice(m, 2 * m)
+    generator[:m, speed] = np.eye(m)
+    generator[speed, :m] = -inverse @ stiffness[block]
+    generator[speed, speed] = -inverse @ damping[block]
+    generator[speed, n : n + m] = inverse * gains
+    generator[speed, n + m] = inverse @ force
+    generator[speed, n + m + 1 :] = inverse
+    outputs = [Output(name, None, np.eye(1, n, i)[0], 0.0) for i, name in enumerate(axes)]
+    first = 2 * m
+    for placed in own:
+        i = axes.index(placed.axis)
+        _join(generator, outputs, placed, i, m, first, asked_position(robot.axes[placed.axis]))
+        first += len(placed.part.a)
     by_force = np.array([axis is not None for axis in forced])
-    return Group(tuple(axes), generator, stiffness[block], gains, force, by_force)
+    return Group(tuple(axes), generator, stiffness[block], gains, force, by_force, tuple(outputs))
+
+
+def _join(
+    generator: FloatArray,
+    outputs: list[Output],
+    placed: PlacedPart,
+    i: int,
+    m: int,
+    first: int,
+    asked: float,
+) -> None:
+    """Add a part's states, from ``first`` on, to those of the i-th axis of a group."""
+    part = placed.part
+    n = len(generator) - 2 * m - 1
+    z = slice(first, first + len(part.a))
+    generator[z, z] = part.a
+    generator[z, i], generator[z, m + i] = part.b[:, 0], part.b[:, 1]
+    generator[z, n + i] = part.b[:, 2] * asked
+    if part.force is not None:
+        per_force = generator[m : 2 * m, n + m + 1 + i]
+        generator[m : 2 * m, z] += np.outer(per_force, part.force)
+        generator[m : 2 * m, i] += per_force * part.reaction[0]
+        generator[m : 2 * m, m + i] += per_force * part.reaction[1]
+    leak = np.zeros(n)
+    leak[z] = part.output
+    if placed.port is None:
+        whole = outputs[i]
+        outputs[i] = whole._replace(weights=(1.0 - part.share) * whole.weights + leak)
+    else:
+        leak[i] = part.share
+        outputs.append(Output(placed.axis, placed.port, leak, 0.0))
+
+
+def _static(name: str, axis: Axis, parts: Sequence[PlacedPart]) -> Group:
+    """Return the group of a static axis: its position is ``gain·u``, and what its parts add."""
+    own = [placed.part for placed in parts if placed.axis == name and placed.port is None]
+    gone = [placed for placed in parts if placed.axis == name and placed.port is not None]
+    n = sum(len(part.a) for part in own) + sum(len(placed.part.a) for placed in gone)
+    gain = 1.0 if isinstance(axis, StepperAxis) else axis.gain
+    generator = np.zeros((n + 3, n + 3))
+    whole, outputs, first = Output(name, None, np.zeros(n), gain), [], 0
+    for part in own:
+        z = _fill(generator, part, first, n, gain)
+        weights = (1.0 - part.share) * whole.weights
+        weights[z] = part.output
+        whole = whole._replace(weights=weights, through=(1.0 - part.share) * whole.through)
+        first += len(part.a)
+    for placed in gone:
+        weights = np.zeros(n)
+        z = _fill(generator, placed.part, first, n, gain)
+        weights[z] = placed.part.output
+        outputs.append(Output(name, placed.port, weights, placed.part.share * gain))
+        first += len(placed.part.a)
+    none = np.zeros(1)
+    by_force = np.zeros(1, dtype=np.bool_)
+    return Group(
+        (name,), generator, np.zeros((1, 1)), none, none, by_force, (whole, *outputs), static=True
+    )
+
+
+def _fill(generator: FloatArray, part: LinearPart, first: int, n: int, gain: float) -> slice:
+    """Enter a part of a static axis, whose position is what its input asks for."""
+    z = slice(first, first + len(part.a))
+    generator[z, z] = part.a
+    generator[z, n] = (part.b[:, 0] + part.b[:, 2]) * gain
+    return z

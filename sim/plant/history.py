@@ -20,8 +20,8 @@ _UNHELD = 1e9  # condition from which a period leaves some state as it was
 def steady_start(plant: Plant, run: Run, period_samples: int | None) -> PlantState:
     """Return the state at the first row in the steady state of a periodic run.
 
-    Without closed loops the plant is linear, and the state that a period brings back to itself is
-    solved for; under controllers, which may saturate, periods are run until they repeat.
+    Without closed loops and effects the plant is linear, and the state that a period brings back
+    to itself is solved for; else periods are run until they repeat.
 
     Raises
     ------
@@ -33,7 +33,7 @@ def steady_start(plant: Plant, run: Run, period_samples: int | None) -> PlantSta
     if period > rows:
         raise PlantError(f"period_samples = {period}: the record has only {rows} rows")
     lead = _lead(run, period)
-    if any(plant.loops):
+    if any(plant.loops) or plant.effects:
         return _settle(plant, lead, run)
     return _solve(plant, lead, run)
 

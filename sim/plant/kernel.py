@@ -1,95 +1,379 @@
-"""The sequential inner loop: exact linear steps with sampled controllers in between."""
+"""The sequential inner loop: exact linear steps, with effects and controllers in between.
+
+The error model is numpy's because a check for division by zero at every sample costs a third of
+the time; sample times increase, so there is none.
+"""
+
+from typing import NamedTuple
 
 import numba
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.sim.effects.step import call_step
+from rotemina.sim.plant.machine import Machine, TableArray
 
 # How a loop obtains its speed.
 NO_LOOP, STATE_VELOCITY, BACKWARD_VELOCITY = 0, 1, 2
 
+# How much of the chain before the mechanics is in place.
+WHOLE, BEHIND_AMPLIFIER, BEHIND_ACTUATOR = 0, 1, 2
 
-@numba.njit(cache=True, inline="always")
-def _effort(gains: FloatArray, error: float, speed: float, add: float) -> float:
-    """Return the output of a cascade controller, V."""
-    effort = gains[1] * (gains[0] * error - speed) + add
-    return float(min(max(effort, -gains[2]), gains[2]))
+_LONG_S = 1e9  # after which every memory of time has come to rest
+_RISES = 256  # steps of the rise from the low end of the range
 
 
-# The error model is numpy's because a check for division by zero at every sample costs a third
-# of the time; sample times increase, so there is none.
-@numba.njit(cache=True, error_model="numpy")
-def run(
-    state_step: FloatArray,
-    input_step: FloatArray,
-    step: IntArray,
-    sample: IntArray,
-    applied: IntArray,
-    late: IntArray,
-    columns: IntArray,
-    first: int,
-    time_s: FloatArray,
-    command: FloatArray,
-    add: FloatArray,
-    loop: IntArray,
-    gains: FloatArray,
-    inputs: FloatArray,
-    position: FloatArray,
-    velocity: FloatArray,
-    x: FloatArray,
-) -> None:
-    """Step one group through all segments.
+class Steps(NamedTuple):
+    """Segments (:class:`rotemina.sim.plant.sampling.Segments`) and the steps through them.
 
-    Fills the group's columns of ``inputs`` (where a loop is closed), ``position`` and
-    ``velocity``, and moves ``x``.
-
-    Parameters
-    ----------
-    state_step, input_step : (k, 2m, 2m), (k, 2m, m + 1)
-    step, sample, applied : (s,), (s,), (s, d)
-        See :class:`rotemina.sim.plant.sampling.Segments`.
-    late : (m,)
-        Which column of ``applied``, that is which delay, holds for each axis.
-    columns : (m,)
-        Where the group's axes stand in the (n, axes) arrays.
-    first : int
-        The sample to which the first row of ``command`` belongs.
-    time_s : (n,)
-    command, add : (n - first, axes)
-        Set-points, and what is added to the controllers' outputs, V; ``add`` may have no rows.
-    loop : (m,)
-        ``NO_LOOP``, ``STATE_VELOCITY`` or ``BACKWARD_VELOCITY`` per axis.
-    gains : (m, 3)
-        ``kp``, ``kv``, ``limit`` per axis.
-    inputs, position, velocity : (n, axes)
-        The state at each sample is the one before its command acts; rows of history are given.
-    x : (2m,)
-        State at the start; afterwards the state at the last sample.
+    Each of the k lengths is done in ``count`` (k,) steps of ``length_s`` (k,). The matrices of
+    group g begin at ``state_at[g]`` and ``input_at[g]`` of the flat arrays, k of them in a row.
+    ``hold_s`` (s, d): for how long each applied input acts on.
     """
-    axes = loop.shape[0]
-    order = x.shape[0]
-    fresh = np.empty(order)
+
+    step: IntArray
+    sample: IntArray
+    applied: IntArray
+    hold_s: FloatArray
+    length_s: FloatArray
+    count: IntArray
+    state: FloatArray
+    state_at: IntArray
+    input: FloatArray
+    input_at: IntArray
+
+
+class Given(NamedTuple):
+    """What drives a run: rows from sample ``first`` on, but for ``time_s`` (n,), all samples.
+
+    ``time_s`` counts from the start of the run. ``command``, ``add`` (n − first, axes) and
+    ``kick`` (n − first, states): set-points, what is added to the controllers' outputs, V, and
+    jumps of the state. ``force`` (n − first + 1, axes): forces while a row lasts, that of the
+    sample before first. ``variates`` (n − first, ...): of the random effects, then of every axis'
+    declared sensor. All but ``command`` may have no rows.
+    """
+
+    first: int
+    time_s: FloatArray
+    command: FloatArray
+    add: FloatArray
+    force: FloatArray
+    kick: FloatArray
+    variates: FloatArray
+
+
+class Taken(NamedTuple):
+    """What a run fills in, all (n, axes): rows before the first sample are given.
+
+    ``inputs`` as asked for (given without a loop), ``effort`` what the electronics make of them
+    (may have no rows), ``position`` as seen from outside, ``velocity``, ``reading``.
+    """
+
+    inputs: FloatArray
+    effort: FloatArray
+    position: FloatArray
+    velocity: FloatArray
+    reading: FloatArray
+
+
+class State(NamedTuple):
+    """What a run moves: states ``x``, the effects' ``memory``, when each was ``seen`` last."""
+
+    x: FloatArray
+    memory: FloatArray
+    seen: FloatArray
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _through(
+    function: TableArray, numbers: FloatArray, memory: FloatArray, begin: int, end: int,
+    x: float, own: float, t: float, h: float,
+) -> float:  # fmt: skip
+    """Send an input through the functions from ``begin`` to ``end``."""
+    for e in range(begin, end):
+        one = function[e]
+        x = call_step(
+            one.address, x, own, t, h, 0.0, 0.0, numbers, one.numbers_at, memory, one.memory_at
+        )
+    return x
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _drive(
+    axis: TableArray, function: TableArray, numbers: FloatArray, memory: FloatArray, i: int,
+    u: float, own: float, t: float, h: float,
+) -> float:  # fmt: skip
+    """Return the input that axis i would need to do the same without effects on it."""
+    one = axis[i]
+    if one.part == WHOLE:
+        u = _through(function, numbers, memory, one.electronics, one.actuator, u, own, t, h)
+    if one.part == BEHIND_ACTUATOR or one.actuator == one.force:
+        return u
+    w = one.asked * u
+    w = _through(function, numbers, memory, one.actuator, one.force, w, own, t, h)
+    return w / one.asked
+
+
+@numba.njit(cache=True, error_model="numpy", inline="always")
+def _outputs(
+    output: TableArray, state: IntArray, weight: FloatArray, x: FloatArray, u: FloatArray,
+    shown: FloatArray,
+) -> None:  # fmt: skip
+    """Fill in the positions of all axes, and what goes to ports, before any effect on them."""
+    for o in range(output.shape[0]):
+        one = output[o]
+        total = one.through * u[one.source] if one.through != 0.0 else 0.0
+        for term in range(one.begin, one.end):
+            total += weight[term] * x[state[term]]
+        shown[o] = total
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _position(
+    axis: TableArray, function: TableArray, numbers: FloatArray, memory: FloatArray,
+    seen: FloatArray, i: int, shown: FloatArray, t: float,
+) -> float:  # fmt: skip
+    """Return the position of axis i as it is seen from outside."""
+    q = shown[i]
+    for e in range(axis[i].motion, axis[i].reading):
+        one = function[e]
+        other = shown[one.other] if one.other >= 0 else 0.0
+        q = call_step(
+            one.address, q, other, t, t - seen[e], 0.0, 0.0,
+            numbers, one.numbers_at, memory, one.memory_at,
+        )  # fmt: skip
+        seen[e] = t
+    return q
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _reading(
+    axis: TableArray, function: TableArray, numbers: FloatArray, memory: FloatArray,
+    seen: FloatArray, i: int, q: float, t: float, row: int, variates: FloatArray,
+) -> float:  # fmt: skip
+    """Return the reading of axis i; with ``row`` < 0 between samples, where chance is asleep."""
+    y = q
+    for e in range(axis[i].reading, axis[i].end):
+        one = function[e]
+        z = 0.0
+        if one.variate >= 0:
+            if row < 0:
+                continue
+            if variates.shape[0] > 0:
+                z = variates[row, one.variate]
+        y = call_step(
+            one.address, y, q, t, t - seen[e], z, 0.0,
+            numbers, one.numbers_at, memory, one.memory_at,
+        )  # fmt: skip
+        seen[e] = t
+    return y
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _noisy(axis: TableArray, i: int, y: float, row: int, variates: FloatArray) -> float:
+    """Return a reading with the noise and resolution that the sensor declares."""
+    own = axis[i]
+    y += own.noise_rms * variates[row, variates.shape[1] - axis.shape[0] + i]
+    if own.resolution > 0.0:
+        y = np.rint(y / own.resolution) * own.resolution
+    return y
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _effort(
+    axis: TableArray, i: int, command: float, read: float, speed: float, add: float
+) -> float:
+    """Return the output of a cascade controller, V."""
+    own = axis[i]
+    effort = own.kv * (own.kp * (command - read) - speed) + add
+    return float(min(max(effort, -own.limit), own.limit))
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _forces(
+    axis: TableArray, function: TableArray, numbers: FloatArray, memory: FloatArray,
+    group: TableArray, member: IntArray, g: int, into: FloatArray, at: int, t: float, h: float,
+    x: FloatArray, fresh: FloatArray,
+) -> None:  # fmt: skip
+    """Let the forces of effects act on the states of group g, stepped without them."""
+    first, n, m = group[g].first, group[g].states, group[g].axes
+    wide = 2 * m + 1
+    for c in range(m):
+        i = member[group[g].member + c]
+        column = at + m + 1 + c
+        place, rate = axis[i].place, axis[i].rate
+        for e in range(axis[i].force, axis[i].motion):
+            one = function[e]
+            force = call_step(
+                one.address, 0.5 * (x[place] + fresh[place]), fresh[rate], t, h,
+                into[column + (place - first) * wide], into[column + (rate - first) * wide],
+                numbers, one.numbers_at, memory, one.memory_at,
+            )  # fmt: skip
+            for row in range(n):
+                fresh[first + row] += into[column + row * wide] * force
+
+
+@numba.njit(cache=True, error_model="numpy", inline="always")
+def _linear(
+    group: TableArray, member: IntArray, g: int, within: FloatArray, own: int, into: FloatArray,
+    at: int, u: FloatArray, force: FloatArray, x: FloatArray, fresh: FloatArray,
+) -> None:  # fmt: skip
+    """Step the states of group g exactly, by its matrices at ``own`` and ``at``."""
+    first, n, m, begin = group[g].first, group[g].states, group[g].axes, group[g].member
+    if n == 2 and force.shape[0] == 0:  # one axis by itself: loops this short cost more than work
+        q, v, drive = x[first], x[first + 1], u[member[begin]]
+        fresh[first] = into[at] * drive + into[at + 1] + within[own] * q + within[own + 1] * v
+        at, own = at + 3, own + 2
+        fresh[first + 1] = into[at] * drive + into[at + 1] + within[own] * q + within[own + 1] * v
+        n = 0
+    for row in range(n):
+        # Inputs first: they do not wait for the step before, so the processor can run ahead.
+        place = at + row * (2 * m + 1)
+        total = into[place + m]
+        for c in range(m):
+            total += into[place + c] * u[member[begin + c]]
+        if force.shape[0] > 0:
+            for c in range(m):
+                total += into[place + m + 1 + c] * force[member[begin + c]]
+        place = own + row * n
+        for c in range(n):
+            total += within[place + c] * x[first + c]
+        fresh[first + row] = total
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def run(
+    machine: Machine, steps: Steps, given: Given, taken: Taken, moving: State, start_s: float
+) -> None:
+    """Step all axes through all segments, from ``start_s`` on; fill ``taken``, move ``moving``."""
+    # Taken apart once: compiled code counts references each time it reaches into a tuple.
+    axis, function, numbers, output, state, weight, group, member = machine
+    step, sample, applied, hold_s, length_s, count, within, state_at, into, input_at = steps
+    first, time_s, command, add, forced, kick, variates = given
+    inputs, effort, position, velocity, reading = taken
+    x, memory, seen = moving
+    axes, groups = axis.shape[0], group.shape[0]
+    u, now, shown = np.zeros(axes), np.zeros(axes), np.zeros(output.shape[0])
+    fresh, no_force = np.empty(x.shape[0]), np.zeros(0)
+    before = np.full(axes, -1, dtype=np.int64)
+    static, forces, followed, electronics = False, False, False, effort.shape[0] > 0
+    for i in range(axes):
+        static |= axis[i].place < 0
+        forces |= axis[i].force < axis[i].motion
+        followed |= axis[i].inner_position != 0
+    t, k = start_s, first - 1
     for s in range(step.shape[0]):
-        k = sample[s]
-        if k >= 0:
+        taking = sample[s] >= 0
+        if taking:
+            k = sample[s]
+            t = time_s[k]
+            if static:  # a static axis is where its input of this very moment puts it
+                for i in range(axes):
+                    if axis[i].place < 0:
+                        asked = inputs[applied[s, axis[i].late], i]
+                        now[i] = _drive(axis, function, numbers, memory, i, asked, shown[i], t, 0.0)
+            _outputs(output, state, weight, x, now, shown)
             for i in range(axes):
-                position[k, columns[i]] = x[i]
-                velocity[k, columns[i]] = x[axes + i]
-                if loop[i] != NO_LOOP:
-                    c = columns[i]
-                    speed = x[axes + i]
-                    if loop[i] == BACKWARD_VELOCITY and k > 0:
-                        speed = (x[i] - position[k - 1, c]) / (time_s[k] - time_s[k - 1])
-                    extra = add[k - first, c] if add.shape[0] > 0 else 0.0
-                    inputs[k, c] = _effort(gains[i], command[k - first, c] - x[i], speed, extra)
+                own = axis[i]
+                q = y = shown[i]
+                if own.motion < own.end:
+                    q = _position(axis, function, numbers, memory, seen, i, shown, t)
+                    y = _reading(
+                        axis, function, numbers, memory, seen, i, q, t, k - first, variates
+                    )
+                position[k, i] = q
+                y += own.offset
+                if variates.shape[0] > 0:
+                    y = _noisy(axis, i, y, k - first, variates)
+                reading[k, i] = y
+                velocity[k, i] = x[own.rate] if own.rate >= 0 else 0.0
+                if own.loop != NO_LOOP:
+                    read, speed = reading[k, i] - own.offset, velocity[k, i]
+                    if own.loop == BACKWARD_VELOCITY and k > 0:
+                        speed = reading[k, i] - reading[k - 1, i]
+                        speed /= time_s[k] - time_s[k - 1]
+                    extra = add[k - first, i] if add.shape[0] > 0 else 0.0
+                    inputs[k, i] = _effort(axis, i, command[k - first, i], read, speed, extra)
+            if electronics:
+                for i in range(axes):
+                    asked = inputs[applied[s, axis[i].late], i]
+                    effort[k, i] = _through(
+                        function, numbers, memory, axis[i].electronics, axis[i].actuator,
+                        asked, shown[i], t, 0.0,
+                    )  # fmt: skip
+            if kick.shape[0] > 0:
+                for n in range(x.shape[0]):
+                    x[n] += kick[k - first, n]
         j = step[s]
-        for row in range(order):
-            # Inputs first: they do not wait for the step before, so the processor can run ahead.
-            total = input_step[j, row, axes]
+        h = length_s[j]
+        if h == 0.0:
+            continue
+        force = forced[k - first + 1] if forced.shape[0] > 0 else no_force
+        for part in range(count[j]):
+            if followed and (part > 0 or not taking):
+                _outputs(output, state, weight, x, u, shown)
+                for i in range(axes):
+                    if axis[i].inner_position != 0:
+                        q = _position(axis, function, numbers, memory, seen, i, shown, t)
+                        if axis[i].inner_reading != 0:
+                            _reading(axis, function, numbers, memory, seen, i, q, t, -1, variates)
             for i in range(axes):
-                total += input_step[j, row, i] * inputs[applied[s, late[i]], columns[i]]
-            for column in range(order):
-                total += state_step[j, row, column] * x[column]
-            fresh[row] = total
-        for row in range(order):
-            x[row] = fresh[row]
+                own = axis[i]
+                a = applied[s, own.late]
+                if own.electronics == own.force:
+                    u[i] = inputs[a, i]
+                elif own.inner_input != 0:
+                    u[i] = _drive(axis, function, numbers, memory, i, inputs[a, i], shown[i], t, h)
+                elif a != before[i]:
+                    u[i] = _drive(
+                        axis, function, numbers, memory, i, inputs[a, i], shown[i], t,
+                        hold_s[s, own.late],
+                    )  # fmt: skip
+                    before[i] = a
+            for g in range(groups):
+                states, size = group[g].states, group[g].axes
+                at = input_at[g] + j * states * (2 * size + 1)
+                _linear(
+                    group, member, g, within, state_at[g] + j * states * states, into, at,
+                    u, force, x, fresh,
+                )  # fmt: skip
+                if forces:
+                    _forces(
+                        axis, function, numbers, memory, group, member, g, into, at, t, h, x, fresh
+                    )
+            for n in range(x.shape[0]):
+                x[n] = fresh[n]
+            t += h
+
+
+@numba.njit(cache=True, error_model="numpy")
+def rise_inputs(machine: Machine, moving: State, low: FloatArray, inputs: FloatArray) -> FloatArray:
+    """Let all inputs (axes,) rise from ``low`` long ago; return what reaches the mechanics."""
+    axis, function, numbers = machine.axis, machine.function, machine.numbers
+    memory = moving.memory
+    u = inputs.copy()
+    for step in range(_RISES + 1):
+        for i in range(u.shape[0]):
+            asked = low[i] + (inputs[i] - low[i]) * step / _RISES
+            own = axis[i].asked * asked
+            u[i] = _drive(axis, function, numbers, memory, i, asked, own, 0.0, _LONG_S)
+    return u
+
+
+@numba.njit(cache=True, error_model="numpy")
+def rise_positions(machine: Machine, moving: State, low: FloatArray, u: FloatArray) -> None:
+    """Let the effects on positions and readings have seen a rise from ``low`` (axes,) long ago."""
+    axis, function, numbers, output, state, weight, _, _ = machine
+    x, memory, seen = moving
+    rest, shown = np.zeros(output.shape[0]), np.zeros(output.shape[0])
+    none = np.zeros((0, 0))
+    _outputs(output, state, weight, x, u, rest)
+    for step in range(_RISES + 1):
+        shown[:] = rest
+        for i in range(u.shape[0]):
+            shown[i] = low[i] + (rest[i] - low[i]) * step / _RISES
+        for i in range(u.shape[0]):
+            for e in range(axis[i].motion, axis[i].end):
+                seen[e] = -_LONG_S
+            q = _position(axis, function, numbers, memory, seen, i, shown, 0.0)
+            _reading(axis, function, numbers, memory, seen, i, q, 0.0, 0, none)

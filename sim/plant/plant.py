@@ -1,63 +1,92 @@
-"""The nominal plant: what the model believes of a machine, sampled exactly."""
+"""A machine as the model sees it: the nominal plant with whatever effects sit on it, sampled."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
+from enum import IntEnum
 from typing import NamedTuple, Self
 
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.plant import kernel
+from rotemina.sim.plant.assembly import Assembly, assemble
+from rotemina.sim.plant.chance import Chance
+from rotemina.sim.plant.clocks import on_skewed_clocks
 from rotemina.sim.plant.equilibrium import rest
 from rotemina.sim.plant.errors import PlantError
-from rotemina.sim.plant.group import Group, groups_of
-from rotemina.sim.plant.sampling import Segments, cut, step_matrices
+from rotemina.sim.plant.group import Group
+from rotemina.sim.plant.lead import lead_of
+from rotemina.sim.plant.machine import Machine, phase_of, states_of
+from rotemina.sim.plant.perturbation import Perturbation
+from rotemina.sim.plant.sampling import cut
+from rotemina.sim.plant.steps import steps_through
 from rotemina.sim.robot.model import Axis, CascadeController, PiezoAxis, Robot, StepperAxis
+
+
+class Behind(IntEnum):
+    """What the inputs of a run have passed already."""
+
+    COMMAND = kernel.WHOLE
+    AMPLIFIER = kernel.BEHIND_AMPLIFIER
+    ACTUATOR = kernel.BEHIND_ACTUATOR
 
 
 class Motion(NamedTuple):
     """Response at n samples of all axes of a plant, each (n, axes), in the plant's order.
 
-    ``position`` m or rad, ``velocity`` m/s or rad/s (zero for static axes), ``inputs`` V, or the
-    commanded position of a stepper.
+    ``position`` m or rad as seen from outside, ``velocity`` of the axis itself, m/s or rad/s (zero
+    for static axes), ``inputs`` V as the amplifier gives them, or the commanded position of a
+    stepper, ``reading`` what the sensors say, offset included.
     """
 
     position: FloatArray
     velocity: FloatArray
     inputs: FloatArray
+    reading: FloatArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlantState:
     """Where a run stands, with the samples whose inputs still act or have yet to act.
 
-    ``time_s`` (h,), and ``inputs``, ``position``, ``velocity`` (h, axes) of the last h samples;
-    the very last is the present.
+    ``time_s`` (h,), and ``inputs`` (as asked for), ``position``, ``velocity``, ``reading``
+    (h, axes) of the last h samples; the very last is the present. ``elapsed_s`` is the time since
+    the run began; ``perturbation`` (axes,) is the Q that acts. ``x``, ``memory`` and ``seen`` are
+    the states of the axes and of their effects.
     """
 
     time_s: FloatArray
     inputs: FloatArray
     position: FloatArray
     velocity: FloatArray
+    reading: FloatArray
+    elapsed_s: float
+    perturbation: FloatArray
+    x: FloatArray
+    memory: FloatArray
+    seen: FloatArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Plant:
     """A robot prepared for simulation; make one by :meth:`of`.
 
-    ``axes`` are those of ``robot``, in its order; ``loops`` the controllers that are closed.
+    ``axes`` are those of ``robot``, in its order; ``groups`` those with dynamics, coupled;
+    ``loops`` the controllers that are closed.
     """
 
     robot: Robot
     axes: tuple[str, ...]
     groups: tuple[Group, ...]
     loops: tuple[CascadeController | None, ...]
+    assembly: Assembly
 
     @classmethod
     def of(
         cls, robot: Robot, *, closed_loop: bool = False, only: Collection[str] | None = None
     ) -> Self:
-        """Prepare a robot.
+        """Prepare a robot with its effects.
 
         Parameters
         ----------
@@ -65,16 +94,24 @@ class Plant:
         closed_loop : bool
             Put every axis that has a controller under it.
         only : collection of str, optional
-            Simulate these axes and those that a coupling joins to them; all by default.
+            Simulate these axes and those that a coupling or an effect joins to them; all by
+            default.
+
+        Raises
+        ------
+        EffectError
+            If an effect of the robot cannot be used.
         """
-        groups = groups_of(robot)
-        if only is not None:
-            groups = tuple(group for group in groups if set(only) & set(group.axes))
-            joined = {name for group in groups for name in group.axes} | set(only)
-            robot = _restricted(robot, joined)
+        assembly = assemble(robot, only)
+        robot = assembly.robot
         axes = tuple(robot.axes)
         loops = tuple(_controller(robot, name) if closed_loop else None for name in axes)
-        return cls(robot, axes, groups, loops)
+        return cls(robot, axes, assembly.groups, loops, assembly)
+
+    @property
+    def effects(self) -> Sequence[Attached]:
+        """The effects that act, in the robot's order."""
+        return self.assembly.effects
 
     def open_loop_inputs(self, command: FloatArray) -> FloatArray:
         """Return the inputs (n, axes) that a command (n, axes) asks for.
@@ -89,21 +126,100 @@ class Plant:
     def at_rest(self, time_s: float, command: FloatArray) -> PlantState:
         """Return the state in equilibrium with ``command`` (axes,), at ``time_s``.
 
-        An axis that a force moves is at its command, at rest.
+        An axis that a force moves is at its command, at rest. Effects with memory are as after a
+        rise from the low end of the range, long ago.
         """
         inputs = self.open_loop_inputs(command[None])[0]
-        position = self._static_position(inputs[None])[0]
+        risen, reached = self._risen(inputs)
+        position = self._static_position(reached[None])[0]
         for group in self.groups:
             index = self._index(group)
             loops = tuple(self.loops[i] for i in index)
-            position[index], inputs[index] = rest(group, inputs[index], command[index], loops)
-        return self.at(time_s, inputs, position, np.zeros(len(self.axes)))
+            position[index], settled = rest(group, reached[index], command[index], loops)
+            looped = [loop is not None for loop in loops]
+            inputs[index[looped]] = settled[looped]
+        still = np.zeros(len(self.axes))
+        state = self._placed(time_s, inputs, position, still, risen, reached)
+        return self._led_in(state, reached, command) if self.assembly.leads_in else state
 
     def at(
         self, time_s: float, inputs: FloatArray, position: FloatArray, velocity: FloatArray
     ) -> PlantState:
         """Return a given state, each (axes,), under inputs that hold until the first sample."""
-        return PlantState(np.array([time_s]), inputs[None], position[None], velocity[None])
+        return self._placed(time_s, inputs, position, velocity, *self._risen(inputs))
+
+    def _risen(self, inputs: FloatArray) -> tuple[kernel.State, FloatArray]:
+        """Return a state whose inputs rose long ago, and the inputs that reach the mechanics."""
+        assembly = self.assembly
+        state = kernel.State(
+            np.zeros(sum(group.states for group in assembly.all_groups)),
+            np.zeros(assembly.memory),
+            np.zeros(len(assembly.functions)),
+        )
+        if not self.effects:
+            return state, inputs
+        low = self.open_loop_inputs(self._low[None])[0]
+        return state, kernel.rise_inputs(assembly.machine, state, low, inputs)
+
+    def _placed(
+        self,
+        time_s: float,
+        inputs: FloatArray,
+        position: FloatArray,
+        velocity: FloatArray,
+        risen: kernel.State,
+        reached: FloatArray,
+    ) -> PlantState:
+        """Return a state whose axes are at ``position`` with ``velocity``, each (axes,)."""
+        groups = self.assembly.all_groups
+        for group, first in zip(groups, self.assembly.machine.group["first"], strict=True):
+            index = self._index(group)
+            own = group.settled(position[index], reached[index])
+            if not group.static:
+                own[group.size : 2 * group.size] = velocity[index]
+            risen.x[first : first + group.states] = own
+        if self.effects:
+            kernel.rise_positions(self.assembly.machine, risen, self._low, reached)
+        offset = np.array([axis.offset for axis in self.robot.axes.values()])
+        return PlantState(
+            np.array([time_s]),
+            inputs[None],
+            position[None],
+            velocity[None],
+            (position + offset)[None],
+            0.0,
+            np.zeros(len(self.axes)),
+            *risen,
+        )
+
+    def _led_in(self, state: PlantState, reached: FloatArray, command: FloatArray) -> PlantState:
+        """Return the state at rest that is found by letting the machine come to it."""
+        lead = lead_of(self.axes, self.effects)
+        back = lead.below / self.assembly.machine.axis["asked"]
+        _, after = self.advance(
+            state,
+            lead.time_s + state.time_s[-1],
+            np.tile(command, (len(back), 1)),
+            inputs=reached - back,
+            behind=Behind.ACTUATOR,
+        )
+        memory = state.memory.copy()
+        for one, function in zip(
+            self.assembly.functions, self.assembly.machine.function, strict=True
+        ):
+            if phase_of(one) == "force":
+                own = slice(function["memory_at"], function["memory_at"] + states_of(one))
+                memory[own] = after.memory[own]
+        looped = np.array([loop is not None for loop in self.loops])
+        inputs = np.where(looped, after.inputs[-1:], state.inputs)
+        settled = kernel.State(after.x, memory, state.seen.copy())
+        kernel.rise_positions(self.assembly.machine, settled, self._low, reached)
+        return replace(state, inputs=inputs, x=after.x, memory=memory, seen=settled.seen)
+
+    @property
+    def _low(self) -> FloatArray:
+        """The low ends (axes,) of the ranges."""
+        return np.array([axis.range[0] for axis in self.robot.axes.values()], dtype=np.float64)
 
     def advance(
         self,
@@ -113,6 +229,9 @@ class Plant:
         *,
         add: FloatArray | None = None,
         inputs: FloatArray | None = None,
+        behind: Behind = Behind.COMMAND,
+        perturbation: Perturbation | None = None,
+        chance: Chance | None = None,
     ) -> tuple[Motion, PlantState]:
         """Sample the response to ``command`` and return it with the state after it.
 
@@ -129,8 +248,13 @@ class Plant:
         add : (n, axes), optional
             V, added to the controllers' outputs.
         inputs : (n, axes), optional
-            Inputs of the axes without a closed loop instead of those that the command asks for:
-            what an amplifier really put out, V.
+            Inputs of the axes without a closed loop instead of those that the command asks for, V.
+        behind : Behind
+            What the inputs have passed already: effects before it are left out.
+        perturbation : Perturbation, optional
+            Q of Eq. (1), n rows.
+        chance : Chance, optional
+            Noise, rounding and random effects; without it the plant is what a model can know.
 
         Raises
         ------
@@ -139,63 +263,97 @@ class Plant:
         """
         # A sample at the state's own time replaces it; later ones find it as their history.
         history = len(state.time_s) if time_s[0] > state.time_s[-1] else 0
-        given = self.open_loop_inputs(command) if inputs is None else inputs
-        stack = _Stack(
-            first=history,
-            time_s=np.concatenate([state.time_s[:history], time_s]),
-            inputs=np.concatenate([state.inputs[:history], given]),
-            position=_extended(state.position[:history], len(time_s)),
-            velocity=_extended(state.velocity[:history], len(time_s)),
-            command=np.ascontiguousarray(command),
-            add=np.empty((0, len(self.axes))) if add is None else np.ascontiguousarray(add),
+        asked = self.open_loop_inputs(command) if inputs is None else inputs
+        stack = _Stack.of(state, history, time_s, asked)
+        # Effects count time from the start of the run, whatever the samples' times count from.
+        clock_s = stack.time_s + (state.elapsed_s - state.time_s[-1])
+        given = self._given(
+            state.perturbation, clock_s[history:], history, command, add, perturbation, chance
         )
-        if any(axis.static for axis in self.robot.axes.values()):
-            stack.position[history:] = self._static_position(stack.inputs[history:])
-            stack.velocity[history:] = 0.0
-        delays = self._delays()
-        segments = cut(stack.time_s, history, delays)
-        for group in self.groups:
-            self._run(group, stack, segments, delays, state)
-        self._check(stack, history)
-        motion = Motion(
-            *(array[history:] for array in (stack.position, stack.velocity, stack.inputs))
-        )
-        return motion, self._after(stack)
-
-    def _run(
-        self,
-        group: Group,
-        stack: "_Stack",
-        segments: Segments,
-        delays: tuple[float, ...],
-        state: PlantState,
-    ) -> None:
-        index = self._index(group)
-        loops = [self.loops[i] for i in index]
-        state_step, input_step = step_matrices(group, segments.lengths_s)
+        given = given._replace(time_s=clock_s)
+        electronics = self.assembly.electronics and behind is Behind.COMMAND
+        effort = np.empty_like(stack.inputs) if electronics else stack.inputs
+        moved = kernel.State(state.x.copy(), state.memory.copy(), state.seen.copy())
         kernel.run(
-            state_step,
-            input_step,
-            segments.step,
-            segments.sample,
-            segments.applied,
-            np.array([delays.index(_delay(loop)) for loop in loops], dtype=np.int64),
-            index,
-            stack.first,
-            stack.time_s,
-            stack.command,
-            stack.add,
-            np.array([_loop_code(loop) for loop in loops], dtype=np.int64),
-            np.array([_loop_gains(loop) for loop in loops]),
-            stack.inputs,
-            stack.position,
-            stack.velocity,
-            np.concatenate([state.position[-1, index], state.velocity[-1, index]]),
+            self._machine(behind),
+            self._steps(stack.time_s, history),
+            given,
+            stack.taken(effort if electronics else effort[:0]),
+            moved,
+            float(clock_s[max(history - 1, 0)]),
         )
+        self._check(stack)
+        reading = on_skewed_clocks(
+            self.assembly.skews,
+            stack.position,
+            stack.reading,
+            clock_s,
+            self.robot,
+            rounded=chance is not None,
+        )
+        last = state.perturbation if perturbation is None else perturbation.acceleration[-1]
+        new = slice(history, None)
+        motion = Motion(stack.position[new], stack.velocity[new], effort[new], reading[new])
+        return motion, self._after(stack, moved, float(clock_s[-1]), last)
+
+    def _given(
+        self,
+        shaken: FloatArray,
+        clock_s: FloatArray,
+        first: int,
+        command: FloatArray,
+        add: FloatArray | None,
+        perturbation: Perturbation | None,
+        chance: Chance | None,
+    ) -> kernel.Given:
+        axes, rows = len(self.axes), len(clock_s)
+        force, kick = np.zeros((0, axes)), np.zeros((0, 0))
+        if perturbation is not None:
+            force = perturbation.forces(shaken)
+            kick = perturbation.kicks(shaken, self.axes, self.assembly.all_groups)
+        drawn = np.zeros((0, axes))
+        if chance is not None:
+            drawn = chance.draw(rows, axes, self.assembly.random)
+        return kernel.Given(
+            first,
+            clock_s,
+            np.ascontiguousarray(command),
+            np.zeros((0, axes)) if add is None else np.ascontiguousarray(add),
+            force,
+            kick,
+            drawn,
+        )
+
+    def _steps(self, time_s: FloatArray, first: int) -> kernel.Steps:
+        return steps_through(
+            cut(time_s, first, tuple(sorted(set(self._delays())))),
+            self.assembly.all_groups,
+            inner_step_s=self.assembly.inner_step_s,
+            with_holds=bool(self.effects),
+        )
+
+    def _machine(self, behind: Behind) -> Machine:
+        """Return the tables with the loops entered."""
+        machine = self.assembly.machine
+        axis = machine.axis.copy()
+        delays = self._delays()
+        distinct = sorted(set(delays))
+        axis["late"] = [distinct.index(delay) for delay in delays]
+        for row, loop in zip(axis, self.loops, strict=True):
+            if loop is None:
+                row["part"] = behind
+            else:
+                row["kp"], row["kv"], row["limit"] = loop.kp, loop.kv, loop.limit
+                by_state = loop.velocity == "state"
+                row["loop"] = kernel.STATE_VELOCITY if by_state else kernel.BACKWARD_VELOCITY
+        return machine._replace(axis=axis)
 
     def _delays(self) -> tuple[float, ...]:
-        """Return the different delays of the axes' inputs, s."""
-        return tuple(sorted({_delay(loop) for loop in self.loops}))
+        """Return the delay of each axis' input, s."""
+        return tuple(
+            (loop.delay_s if loop else 0.0) + self.assembly.delays_s[i]
+            for i, loop in enumerate(self.loops)
+        )
 
     def _static_position(self, inputs: FloatArray) -> FloatArray:
         """Position (n, axes) of the static axes, ``gain·u`` or the command; 0 for the others."""
@@ -209,40 +367,67 @@ class Plant:
     def _index(self, group: Group) -> IntArray:
         return np.array([self.axes.index(name) for name in group.axes], dtype=np.int64)
 
-    def _after(self, stack: "_Stack") -> PlantState:
+    def _after(
+        self, stack: "_Stack", moved: kernel.State, elapsed_s: float, perturbation: FloatArray
+    ) -> PlantState:
         """Keep the present and every sample whose delayed input has yet to act or acts now."""
-        since_s = stack.time_s[-1] - max(self._delays())
+        lag_s = max(self.assembly.skews.values(), default=0.0) * elapsed_s
+        since_s = stack.time_s[-1] - max(*self._delays(), lag_s, 0.0)
         first = int(np.searchsorted(stack.time_s, since_s, side="right")) - 1
-        first = max(first, 0)
+        kept = slice(max(first, 0), None)
         return PlantState(
-            stack.time_s[first:].copy(),
-            stack.inputs[first:].copy(),
-            stack.position[first:].copy(),
-            stack.velocity[first:].copy(),
+            stack.time_s[kept].copy(),
+            stack.inputs[kept].copy(),
+            stack.position[kept].copy(),
+            stack.velocity[kept].copy(),
+            stack.reading[kept].copy(),
+            elapsed_s,
+            perturbation,
+            moved.x,
+            moved.memory,
+            moved.seen,
         )
 
-    def _check(self, stack: "_Stack", history: int) -> None:
-        finite = np.isfinite(stack.position)
+    def _check(self, stack: "_Stack") -> None:
+        finite = np.isfinite(stack.position[stack.first :])
         if finite.all():
             return
         row = int(np.argmax(~finite.all(axis=1)))
         axis = self.axes[int(np.argmax(~finite[row]))]
+        named = "".join(f" {one.asked.id} on {one.asked.axis}," for one in self.effects)
         raise PlantError(
             f"axis {axis}: the response grows beyond what a number can hold at "
-            f"t = {stack.time_s[row]:.6g} s; check the commands and the controller's gains"
+            f"t = {stack.time_s[stack.first + row]:.6g} s; check the commands,{named} "
+            "and the controller's gains"
         )
 
 
 class _Stack(NamedTuple):
-    """All arrays of one call: history rows first, but for ``command`` and ``add``."""
+    """The rows of one call, those of the history first."""
 
     first: int
     time_s: FloatArray
     inputs: FloatArray
     position: FloatArray
     velocity: FloatArray
-    command: FloatArray
-    add: FloatArray
+    reading: FloatArray
+
+    @classmethod
+    def of(cls, state: PlantState, history: int, time_s: FloatArray, inputs: FloatArray) -> Self:
+        """Make room for the rows to come behind those of the history."""
+        old = slice(0, history)
+        return cls(
+            history,
+            np.concatenate([state.time_s[old], time_s]),
+            np.concatenate([state.inputs[old], inputs]),
+            _extended(state.position[old], len(time_s)),
+            _extended(state.velocity[old], len(time_s)),
+            _extended(state.reading[old], len(time_s)),
+        )
+
+    def taken(self, effort: FloatArray) -> kernel.Taken:
+        """Return what the compiled loop fills in."""
+        return kernel.Taken(self.inputs, effort, self.position, self.velocity, self.reading)
 
 
 def _extended(history: FloatArray, rows: int) -> FloatArray:
@@ -250,16 +435,6 @@ def _extended(history: FloatArray, rows: int) -> FloatArray:
     extended = np.empty((len(history) + rows, history.shape[1]))
     extended[: len(history)] = history
     return extended
-
-
-def _restricted(robot: Robot, names: Collection[str]) -> Robot:
-    """Return the robot with some of its axes alone."""
-    return replace(
-        robot,
-        axes={name: axis for name, axis in robot.axes.items() if name in names},
-        couplings=tuple(c for c in robot.couplings if set(c.axes) <= set(names)),
-        stages={},
-    )
 
 
 def _input_per_command(axis: Axis) -> float:
@@ -271,17 +446,3 @@ def _input_per_command(axis: Axis) -> float:
 def _controller(robot: Robot, name: str) -> CascadeController | None:
     axis = robot.axes[name]
     return None if isinstance(axis, StepperAxis) else axis.controller
-
-
-def _delay(loop: CascadeController | None) -> float:
-    return loop.delay_s if loop else 0.0
-
-
-def _loop_code(loop: CascadeController | None) -> int:
-    if loop is None:
-        return kernel.NO_LOOP
-    return kernel.STATE_VELOCITY if loop.velocity == "state" else kernel.BACKWARD_VELOCITY
-
-
-def _loop_gains(loop: CascadeController | None) -> tuple[float, float, float]:
-    return (loop.kp, loop.kv, loop.limit) if loop else (0.0, 0.0, 0.0)

@@ -1,4 +1,4 @@
-"""The nominal response to a record's commands, with what came before its first row."""
+"""A robot's response to a record's commands, with what came before its first row."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.history import measured_start, steady_start
-from rotemina.sim.plant.plant import Motion, Plant
+from rotemina.sim.plant.plant import Behind, Motion, Plant
 from rotemina.sim.plant.run import Run
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import ForceAxis, Robot, StepperAxis
@@ -16,7 +16,7 @@ from rotemina.sim.robot.model import ForceAxis, Robot, StepperAxis
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Response:
-    """What the nominal model answers: one (n,) array per axis and tap, SI.
+    """What the model answers: one (n,) array per axis and tap, SI.
 
     ``signals`` maps (axis, tap) for the taps ``u`` (not of steppers), ``ref`` and ``meas``.
     """
@@ -31,7 +31,7 @@ class Response:
 
 
 def nominal_response(robot: Robot, record: Record, *, drive: Tap = Tap.CMD) -> Response:
-    """Simulate the nominal plant over the commands of ``record``.
+    """Simulate a robot, with the effects that its file gives it, over the commands of ``record``.
 
     The axes of the record, and those that a coupling joins to them, are simulated; the latter are
     commanded to the middle of their range and stay there but for what the coupling does.
@@ -44,8 +44,8 @@ def nominal_response(robot: Robot, record: Record, *, drive: Tap = Tap.CMD) -> R
         (``unknown``), or in the steady state (``periodic``).
     drive : {Tap.CMD, Tap.U}
         ``CMD``: by the commands; in a closed-loop record, axes with a controller are under it.
-        ``U``: the part behind the amplifier, by the measured ``u``, every loop open; steppers,
-        which have no ``u``, by their commands.
+        ``U``: the part behind the amplifier, by the measured ``u``, every loop open and effects
+        of the electronics left out; steppers, which have no ``u``, by their commands.
 
     Raises
     ------
@@ -53,20 +53,28 @@ def nominal_response(robot: Robot, record: Record, *, drive: Tap = Tap.CMD) -> R
         If the record names an axis that the robot lacks, has no command of one, lacks a ``u``
         that is needed, or has no steady state although it is periodic.
     """
-    _check_axes(robot, record)
+    check_axes(robot, record)
     plant = Plant.of(robot, closed_loop=record.closed_loop and drive is Tap.CMD, only=record.axes)
-    run = _run(plant, record, drive)
+    run = run_of(plant, record, drive)
     if record.history == "periodic":
         state = steady_start(plant, run, record.period_samples)
     elif record.history == "unknown":
         state = measured_start(plant, record, run)
     else:
         state = plant.at_rest(run.time_s[0], run.command[0])
-    motion, _ = plant.advance(state, run.time_s, run.command, add=run.add, inputs=run.inputs)
+    motion, _ = plant.advance(
+        state,
+        run.time_s,
+        run.command,
+        add=run.add,
+        inputs=run.inputs,
+        behind=Behind.AMPLIFIER if drive is Tap.U else Behind.COMMAND,
+    )
     return _response(plant, record, motion)
 
 
-def _check_axes(robot: Robot, record: Record) -> None:
+def check_axes(robot: Robot, record: Record) -> None:
+    """Raise :class:`PlantError` if a record names an unknown axis, or gives one no command."""
     for axis in record.axes:
         if axis not in robot.axes:
             known = ", ".join(robot.axes)
@@ -77,7 +85,8 @@ def _check_axes(robot: Robot, record: Record) -> None:
             )
 
 
-def _run(plant: Plant, record: Record, drive: Tap) -> Run:
+def run_of(plant: Plant, record: Record, drive: Tap = Tap.CMD) -> Run:
+    """Return what a record drives a plant with; axes that it lacks rest in mid-range."""
     rows = len(record.time_s)
     middle = [sum(axis.range) / 2.0 for axis in plant.robot.axes.values()]
     command, add = np.tile(middle, (rows, 1)), np.zeros((rows, len(plant.axes)))
@@ -117,10 +126,9 @@ def _response(plant: Plant, record: Record, motion: Motion) -> Response:
     for column, name in enumerate(plant.axes):
         if name not in record.axes:
             continue
-        axis = plant.robot.axes[name]
-        if not isinstance(axis, StepperAxis):
+        if not isinstance(plant.robot.axes[name], StepperAxis):
             signals[name, Tap.U] = motion.inputs[:, column]
         signals[name, Tap.REF] = motion.position[:, column]
-        signals[name, Tap.MEAS] = motion.position[:, column] + axis.offset
+        signals[name, Tap.MEAS] = motion.reading[:, column]
     velocity = {name: motion.velocity[:, plant.axes.index(name)] for name in record.axes}
     return Response(record.time_s, signals, velocity)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.linalg import expm, matrix_balance
+from scipy.linalg import matrix_balance
 
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.plant.errors import PlantError
@@ -111,22 +111,32 @@ def _distinct(lengths: IntArray) -> tuple[IntArray, IntArray]:
 
 
 def step_matrices(group: Group, lengths_s: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return exact steps over each length: state (k, 2m, 2m) and input (k, 2m, m + 1) matrices.
+    """Return exact steps over each length: state (k, n, n) and input (k, n, 2m + 1) matrices.
 
-    The last input column belongs to the constant force.
+    The input columns are the m inputs, the constant force, and a unit force on each axis.
     """
     if len(lengths_s) <= _FEW_LENGTHS:  # a live run asks for the same few lengths again and again
         exact = np.stack([_step(group, float(length)) for length in lengths_s])
     else:
         exact = _many_steps(group, lengths_s)
-    states = 2 * group.size
+    states = group.states
     return np.ascontiguousarray(exact[:, :, :states]), np.ascontiguousarray(exact[:, :, states:])
 
 
 @lru_cache(maxsize=512)
 def _step(group: Group, length_s: float) -> FloatArray:
-    exact: FloatArray = expm(length_s * group.generator)[: 2 * group.size]
-    return exact
+    """Return ``exp(A h)``: power series of a part of the step, squared up to the whole.
+
+    Without the linear solves of a Padé approximation, which a parallel linear algebra library
+    makes slow for matrices as small as these.
+    """
+    balanced, scale = matrix_balance(group.generator, permute=False, separate=True)
+    scale = scale[0]
+    doublings = max(int(np.ceil(np.log2(2.0 * length_s * np.linalg.norm(balanced, 1) + 1e-300))), 0)
+    exact = _series(balanced, np.array([length_s * 0.5**doublings]))[0]
+    for _ in range(doublings):
+        exact = exact @ exact
+    return np.asarray((exact * scale[:, None] / scale)[: group.states])
 
 
 def _many_steps(group: Group, lengths_s: FloatArray) -> FloatArray:
@@ -139,7 +149,7 @@ def _many_steps(group: Group, lengths_s: FloatArray) -> FloatArray:
     pitch = 1.0 / float(np.linalg.norm(balanced, 1))
     bucket = np.rint(lengths_s / pitch).astype(np.int64)
     series = _series(group.generator, lengths_s - bucket * pitch)
-    exact = np.empty((len(lengths_s), 2 * group.size, len(group.generator)))
+    exact = np.empty((len(lengths_s), group.states, len(group.generator)))
     for number in np.unique(bucket):
         members = bucket == number
         exact[members] = _step(group, float(number * pitch)) @ series[members]

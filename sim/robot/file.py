@@ -14,6 +14,8 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, TypeAdapter, ValidationError
 from pydantic.dataclasses import dataclass
 
+from rotemina.sim.effects.attachment import Attached, parse_effect
+from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.robot.consistency import Problem, find_problem
 from rotemina.sim.robot.errors import RobotFileError
 from rotemina.sim.robot.model import (
@@ -104,8 +106,9 @@ def parse_robot(text: str, source: str = "robot file") -> Robot:
 
 
 def _build(table: dict[str, Any], source: str) -> Robot:
+    plain, effect_tables = _apart(table, source)
     try:
-        parsed = _SCHEMA.validate_python(table)
+        parsed = _SCHEMA.validate_python(plain)
     except ValidationError as error:
         raise RobotFileError(f"{source}: {describe(error)}") from error
     names = parsed.robot.axes
@@ -115,6 +118,42 @@ def _build(table: dict[str, Any], source: str) -> Robot:
         problem = find_problem(robot)
     if problem is not None:
         raise RobotFileError(f"{source}: {problem}")
+    return _with_effects(robot, effect_tables, source)
+
+
+def _apart(
+    table: dict[str, Any], source: str
+) -> tuple[dict[str, Any], list[tuple[str, dict[str, Any]]]]:
+    """Return the description without its effects, and the effects by axis."""
+    axes = table.get("axis")
+    if not isinstance(axes, dict):
+        return table, []
+    plain: dict[str, Any] = {}
+    effects: list[tuple[str, dict[str, Any]]] = []
+    for name, axis in axes.items():
+        if not isinstance(axis, dict) or "effect" not in axis:
+            plain[name] = axis
+            continue
+        plain[name] = {key: value for key, value in axis.items() if key != "effect"}
+        tables = axis["effect"]
+        if not isinstance(tables, list) or not all(isinstance(t, dict) for t in tables):
+            raise RobotFileError(
+                f"{source}: axis.{name}.effect: must be tables, each headed [[axis.{name}.effect]]"
+            )
+        effects += [(name, one) for one in tables]
+    return {**table, "axis": plain}, effects
+
+
+def _with_effects(robot: Robot, tables: list[tuple[str, dict[str, Any]]], source: str) -> Robot:
+    if not tables:
+        return robot
+    try:
+        effects = tuple(parse_effect(axis, table) for axis, table in tables)
+        robot = replace(robot, effects=effects)
+        for effect in effects:
+            Attached.of(robot, effect)
+    except EffectError as error:
+        raise RobotFileError(f"{source}: {error}") from error
     return robot
 
 

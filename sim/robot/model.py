@@ -149,6 +149,21 @@ class Coupling:
     value: Number
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AxisEffect:
+    """An effect that sits on an axis, as a robot file names it (:mod:`rotemina.sim.effects`).
+
+    ``parameters`` are SI; those left out have their preset. ``formulation`` None is the usual one.
+    """
+
+    axis: str
+    id: str
+    formulation: str | None = None
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    from_axis: str | None = None
+    enabled: bool = True
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
 class ReferenceNoise:
     """White noise of the independent reference, m and rad."""
@@ -195,7 +210,8 @@ class KeepOut:
 class Robot:
     """A machine: named axes in the order of ``q``, their coupling and their surroundings.
 
-    ``stages`` names groups of axes for the operator; ``pin_length`` and ``piezo_lever_arm`` in m.
+    ``stages`` names groups of axes for the operator; ``pin_length`` and ``piezo_lever_arm`` in m;
+    ``effects`` are what makes it imperfect, in the order in which a signal meets them.
     """
 
     name: str
@@ -208,6 +224,7 @@ class Robot:
     tool: Tool = field(default_factory=Tool)
     microscope: Microscope = field(default_factory=Microscope)
     keep_out: KeepOut = field(default_factory=KeepOut)
+    effects: tuple[AxisEffect, ...] = ()
 
     def unit(self, axis: str) -> str | None:
         """Return ``"m"`` or ``"rad"``, or None where the robot file leaves it to the record."""

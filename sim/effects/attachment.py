@@ -1,0 +1,166 @@
+"""Effects on the axes of a robot: what a robot file says of them, checked.
+
+In a robot file::
+
+    [[axis.thx.effect]]
+    id = "hysteresis"
+    formulation = "bouc_wen"    # the usual one without
+    width = 1.1e-4              # parameters, SI; those left out have their preset
+    from_axis = "thy"           # for effects that come from another axis
+    enabled = true
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import isfinite
+from typing import Any, Self
+
+from rotemina.sim.effects.errors import EffectError
+from rotemina.sim.effects.facts import Facts
+from rotemina.sim.effects.formulation import Change, Effect, Force, Formulation, Parameter
+from rotemina.sim.effects.registry import effect_named
+from rotemina.sim.robot.model import Axis, AxisEffect, Robot
+
+RESERVED = ("id", "formulation", "from_axis", "enabled")
+_SLACK = 1e-9  # of bounds: a value may have been printed and read on its way
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Attached:
+    """An effect on an axis, with everything that its simulation needs."""
+
+    asked: AxisEffect
+    effect: Effect
+    formulation: Formulation
+    facts: Facts
+
+    @classmethod
+    def of(cls, robot: Robot, asked: AxisEffect) -> Self:
+        """Look up and check one effect of a robot.
+
+        Raises
+        ------
+        EffectError
+            With axis, effect, parameter, value and bound.
+        """
+        effect = effect_named(asked.id)
+        where = f"axis.{asked.axis}.effect {asked.id}"
+        axis = robot.axes.get(asked.axis)
+        if axis is None:
+            raise EffectError(f"{where}: the robot has no such axis; it has {list(robot.axes)}")
+        formulation = _formulation(effect, asked.formulation, where)
+        _check_place(effect, formulation, axis, where)
+        _check_source(effect, asked, robot, where)
+        facts = Facts.of(axis)
+        for name, value in asked.parameters.items():
+            _check_value(formulation, name, value, facts, where)
+        return cls(asked, effect, formulation, facts)
+
+    @property
+    def values(self) -> dict[str, float]:
+        """All parameters by name, SI, presets included."""
+        given = self.asked.parameters
+        return {
+            p.name: float(given.get(p.name, p.preset(self.facts)))
+            for p in self.formulation.parameters
+        }
+
+
+def attached_effects(robot: Robot) -> tuple[Attached, ...]:
+    """Return the enabled effects of a robot, in its order.
+
+    Raises
+    ------
+    EffectError
+        With axis, effect, parameter, value and bound.
+    """
+    return tuple(Attached.of(robot, asked) for asked in robot.effects if asked.enabled)
+
+
+def parse_effect(axis: str, table: Mapping[str, Any]) -> AxisEffect:
+    """Read one ``[[axis.NAME.effect]]`` table; bounds are checked by :meth:`Attached.of`.
+
+    Raises
+    ------
+    EffectError
+        If a key is missing or of the wrong type.
+    """
+    where = f"axis.{axis}.effect"
+    effect_id = table.get("id")
+    if not isinstance(effect_id, str):
+        raise EffectError(f"{where}.id = {effect_id!r}: must be the id of an effect, a text")
+    where = f"{where} {effect_id}"
+    formulation, from_axis = table.get("formulation"), table.get("from_axis")
+    for key, text in (("formulation", formulation), ("from_axis", from_axis)):
+        if text is not None and not isinstance(text, str):
+            raise EffectError(f"{where}.{key} = {text!r}: must be a text")
+    enabled = table.get("enabled", True)
+    if not isinstance(enabled, bool):
+        raise EffectError(f"{where}.enabled = {enabled!r}: must be true or false")
+    parameters = {key: value for key, value in table.items() if key not in RESERVED}
+    for key, value in parameters.items():
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise EffectError(f"{where}.{key} = {value!r}: must be a number")
+    return AxisEffect(
+        axis=axis,
+        id=effect_id,
+        formulation=formulation,
+        parameters={key: float(value) for key, value in parameters.items()},
+        from_axis=from_axis,
+        enabled=enabled,
+    )
+
+
+def _formulation(effect: Effect, name: str | None, where: str) -> Formulation:
+    formulation = effect.formulation(name)
+    if formulation is None:
+        known = ", ".join(f.name for f in effect.formulations)
+        raise EffectError(f"{where}.formulation = {name!r}: must be one of {known}")
+    return formulation
+
+
+def _check_place(effect: Effect, formulation: Formulation, axis: Axis, where: str) -> None:
+    if axis.kind not in effect.kinds:
+        allowed = ", ".join(sorted(effect.kinds))
+        raise EffectError(
+            f"{where}: sits on an axis of kind {allowed}; this one is of kind {axis.kind!r}"
+        )
+    if axis.static and isinstance(formulation.acts, Force | Change):
+        raise EffectError(
+            f"{where}: formulation {formulation.name!r} acts on the dynamics of an axis, and this "
+            "one is static; give it mass, damping and stiffness or choose another formulation"
+        )
+
+
+def _check_source(effect: Effect, asked: AxisEffect, robot: Robot, where: str) -> None:
+    if not effect.coupled:
+        if asked.from_axis is not None:
+            raise EffectError(
+                f"{where}.from_axis = {asked.from_axis!r}: this effect comes from no other axis; "
+                "remove it"
+            )
+        return
+    others = [name for name in robot.axes if name != asked.axis]
+    if asked.from_axis not in others:
+        raise EffectError(f"{where}.from_axis = {asked.from_axis!r}: must be one of {others}")
+
+
+def _check_value(
+    formulation: Formulation, name: str, value: float, facts: Facts, where: str
+) -> None:
+    parameter = formulation.parameter(name)
+    if parameter is None:
+        known = ", ".join(p.name for p in formulation.parameters)
+        raise EffectError(
+            f"{where}.{name} = {value:g}: formulation {formulation.name!r} has no such parameter; "
+            f"it has {known}"
+        )
+    low, high = parameter.bounds(facts)
+    slack = _SLACK * max(abs(low), abs(high))
+    if not isfinite(value) or not low - slack <= value <= high + slack:
+        raise EffectError(f"{where}.{name} = {value:g}: {_between(parameter, low, high, facts)}")
+
+
+def _between(parameter: Parameter, low: float, high: float, facts: Facts) -> str:
+    unit = parameter.unit_on(facts)
+    return f"must be between {low:g} and {high:g} {unit}".rstrip()

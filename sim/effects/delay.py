@@ -1,0 +1,29 @@
+"""Transport delay: everything happens later, and nothing else."""
+
+from rotemina.sim.effects.formulation import (
+    EVERY_KIND,
+    Effect,
+    Formulation,
+    Late,
+    Parameter,
+    Stage,
+    Trait,
+)
+
+DELAY = Effect(
+    id="delay",
+    title="Delay",
+    summary="The phase grows with frequency while the gain stays 1.",
+    stage=Stage.ELECTRONICS,
+    kinds=EVERY_KIND,
+    formulations=(
+        Formulation(
+            name="transport",
+            equation="y(t) = x(t − T), of any length, not only whole samples",
+            source="definition",
+            parameters=(Parameter("delay", "T", "s", 0.0, 0.1, 1e-3),),
+            acts=Late(delay_s=lambda values: values["delay"]),
+            traits=frozenset({Trait.LINEAR, Trait.TRANSIENT, Trait.MEMORYLESS}),
+        ),
+    ),
+)

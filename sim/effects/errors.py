@@ -1,0 +1,7 @@
+"""Errors of effects."""
+
+from rotemina.sim.errors import InputError
+
+
+class EffectError(InputError):
+    """An effect that cannot sit where it is asked to, or one of its parameters out of bounds."""

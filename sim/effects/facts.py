@@ -1,0 +1,113 @@
+"""What an effect may know of the axis that it sits on."""
+
+from dataclasses import dataclass
+from math import pi, sqrt
+from typing import Self
+
+from rotemina.sim.robot.model import Axis, ForceAxis, PiezoAxis, StepperAxis
+
+_FORCE_SHARE = 1e-4  # of stiffness times range: a force that bends an axis noticeably
+_PITCHES = 50  # that a range is taken to hold where the robot file names no screw
+_STEPS_PER_PITCH = 200
+_PACE_HZ = 100.0
+
+
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """Figures of one axis, SI; those that a robot file leaves out have a stand-in.
+
+    Attributes
+    ----------
+    kind : str
+        ``piezo``, ``stepper`` or ``force``.
+    unit : str
+        Of positions: ``m`` or ``rad``.
+    low, high, span : float
+        Ends and length of the range.
+    input_low, input_high, input_span : float
+        Of the input: V, or the commanded position of a stepper.
+    gain : float
+        Position per volt of a piezo, N/V of a force axis, 1 of a stepper.
+    mass, damping, stiffness : float
+        0 where there is none.
+    frequency_hz, damping_ratio : float
+        Of the axis alone; 0 where nothing holds it.
+    pace_hz : float
+        Its frequency; 100 Hz where it has none.
+    force : float
+        A force (N, or N m) that the axis notices.
+    pitch, full_step : float
+        Of the screw.
+    """
+
+    kind: str
+    unit: str
+    low: float
+    high: float
+    span: float
+    input_low: float
+    input_high: float
+    input_span: float
+    gain: float
+    mass: float
+    damping: float
+    stiffness: float
+    frequency_hz: float
+    damping_ratio: float
+    pace_hz: float
+    force: float
+    pitch: float
+    full_step: float
+
+    @classmethod
+    def of(cls, axis: Axis) -> Self:
+        """Gather the figures of an axis."""
+        low, high = axis.range
+        gain = 1.0 if isinstance(axis, StepperAxis) else axis.gain
+        inputs = _inputs(axis)
+        inertia = axis.inertia
+        mass, damping, stiffness = inertia if inertia is not None else (0.0, 0.0, 0.0)
+        rate = sqrt(stiffness / mass) if mass > 0.0 else 0.0
+        pitch = axis.pitch if isinstance(axis, StepperAxis) else None
+        steps = axis.steps_per_rev if isinstance(axis, StepperAxis) else None
+        pitch = pitch or (high - low) / _PITCHES
+        return cls(
+            kind=axis.kind,
+            unit=axis.unit or "m",
+            low=low,
+            high=high,
+            span=high - low,
+            input_low=inputs[0],
+            input_high=inputs[1],
+            input_span=inputs[1] - inputs[0],
+            gain=gain,
+            mass=mass,
+            damping=damping,
+            stiffness=stiffness,
+            frequency_hz=rate / (2.0 * pi),
+            damping_ratio=damping / (2.0 * mass * rate) if rate > 0.0 else 0.0,
+            pace_hz=rate / (2.0 * pi) or _PACE_HZ,
+            force=_force(axis, stiffness, inputs),
+            pitch=pitch,
+            full_step=pitch / (steps or _STEPS_PER_PITCH),
+        )
+
+
+def _inputs(axis: Axis) -> tuple[float, float]:
+    """Return the ends of the input's range."""
+    if isinstance(axis, StepperAxis):
+        return axis.range
+    if isinstance(axis, PiezoAxis):
+        reached = sorted(bound / axis.gain for bound in axis.range)
+        low, high = axis.voltage_range or (reached[0], reached[1])
+        return low, high
+    if axis.voltage_range is not None:
+        return axis.voltage_range
+    limit = axis.controller.limit if axis.controller is not None else 10.0
+    return -limit, limit
+
+
+def _force(axis: Axis, stiffness: float, inputs: tuple[float, float]) -> float:
+    if isinstance(axis, ForceAxis):
+        return abs(axis.gain) * (inputs[1] - inputs[0])
+    return _FORCE_SHARE * stiffness * axis.span

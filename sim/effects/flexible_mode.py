@@ -1,0 +1,112 @@
+"""A further mode of vibration, which the nominal model of the axis lacks."""
+
+import numpy as np
+
+from rotemina.sim.effects.facts import Facts
+from rotemina.sim.effects.formulation import (
+    EVERY_KIND,
+    Effect,
+    Formulation,
+    LinearPart,
+    Parameter,
+    Part,
+    Stage,
+    Trait,
+    Values,
+)
+
+FREQUENCY = Parameter("frequency", "of the mode", "Hz", 0.02, 50.0, 1.7, per="pace_hz")
+DAMPING = Parameter("damping_ratio", "of the mode", "", 1e-4, 2.0, 0.03)
+
+
+def _oscillator(values: Values) -> tuple[float, float]:
+    rate = 2.0 * np.pi * values["frequency"]
+    return rate, 2.0 * values["damping_ratio"] * rate
+
+
+def _appendage(values: Values, facts: Facts) -> LinearPart:
+    """A mass on a spring that hangs on the axis: ``μ ξ̈ = −f``, f the force on the axis."""
+    rate, loss = _oscillator(values)
+    mass = values["mass_ratio"] * facts.mass
+    return LinearPart(
+        a=np.array([[0.0, 1.0], [-(rate**2), -loss]]),
+        b=np.array([[0.0, 0.0, 0.0], [rate**2, loss, 0.0]]),
+        output=np.zeros(2),
+        force=mass * np.array([rate**2, loss]),
+        reaction=(-mass * rate**2, -mass * loss),
+    )
+
+
+def _parallel(values: Values, _facts: Facts) -> LinearPart:
+    """A second way from the input to the position, with a mode of its own."""
+    rate, loss = _oscillator(values)
+    share = values["share"]
+    return LinearPart(
+        a=np.array([[0.0, 1.0], [-(rate**2), -loss]]),
+        b=np.array([[0.0, 0.0, 0.0], [0.0, 0.0, rate**2]]),
+        output=np.array([share, 0.0]),
+        share=share,
+    )
+
+
+def _series(values: Values, _facts: Facts) -> LinearPart:
+    """A flexible link between the axis and the point that is seen."""
+    rate, loss = _oscillator(values)
+    share = values["share"]
+    return LinearPart(
+        a=np.array([[0.0, 1.0], [-(rate**2), -loss]]),
+        b=np.array([[0.0, 0.0, 0.0], [rate**2, 0.0, 0.0]]),
+        output=np.array([share, 0.0]),
+        share=share,
+    )
+
+
+_LINEAR = frozenset({Trait.LINEAR, Trait.TRANSIENT, Trait.MEMORYLESS})
+
+FLEXIBLE_MODE = Effect(
+    id="flexible_mode",
+    title="Flexible mode",
+    summary="A peak or a dip where the model has none.",
+    stage=Stage.MECHANICS,
+    kinds=EVERY_KIND,
+    formulations=(
+        Formulation(
+            name="parallel",
+            equation="y = (1 − r) q + r z, z̈ + 2ζω ż + ω² z = ω² U",
+            source="Preumont, Vibration Control of Active Structures, 4th ed. (2018), ch. 2",
+            parameters=(
+                FREQUENCY,
+                DAMPING,
+                Parameter(
+                    "share", "r, of the static motion that goes this way", "", -2.0, 2.0, 0.05
+                ),
+            ),
+            acts=Part(part=_parallel),
+            traits=_LINEAR,
+        ),
+        Formulation(
+            name="appendage",
+            equation="ξ̈ = ω² (q − ξ) + 2ζω (q̇ − ξ̇), force on the axis −μ M ξ̈",
+            source="Den Hartog, Mechanical Vibrations, 4th ed. (1956), ch. 3",
+            parameters=(
+                FREQUENCY,
+                DAMPING,
+                Parameter("mass_ratio", "μ, of its mass over the axis'", "", 0.0, 2.0, 0.05),
+            ),
+            acts=Part(part=_appendage),
+            traits=_LINEAR,
+        ),
+        Formulation(
+            name="series",
+            equation="y = (1 − r) q + r z, z̈ + 2ζω ż + ω² z = ω² q",
+            source="Preumont, Vibration Control of Active Structures, 4th ed. (2018), ch. 2",
+            parameters=(
+                FREQUENCY,
+                DAMPING,
+                Parameter("share", "r, of the motion seen through the link", "", -2.0, 2.0, 0.3),
+            ),
+            acts=Part(part=_series),
+            traits=_LINEAR,
+        ),
+    ),
+)

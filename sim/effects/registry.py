@@ -1,0 +1,72 @@
+"""The effects that are installed: entry points of the group ``rotemina.effects``.
+
+The built-in ones register as a third party's do. Each is loaded when it is first asked for, so a
+robot without effects loads none.
+"""
+
+from functools import cache
+from importlib.metadata import EntryPoint, entry_points
+
+from rotemina.sim.effects.errors import EffectError
+from rotemina.sim.effects.formulation import Effect, Stage
+
+GROUP = "rotemina.effects"
+
+
+@cache
+def _points() -> dict[str, EntryPoint]:
+    """Return the entry points by id; of two with one id the built-in one."""
+    ordered = sorted(entry_points(group=GROUP), key=lambda p: (not _built_in(p), p.value))
+    points: dict[str, EntryPoint] = {}
+    for point in ordered:
+        points.setdefault(point.name, point)
+    return points
+
+
+def _built_in(point: EntryPoint) -> bool:
+    return point.value.startswith("rotemina.sim.effects.")
+
+
+def effect_ids() -> tuple[str, ...]:
+    """Return the ids of all installed effects, sorted."""
+    return tuple(sorted(_points()))
+
+
+@cache
+def effect_named(effect_id: str) -> Effect:
+    """Return an installed effect.
+
+    Raises
+    ------
+    EffectError
+        If there is none of that id, or it cannot be loaded, with the reason.
+    """
+    point = _points().get(effect_id)
+    if point is None:
+        raise EffectError(f"there is no effect {effect_id!r}; there are {', '.join(_points())}")
+    try:
+        effect = point.load()
+    except Exception as error:  # a plugin may raise anything
+        raise EffectError(
+            f"effect {effect_id!r} ({point.value}) cannot be imported: "
+            f"{type(error).__name__}: {error}"
+        ) from error
+    if not isinstance(effect, Effect):
+        raise EffectError(f"effect {effect_id!r} ({point.value}) is no Effect")
+    if effect.id != effect_id:
+        raise EffectError(f"effect {effect_id!r} ({point.value}) calls itself {effect.id!r}")
+    return effect
+
+
+def all_effects() -> tuple[dict[str, Effect], dict[str, str]]:
+    """Return the effects by id in the order of the signal chain, and why others are left out."""
+    found: dict[str, Effect] = {}
+    broken: dict[str, str] = {}
+    for effect_id in effect_ids():
+        try:
+            found[effect_id] = effect_named(effect_id)
+        except EffectError as error:
+            broken[effect_id] = str(error)
+    order = list(Stage)
+    ranked = sorted(found.values(), key=lambda effect: (order.index(effect.stage), effect.id))
+    return {effect.id: effect for effect in ranked}, broken

@@ -1,0 +1,128 @@
+"""Records of a simulated machine: what a real one with these effects would have recorded."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.plant.chance import Chance
+from rotemina.sim.plant.history import steady_start
+from rotemina.sim.plant.perturbation import Perturbation
+from rotemina.sim.plant.plant import Motion, Plant, PlantState
+from rotemina.sim.plant.response import check_axes, run_of
+from rotemina.sim.plant.run import Run
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.model import AxisEffect, ReferenceNoise, Robot, StepperAxis
+
+
+def simulate(
+    robot: Robot,
+    effects: Sequence[AxisEffect] | None,
+    commands: Record,
+    rng: np.random.Generator | None = None,
+    *,
+    perturbation: Perturbation | None = None,
+) -> Record:
+    """Return what a machine with such effects records when it is driven by ``commands``.
+
+    Parameters
+    ----------
+    robot : Robot
+    effects : sequence of AxisEffect, optional
+        In place of those that the robot's file gives it; None leaves these, () takes all away.
+    commands : Record
+        Its ``cmd`` (and ``add``; ``u`` of axes that a force moves) drive the machine, under its
+        controllers if its mode is ``closed_loop``. What else it holds is left aside.
+    rng : Generator, optional
+        Noise and random effects come from it. Without, there are none and nothing is rounded.
+    perturbation : Perturbation, optional
+        Q of Eq. (1), a row for each of the record and a column for each axis that is simulated:
+        those of the record and those joined to them, in the robot's order.
+
+    Returns
+    -------
+    Record
+        ``cmd``, ``u`` (not of steppers), ``ref`` and ``meas`` of the axes of ``commands``.
+
+    Raises
+    ------
+    EffectError
+        If an effect cannot be used, with axis, effect, parameter, value and bound.
+    PlantError
+        If the commands do not fit the robot, or the response diverges, with the time.
+    """
+    simulation = Simulation(robot, effects, commands, rng)
+    return simulation.follow(commands, perturbation=perturbation)
+
+
+class Simulation:
+    """A simulated machine that is driven piece by piece, in bounded memory.
+
+    It starts at rest at the first command of ``commands``, or in the steady state of a periodic
+    one. Parameters and errors as of :func:`simulate`.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        effects: Sequence[AxisEffect] | None,
+        commands: Record,
+        rng: np.random.Generator | None = None,
+    ) -> None:
+        if effects is not None:
+            robot = replace(robot, effects=tuple(effects))
+        check_axes(robot, commands)
+        self._plant = Plant.of(robot, closed_loop=commands.closed_loop, only=commands.axes)
+        self._chance = Chance(rng) if rng is not None else None
+        self._reference = rng.spawn(1)[0] if rng is not None else None
+        run = run_of(self._plant, commands)
+        self._state = self._start(commands, run)
+
+    @property
+    def axes(self) -> tuple[str, ...]:
+        """The axes that are simulated, in the robot's order."""
+        return self._plant.axes
+
+    def follow(self, commands: Record, *, perturbation: Perturbation | None = None) -> Record:
+        """Return the record of the next commands, whose times go on where the last ones ended."""
+        run = run_of(self._plant, commands)
+        motion, self._state = self._plant.advance(
+            self._state,
+            run.time_s,
+            run.command,
+            add=run.add,
+            inputs=run.inputs,
+            perturbation=perturbation,
+            chance=self._chance,
+        )
+        return self._record(commands, motion)
+
+    def _start(self, commands: Record, run: Run) -> PlantState:
+        if commands.history == "periodic":
+            return steady_start(self._plant, run, commands.period_samples)
+        return self._plant.at_rest(run.time_s[0], run.command[0])
+
+    def _record(self, commands: Record, motion: Motion) -> Record:
+        signals: dict[tuple[str, Tap], FloatArray] = {}
+        for name in commands.axes:
+            column = self._plant.axes.index(name)
+            signals[name, Tap.CMD] = commands.signal(name, Tap.CMD)
+            if commands.has(name, Tap.ADD):
+                signals[name, Tap.ADD] = commands.signal(name, Tap.ADD)
+            if not isinstance(self._plant.robot.axes[name], StepperAxis):
+                signals[name, Tap.U] = motion.inputs[:, column]
+            seen = motion.position[:, column]
+            signals[name, Tap.REF] = seen + self._reference_noise(commands.units[name], len(seen))
+            signals[name, Tap.MEAS] = motion.reading[:, column]
+        return Record.from_signals(commands.time_s, signals, commands.units, commands.metadata)
+
+    def _reference_noise(self, unit: str, rows: int) -> FloatArray | float:
+        rms = _rms(self._plant.robot.reference.noise_rms, unit)
+        if self._reference is None or rms is None:
+            return 0.0
+        return np.asarray(rms * self._reference.standard_normal(rows))
+
+
+def _rms(noise: ReferenceNoise, unit: str) -> float | None:
+    return noise.linear if unit == "m" else noise.angular
