@@ -7,7 +7,7 @@ class of its own (:class:`TrajectoryPlayer`), to be inherited beside others.
 
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import ClassVar, final
 
@@ -15,9 +15,10 @@ from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import LimitError, ProtocolError, StateError
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.drivers.settings import SettingValue, resolve
+from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
-from rotemina.sim.robot.model import Robot
+from rotemina.sim.robot.model import AxisEffect, Robot
 from rotemina.sim.trajectory.checked import CheckedTrajectory, accepted
 from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
 from rotemina.sim.trajectory.limits import check_target
@@ -268,3 +269,37 @@ class TrajectoryPlayer(Driver, ABC):
     @abstractmethod
     def _play(self, trajectory: Record) -> None:
         """Begin to play a trajectory that is inside every limit."""
+
+
+class EffectCarrier(Driver, ABC):
+    """A simulated device whose imperfections can be switched and tuned while it runs."""
+
+    @property
+    @abstractmethod
+    def effects(self) -> tuple[AxisEffect, ...]:
+        """The effects in place, those that are switched off among them; any thread may ask."""
+
+    @final
+    def check_effects(self, effects: Sequence[AxisEffect]) -> None:
+        """Raise :class:`EffectError` if effects cannot sit on the axes of this robot."""
+        for effect in effects:
+            Attached.of(self.robot, effect)
+
+    @final
+    def set_effects(self, effects: Sequence[AxisEffect]) -> None:
+        """Put effects in place of those before; the axes go on from where they are.
+
+        Raises
+        ------
+        EffectError
+            With axis, effect, parameter, value and bound; then nothing changes.
+        StateError
+            If the device is closed.
+        """
+        self._require_open("change its effects")
+        self.check_effects(effects)
+        self._set_effects(tuple(effects))
+
+    @abstractmethod
+    def _set_effects(self, effects: tuple[AxisEffect, ...]) -> None:
+        """Put checked effects in place."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from rotemina.sim.errors import InputError
+from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.trajectory.checked import CheckedTrajectory
 
 
@@ -32,7 +33,14 @@ class ClearFault:
     """Acknowledge the device's fault."""
 
 
-Command = Move | Play | ClearFault
+@dataclass(frozen=True, slots=True)
+class SetEffects:
+    """Put other effects on a simulated machine."""
+
+    effects: tuple[AxisEffect, ...]
+
+
+Command = Move | Play | ClearFault | SetEffects
 
 
 class Taken(NamedTuple):

@@ -2,11 +2,11 @@
 
 import logging
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from rotemina.app.motion.history import LiveHistory
-from rotemina.app.motion.mailbox import ClearFault, Mailbox, Move, Play, RefusedError
+from rotemina.app.motion.mailbox import ClearFault, Mailbox, Move, Play, RefusedError, SetEffects
 from rotemina.app.motion.state import (
     Callback,
     Connection,
@@ -15,9 +15,10 @@ from rotemina.app.motion.state import (
 )
 from rotemina.app.motion.worker import Worker
 from rotemina.drivers.clock import Clock
-from rotemina.drivers.driver import Driver, TrajectoryPlayer
+from rotemina.drivers.driver import Driver, EffectCarrier, TrajectoryPlayer
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.records.record import Record
+from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.trajectory.checked import CheckedTrajectory, accepted
 from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
 from rotemina.sim.trajectory.limits import check_target
@@ -211,6 +212,31 @@ class MotionSession:
             raise RefusedError(state.locked or "not connected")
         if state.fault is not None:
             self._mailbox.post(ClearFault())
+
+    @property
+    def effects(self) -> tuple[AxisEffect, ...] | None:
+        """The effects on a simulated machine; None where the device is none that carries any."""
+        return self.driver.effects if isinstance(self.driver, EffectCarrier) else None
+
+    def set_effects(self, effects: Sequence[AxisEffect]) -> None:
+        """Put other effects on a simulated machine, also while it moves.
+
+        Raises
+        ------
+        EffectError
+            With axis, effect, parameter, value and bound.
+        RefusedError
+            If the device carries no effects, is not connected, or a queue is full.
+        """
+        if not isinstance(self.driver, EffectCarrier):
+            raise RefusedError(
+                f"driver {self.driver.name!r} is a real machine: its effects are its own; "
+                "connect to the simulator"
+            )
+        self.driver.check_effects(effects)
+        if self._worker.state.connection is not Connection.CONNECTED:
+            raise RefusedError(self._worker.state.locked or "not connected; connect first")
+        self._mailbox.post(SetEffects(tuple(effects)))
 
     def snapshot(self) -> SessionState:
         """Return the present state; any thread."""

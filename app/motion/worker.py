@@ -11,7 +11,7 @@ from types import MappingProxyType
 
 from rotemina.app.motion.history import LiveHistory
 from rotemina.app.motion.live_model import LiveModel
-from rotemina.app.motion.mailbox import ClearFault, Command, Mailbox, Move, Play
+from rotemina.app.motion.mailbox import ClearFault, Command, Mailbox, Move, Play, SetEffects
 from rotemina.app.motion.recorder import PlaybackRecorder
 from rotemina.app.motion.state import (
     CommandRefused,
@@ -23,7 +23,7 @@ from rotemina.app.motion.state import (
     StateChanged,
 )
 from rotemina.drivers.clock import Clock
-from rotemina.drivers.driver import Driver, TrajectoryPlayer
+from rotemina.drivers.driver import Driver, EffectCarrier, TrajectoryPlayer
 from rotemina.drivers.errors import DriverError, StateError
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.sim.arrays import FloatArray
@@ -127,6 +127,9 @@ class Worker:
             self.targets = MappingProxyType({**self.targets, **command.targets})
         elif isinstance(command, Play):
             self._play(command)
+        elif isinstance(command, SetEffects):
+            assert isinstance(self._driver, EffectCarrier), "the session refuses on any other"
+            self._driver.set_effects(command.effects)
         elif isinstance(command, ClearFault):
             self._driver.clear_fault()
             self.targets = _NOWHERE

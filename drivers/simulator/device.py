@@ -9,9 +9,11 @@ import numpy as np
 from rotemina.drivers.samples import Samples
 from rotemina.drivers.simulator.setpoints import SetpointGenerator, SetpointLimits
 from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.sim.plant.chance import Chance
 from rotemina.sim.plant.plant import Plant
+from rotemina.sim.plant.takeover import taken_over
 from rotemina.sim.records.record import Record
-from rotemina.sim.robot.model import Robot, StepperAxis
+from rotemina.sim.robot.model import AxisEffect, Robot, StepperAxis
 from rotemina.sim.trajectory.schedule import Schedule
 
 _CHUNK = 8192  # samples simulated at once: bounds memory, not the result
@@ -37,7 +39,7 @@ class _Chunk(NamedTuple):
 
 
 class SimulatedDevice:
-    """The nominal plant with set-point generator, player and sensors.
+    """The plant with its effects and sensors, a set-point generator and a player.
 
     Parameters
     ----------
@@ -45,7 +47,7 @@ class SimulatedDevice:
     tick_s : float
         Interval between samples, and between set-points of single moves.
     seed : int
-        Of the sensors' noise. Each playback starts a sequence of its own, so that it does not
+        Of noise and random effects. Each playback starts a sequence of its own, so that it does not
         depend on how long the device idled before.
     settle_s : float
         How long to wait at a trajectory's first row.
@@ -65,16 +67,18 @@ class SimulatedDevice:
         position: FloatArray,
         time_s: float = 0.0,
     ) -> None:
+        self._robot = robot
         self._plant = Plant.of(robot, closed_loop=True)
         # The plant counts from the latest sample: its steps stay exact however long it runs.
         self._state = self._plant.at_rest(0.0, position)
-        self._sensors = _Sensors(robot)
+        axes = robot.axes.values()
+        self._has_voltage = np.array([not isinstance(axis, StepperAxis) for axis in axes])
         self._setpoints = SetpointGenerator(SetpointLimits.of(robot), tick_s, position)
         self._command = np.array(position, dtype=np.float64)
         self._tick_s = tick_s
         self._seed = seed
         self._settle_ticks = round(settle_s / tick_s)
-        self._noise = np.random.default_rng(seed)
+        self._chance = Chance(np.random.default_rng(seed))
         self._phase = _Phase.HOLD
         self._schedule: Schedule | None = None
         self._instant = 0
@@ -112,6 +116,12 @@ class SimulatedDevice:
     def progress(self) -> float:
         """How much of the present or latest trajectory has been played, 0 to 1."""
         return self._schedule.progress(self._instant) if self._schedule is not None else 0.0
+
+    def set_effects(self, effects: tuple[AxisEffect, ...]) -> None:
+        """Go on with other effects, from where the axes are and as fast as they are."""
+        plant = Plant.of(replace(self._robot, effects=effects), closed_loop=True)
+        self._state = taken_over(plant, self._plant, self._state)
+        self._plant = plant
 
     def move_to(self, targets: dict[int, float]) -> None:
         """Send axes, by their number, to targets."""
@@ -186,7 +196,7 @@ class SimulatedDevice:
 
     def _row_chunk(self, schedule: Schedule, until_s: float) -> _Chunk:
         if self._instant == 0:
-            self._noise = np.random.default_rng([self._seed, self._plays])
+            self._chance = Chance(np.random.default_rng([self._seed, self._plays]))
         instants = schedule.instants(self._instant, self._instant + _CHUNK)
         due_s = until_s - self._begin_s + 1e-6 * self._tick_s
         count = int(np.searchsorted(instants.time_s, due_s, side="right"))
@@ -209,30 +219,10 @@ class SimulatedDevice:
         self._phase = _Phase.HOLD
 
     def _sample(self, chunk: _Chunk) -> Samples:
-        motion, state = self._plant.advance(self._state, chunk.elapsed_s, chunk.command)
+        motion, state = self._plant.advance(
+            self._state, chunk.elapsed_s, chunk.command, chance=self._chance
+        )
         self._state = replace(state, time_s=state.time_s - state.time_s[-1])
         self._command = chunk.command[-1].copy()
-        measured = self._sensors.read(motion.position, self._noise)
-        inputs = np.where(self._sensors.has_voltage, motion.inputs, np.nan)
-        return Samples(chunk.time_s, chunk.command, measured, inputs, chunk.row)
-
-
-class _Sensors:
-    """Readings of all axes: ``position + offset + noise``, rounded to each resolution."""
-
-    def __init__(self, robot: Robot) -> None:
-        axes = tuple(robot.axes.values())
-        sensors = [axis.sensor for axis in axes]
-        self.has_voltage = np.array([not isinstance(axis, StepperAxis) for axis in axes])
-        self._offset = np.array([axis.offset for axis in axes])
-        self._noise_rms = np.array([s.noise_rms if s else 0.0 for s in sensors])
-        self._resolution = np.array([s.resolution if s else 0.0 for s in sensors])
-
-    def read(self, position: FloatArray, noise: np.random.Generator) -> FloatArray:
-        """Return readings (n, axes) of true positions (n, axes), m or rad."""
-        reading = position + self._offset
-        reading += self._noise_rms * noise.standard_normal(position.shape)
-        rounded = self._resolution > 0
-        step = self._resolution[rounded]
-        reading[:, rounded] = np.rint(reading[:, rounded] / step) * step
-        return np.asarray(reading)
+        inputs = np.where(self._has_voltage, motion.inputs, np.nan)
+        return Samples(chunk.time_s, chunk.command, motion.reading, inputs, chunk.row)

@@ -1,15 +1,16 @@
-"""The simulator: the nominal robot behind the same contract as a real device."""
+"""The simulator: a robot with its effects behind the same contract as a real device."""
 
 import time
 from collections import deque
 from collections.abc import Mapping
+from dataclasses import replace
 from types import MappingProxyType
 from typing import ClassVar
 
 import numpy as np
 
 from rotemina.drivers.clock import Clock
-from rotemina.drivers.driver import TrajectoryPlayer
+from rotemina.drivers.driver import EffectCarrier, TrajectoryPlayer
 from rotemina.drivers.errors import LimitError
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.drivers.settings import SettingError, SettingValue
@@ -17,21 +18,22 @@ from rotemina.drivers.simulator.device import SimulatedDevice
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.records.record import Record
-from rotemina.sim.robot.model import ForceAxis, Robot
+from rotemina.sim.robot.model import AxisEffect, ForceAxis, Robot
 
 MAX_RATE_HZ = 20_000.0
 MAX_READ_S = 5.0  # device time that one call simulates at most; the rest waits for the next
 
 
-class Simulator(TrajectoryPlayer):
+class Simulator(TrajectoryPlayer, EffectCarrier):
     """A machine that behaves as its robot file says.
 
     Device time is the clock's time since ``open``; what happened since the last call is simulated
     when a call asks for it, so the clock may be real or set by hand. A request takes effect at the
     next tick after the clock's present. A robot with controllers runs under them. After being
-    closed and opened again, the machine stands where its last set-point was.
+    closed and opened again, the machine stands where its last set-point was. Effects are those of
+    the robot file until others are set.
 
-    Settings: ``sample_rate_hz`` of samples and set-points; ``seed`` of the sensors' noise;
+    Settings: ``sample_rate_hz`` of samples and set-points; ``seed`` of noise and random effects;
     ``settle_s`` at the first row of a trajectory; ``start_fraction`` of its range at which each
     axis first stands.
     """
@@ -62,6 +64,7 @@ class Simulator(TrajectoryPlayer):
         self._position = self._start_position(self._number("start_fraction", 0.0, 1.0))
         self._opened_at_s = 0.0
         self._device: SimulatedDevice | None = None
+        self._effects = robot.effects
         self._fault: str | None = None
         # Appended to by any thread, which a deque allows; emptied by the driver's own thread.
         self._stops_s: deque[float] = deque()
@@ -71,6 +74,16 @@ class Simulator(TrajectoryPlayer):
     def setpoint_period_s(self) -> float:
         """The interval between samples, at which loops are closed too, s."""
         return self._tick_s
+
+    @property
+    def effects(self) -> tuple[AxisEffect, ...]:
+        """The effects in place, those that are switched off among them."""
+        return self._effects
+
+    def _set_effects(self, effects: tuple[AxisEffect, ...]) -> None:
+        self._catch_up()
+        self._running.set_effects(effects)
+        self._effects = effects
 
     def _number(self, name: str, least: float, greatest: float) -> float:
         value = self.settings[name]
@@ -94,7 +107,7 @@ class Simulator(TrajectoryPlayer):
 
     def _made(self, position: FloatArray, time_s: float) -> SimulatedDevice:
         return SimulatedDevice(
-            self.robot,
+            replace(self.robot, effects=self._effects),
             tick_s=self._tick_s,
             seed=self._seed,
             settle_s=self._settle_s,

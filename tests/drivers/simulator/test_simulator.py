@@ -8,16 +8,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.errors import LimitError
+from rotemina.drivers.errors import LimitError, StateError
 from rotemina.drivers.samples import DeviceState, Samples
 from rotemina.drivers.settings import SettingError
 from rotemina.drivers.simulator.device import SimulatedDevice
 from rotemina.drivers.simulator.driver import MAX_READ_S, Simulator
+from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import AxisEffect
 
 ROBOT = load_robot("rotemina")
 EMPS = load_robot("emps")
@@ -324,7 +326,7 @@ def test_clearing_a_fault_in_a_playback_holds_the_last_set_point(monkeypatch):
         clock.advance(0.05)
         last = driver.read().command[-1, 3]
 
-    def diverges(*_):
+    def diverges(*_, **options):
         raise PlantError("axis thx: gone")
 
     with monkeypatch.context() as broken:
@@ -335,3 +337,60 @@ def test_clearing_a_fault_in_a_playback_holds_the_last_set_point(monkeypatch):
     driver.clear_fault()
     clock.advance(0.05)
     assert driver.read().command[-1, 3] == last
+
+
+LOOP = AxisEffect(axis="thx", id="hysteresis", parameters={"width": 1e-4})
+
+
+def test_effects_of_the_robot_file_act_until_others_are_set():
+    driver, clock = opened(without_sensors(replace(ROBOT, effects=(LOOP,))))
+    assert driver.effects == (LOOP,)
+    nominal, nominal_clock = opened(without_sensors(ROBOT))
+    samples, rows = played(driver, clock, smooth(np.arange(1000) / 1000.0))
+    bare, bare_rows = played(nominal, nominal_clock, smooth(np.arange(1000) / 1000.0))
+    column = driver.axes.index("thx")
+    gap = samples.measured[rows, column] - bare.measured[bare_rows, column]
+    assert 1e-6 < np.ptp(gap) < 2e-4
+
+
+def test_effects_are_set_in_mid_playback_and_the_axes_go_on():
+    driver, clock = opened(without_sensors(ROBOT))
+    driver.play(smooth(np.arange(2000) / 1000.0))
+    clock.advance(1.5)
+    before = driver.read()
+    driver.set_effects([LOOP])
+    clock.advance(0.5)
+    after = driver.read()
+    column = driver.axes.index("x")
+    assert driver.status().fault is None
+    jump = np.abs(after.measured[0] - before.measured[-1])[column]
+    assert jump < 1.5 * np.abs(np.diff(before.measured[-50:, column])).max()
+    assert driver.effects == (LOOP,)
+
+
+@pytest.mark.parametrize(
+    ("effect", "named"),
+    [
+        (AxisEffect(axis="q", id="delay"), "no such axis"),
+        (AxisEffect(axis="x", id="hysteresis"), "piezo"),
+        (AxisEffect(axis="x", id="ether_wind"), "ether_wind"),
+        (AxisEffect(axis="x", id="delay", parameters={"delay": 9.0}), "between 0 and 0.1 s"),
+        (AxisEffect(axis="x", id="delay", parameters={"delay": float("nan")}), "nan"),
+    ],
+)
+def test_an_effect_that_cannot_be_is_refused_and_nothing_changes(effect, named):
+    driver, _ = opened()
+    driver.set_effects([LOOP])
+    with pytest.raises(EffectError, match=named):
+        driver.set_effects([effect])
+    assert driver.effects == (LOOP,)
+
+
+def test_effects_stay_over_a_closed_connection():
+    driver, _ = opened()
+    driver.set_effects([LOOP])
+    driver.close()
+    with pytest.raises(StateError, match="open it first"):
+        driver.set_effects([])
+    driver.open()
+    assert driver.effects == (LOOP,)
