@@ -7,7 +7,8 @@ import numpy as np
 from rotemina.drivers.samples import Samples
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plant.errors import PlantError
-from rotemina.sim.plant.plant import Plant, PlantState
+from rotemina.sim.plant.plant import Plant
+from rotemina.sim.plant.state import PlantState
 from rotemina.sim.robot.model import Robot
 
 # Device times are told apart to this, s: their rounding would make every interval a different one,

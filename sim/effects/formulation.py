@@ -182,7 +182,9 @@ class Reading:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LinearPart:
-    """Further states z (n,) of an axis at q under the input U, and what they do to it::
+    """Further states z (n,) of an axis at q under the input U, and what they do to it.
+
+    ::
 
         ż = A z + B [q, q̇, U],   force = K z + L [q, q̇],   position = (1 − r) q + R z
 

@@ -19,7 +19,7 @@ from collections.abc import Callable, MutableSequence, Sequence
 from functools import cache
 from typing import Any
 
-from llvmlite import ir
+from llvmlite import ir  # type: ignore[import-untyped]
 from numba import cfunc, types
 from numba.extending import intrinsic
 
@@ -28,9 +28,8 @@ StepFunction = Callable[
 ]
 
 _NUMBERS = 6
-_SIGNATURE = types.float64(
-    *([types.float64] * _NUMBERS), types.CPointer(types.float64), types.CPointer(types.float64)
-)
+_POINTER = types.CPointer(types.float64)  # type: ignore[no-untyped-call]
+_SIGNATURE = types.float64(*([types.float64] * _NUMBERS), _POINTER, _POINTER)
 
 
 @cache
@@ -44,11 +43,10 @@ def address_of(step: StepFunction) -> int:
 
 @cache
 def _compiled(step: StepFunction) -> Any:
-    return cfunc(_SIGNATURE, nopython=True, cache=True, error_model="numpy")(step)
+    return cfunc(_SIGNATURE, cache=True, error_model="numpy")(step)
 
 
-@intrinsic  # type: ignore[misc]
-def call_step(
+def _call_step(
     typing_context: Any,
     address: Any,
     x: Any,
@@ -83,3 +81,7 @@ def call_step(
         return builder.call(function, [*numbers, *own])
 
     return signature, generate
+
+
+#: Calls a step function from compiled code; see :func:`_call_step`.
+call_step: Callable[..., float] = intrinsic(_call_step)

@@ -6,8 +6,9 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plant.errors import PlantError
-from rotemina.sim.plant.plant import Plant, PlantState
+from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.run import Run
+from rotemina.sim.plant.state import PlantState
 from rotemina.sim.records.record import Record, Tap
 
 _FIRST_ROWS = 8  # rows from which position and velocity at the start are taken

@@ -26,7 +26,7 @@ _RISES = 256  # steps of the rise from the low end of the range
 class Steps(NamedTuple):
     """Segments (:class:`rotemina.sim.plant.sampling.Segments`) and the steps through them.
 
-    Each of the k lengths is done in ``count`` (k,) steps of ``length_s`` (k,). The matrices of
+    Each of the k lengths is done in ``parts`` (k,) steps of ``length_s`` (k,). The matrices of
     group g begin at ``state_at[g]`` and ``input_at[g]`` of the flat arrays, k of them in a row.
     ``hold_s`` (s, d): for how long each applied input acts on.
     """
@@ -36,7 +36,7 @@ class Steps(NamedTuple):
     applied: IntArray
     hold_s: FloatArray
     length_s: FloatArray
-    count: IntArray
+    parts: IntArray
     state: FloatArray
     state_at: IntArray
     input: FloatArray
@@ -111,7 +111,7 @@ def _drive(
         return u
     w = one.asked * u
     w = _through(function, numbers, memory, one.actuator, one.force, w, own, t, h)
-    return w / one.asked
+    return float(w / one.asked)
 
 
 @numba.njit(cache=True, error_model="numpy", inline="always")
@@ -134,7 +134,7 @@ def _position(
     seen: FloatArray, i: int, shown: FloatArray, t: float,
 ) -> float:  # fmt: skip
     """Return the position of axis i as it is seen from outside."""
-    q = shown[i]
+    q: float = shown[i]
     for e in range(axis[i].motion, axis[i].reading):
         one = function[e]
         other = shown[one.other] if one.other >= 0 else 0.0
@@ -241,109 +241,179 @@ def _linear(
         fresh[first + row] = total
 
 
+@numba.njit(cache=True, error_model="numpy", inline="always")
+def _sample(
+    axis: TableArray, function: TableArray, numbers: FloatArray, memory: FloatArray,
+    seen: FloatArray, x: FloatArray, shown: FloatArray, k: int, first: int, time_s: FloatArray,
+    command: FloatArray, add: FloatArray, variates: FloatArray, inputs: FloatArray,
+    position: FloatArray, velocity: FloatArray, reading: FloatArray,
+) -> None:  # fmt: skip
+    """Take sample k of every axis and close the loops."""
+    t, row = time_s[k], k - first
+    for i in range(axis.shape[0]):
+        own = axis[i]
+        q = y = shown[i]
+        if own.motion < own.end:
+            q = _position(axis, function, numbers, memory, seen, i, shown, t)
+            y = _reading(axis, function, numbers, memory, seen, i, q, t, row, variates)
+        y += own.offset
+        if variates.shape[0] > 0:
+            y = _noisy(axis, i, y, row, variates)
+        position[k, i] = q
+        reading[k, i] = y
+        velocity[k, i] = x[own.rate] if own.rate >= 0 else 0.0
+        if own.loop != NO_LOOP:
+            speed = velocity[k, i]
+            if own.loop == BACKWARD_VELOCITY and k > 0:
+                speed = (y - reading[k - 1, i]) / (time_s[k] - time_s[k - 1])
+            extra = add[row, i] if add.shape[0] > 0 else 0.0
+            inputs[k, i] = _effort(axis, i, command[row, i], y - own.offset, speed, extra)
+
+
+@numba.njit(cache=True, error_model="numpy", inline="always")
+def _amplified(
+    axis: TableArray, function: TableArray, numbers: FloatArray, memory: FloatArray,
+    shown: FloatArray, s: int, applied: IntArray, inputs: FloatArray, t: float, k: int,
+    effort: FloatArray,
+) -> None:  # fmt: skip
+    """Fill in, where it is asked for, what the amplifiers put out at this instant."""
+    if effort.shape[0] == 0:
+        return
+    for i in range(axis.shape[0]):
+        own = axis[i]
+        asked = inputs[applied[s, own.late], i]
+        effort[k, i] = _through(
+            function, numbers, memory, own.electronics, own.actuator, asked, shown[i], t, 0.0
+        )
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _static_inputs(
+    axis: TableArray, function: TableArray, numbers: FloatArray, memory: FloatArray,
+    shown: FloatArray, applied: IntArray, inputs: FloatArray, t: float, now: FloatArray,
+) -> None:  # fmt: skip
+    """Fill in the inputs of static axes: such an axis is where this very moment's puts it."""
+    for i in range(axis.shape[0]):
+        if axis[i].place < 0:
+            asked = inputs[applied[axis[i].late], i]
+            now[i] = _drive(axis, function, numbers, memory, i, asked, shown[i], t, 0.0)
+
+
+@numba.njit(cache=True, error_model="numpy", inline="always")
+def _held_inputs(
+    axis: TableArray, function: TableArray, numbers: FloatArray, memory: FloatArray,
+    shown: FloatArray, s: int, applied: IntArray, hold_s: FloatArray, inputs: FloatArray, t: float,
+    h: float, before: IntArray, u: FloatArray,
+) -> None:  # fmt: skip
+    """Fill in the inputs that act for the next ``h`` seconds."""
+    for i in range(axis.shape[0]):
+        own = axis[i]
+        a = applied[s, own.late]
+        if own.electronics == own.force:
+            u[i] = inputs[a, i]
+        elif own.inner_input != 0:
+            u[i] = _drive(axis, function, numbers, memory, i, inputs[a, i], shown[i], t, h)
+        elif a != before[i]:
+            hold = hold_s[s, own.late]
+            u[i] = _drive(axis, function, numbers, memory, i, inputs[a, i], shown[i], t, hold)
+            before[i] = a
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _follow(
+    axis: TableArray, function: TableArray, numbers: FloatArray, memory: FloatArray,
+    seen: FloatArray, output: TableArray, state: IntArray, weight: FloatArray, x: FloatArray,
+    u: FloatArray, shown: FloatArray, t: float, variates: FloatArray,
+) -> None:  # fmt: skip
+    """Show positions and readings between samples to the effects that remember them."""
+    _outputs(output, state, weight, x, u, shown)
+    for i in range(axis.shape[0]):
+        if axis[i].inner_position != 0:
+            q = _position(axis, function, numbers, memory, seen, i, shown, t)
+            if axis[i].inner_reading != 0:
+                _reading(axis, function, numbers, memory, seen, i, q, t, -1, variates)
+
+
+@numba.njit(cache=True, error_model="numpy", inline="always")
+def _put(source: FloatArray, x: FloatArray) -> None:
+    for n in range(x.shape[0]):
+        x[n] = source[n]
+
+
+@numba.njit(cache=True, error_model="numpy", inline="always")
+def _kicked(kick: FloatArray, row: int, x: FloatArray) -> None:
+    if kick.shape[0] > 0:
+        for n in range(x.shape[0]):
+            x[n] += kick[row, n]
+
+
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def run(
     machine: Machine, steps: Steps, given: Given, taken: Taken, moving: State, start_s: float
 ) -> None:
     """Step all axes through all segments, from ``start_s`` on; fill ``taken``, move ``moving``."""
-    # Taken apart once: compiled code counts references each time it reaches into a tuple.
+    # Taken apart once: compiled code counts references each time it reaches into a tuple, and
+    # passes many arrays to a function of its own more slowly than it does this work.
     axis, function, numbers, output, state, weight, group, member = machine
-    step, sample, applied, hold_s, length_s, count, within, state_at, into, input_at = steps
+    step, sample, applied, hold_s, length_s, parts, within, state_at, into, input_at = steps
     first, time_s, command, add, forced, kick, variates = given
     inputs, effort, position, velocity, reading = taken
     x, memory, seen = moving
-    axes, groups = axis.shape[0], group.shape[0]
-    u, now, shown = np.zeros(axes), np.zeros(axes), np.zeros(output.shape[0])
-    fresh, no_force = np.empty(x.shape[0]), np.zeros(0)
-    before = np.full(axes, -1, dtype=np.int64)
-    static, forces, followed, electronics = False, False, False, effort.shape[0] > 0
-    for i in range(axes):
-        static |= axis[i].place < 0
-        forces |= axis[i].force < axis[i].motion
-        followed |= axis[i].inner_position != 0
+    u, now = np.zeros(axis.shape[0]), np.zeros(axis.shape[0])
+    shown, fresh, no_force = np.zeros(output.shape[0]), np.empty(x.shape[0]), np.zeros(0)
+    before = np.full(axis.shape[0], -1, dtype=np.int64)
+    static, forces, followed = _kinds(axis)
     t, k = start_s, first - 1
     for s in range(step.shape[0]):
         taking = sample[s] >= 0
         if taking:
             k = sample[s]
             t = time_s[k]
-            if static:  # a static axis is where its input of this very moment puts it
-                for i in range(axes):
-                    if axis[i].place < 0:
-                        asked = inputs[applied[s, axis[i].late], i]
-                        now[i] = _drive(axis, function, numbers, memory, i, asked, shown[i], t, 0.0)
+            if static:
+                _static_inputs(axis, function, numbers, memory, shown, applied[s], inputs, t, now)
             _outputs(output, state, weight, x, now, shown)
-            for i in range(axes):
-                own = axis[i]
-                q = y = shown[i]
-                if own.motion < own.end:
-                    q = _position(axis, function, numbers, memory, seen, i, shown, t)
-                    y = _reading(
-                        axis, function, numbers, memory, seen, i, q, t, k - first, variates
-                    )
-                position[k, i] = q
-                y += own.offset
-                if variates.shape[0] > 0:
-                    y = _noisy(axis, i, y, k - first, variates)
-                reading[k, i] = y
-                velocity[k, i] = x[own.rate] if own.rate >= 0 else 0.0
-                if own.loop != NO_LOOP:
-                    read, speed = reading[k, i] - own.offset, velocity[k, i]
-                    if own.loop == BACKWARD_VELOCITY and k > 0:
-                        speed = reading[k, i] - reading[k - 1, i]
-                        speed /= time_s[k] - time_s[k - 1]
-                    extra = add[k - first, i] if add.shape[0] > 0 else 0.0
-                    inputs[k, i] = _effort(axis, i, command[k - first, i], read, speed, extra)
-            if electronics:
-                for i in range(axes):
-                    asked = inputs[applied[s, axis[i].late], i]
-                    effort[k, i] = _through(
-                        function, numbers, memory, axis[i].electronics, axis[i].actuator,
-                        asked, shown[i], t, 0.0,
-                    )  # fmt: skip
-            if kick.shape[0] > 0:
-                for n in range(x.shape[0]):
-                    x[n] += kick[k - first, n]
+            _sample(
+                axis, function, numbers, memory, seen, x, shown, k, first, time_s, command, add,
+                variates, inputs, position, velocity, reading,
+            )  # fmt: skip
+            _amplified(axis, function, numbers, memory, shown, s, applied, inputs, t, k, effort)
+            _kicked(kick, k - first, x)
         j = step[s]
         h = length_s[j]
         if h == 0.0:
             continue
         force = forced[k - first + 1] if forced.shape[0] > 0 else no_force
-        for part in range(count[j]):
+        for part in range(parts[j]):
             if followed and (part > 0 or not taking):
-                _outputs(output, state, weight, x, u, shown)
-                for i in range(axes):
-                    if axis[i].inner_position != 0:
-                        q = _position(axis, function, numbers, memory, seen, i, shown, t)
-                        if axis[i].inner_reading != 0:
-                            _reading(axis, function, numbers, memory, seen, i, q, t, -1, variates)
-            for i in range(axes):
-                own = axis[i]
-                a = applied[s, own.late]
-                if own.electronics == own.force:
-                    u[i] = inputs[a, i]
-                elif own.inner_input != 0:
-                    u[i] = _drive(axis, function, numbers, memory, i, inputs[a, i], shown[i], t, h)
-                elif a != before[i]:
-                    u[i] = _drive(
-                        axis, function, numbers, memory, i, inputs[a, i], shown[i], t,
-                        hold_s[s, own.late],
-                    )  # fmt: skip
-                    before[i] = a
-            for g in range(groups):
-                states, size = group[g].states, group[g].axes
-                at = input_at[g] + j * states * (2 * size + 1)
-                _linear(
-                    group, member, g, within, state_at[g] + j * states * states, into, at,
-                    u, force, x, fresh,
+                _follow(
+                    axis, function, numbers, memory, seen, output, state, weight, x, u, shown, t,
+                    variates,
                 )  # fmt: skip
+            _held_inputs(
+                axis, function, numbers, memory, shown, s, applied, hold_s, inputs, t, h, before, u
+            )
+            for g in range(group.shape[0]):
+                states = group[g].states
+                at = input_at[g] + j * states * (2 * group[g].axes + 1)
+                own = state_at[g] + j * states * states
+                _linear(group, member, g, within, own, into, at, u, force, x, fresh)
                 if forces:
                     _forces(
                         axis, function, numbers, memory, group, member, g, into, at, t, h, x, fresh
                     )
-            for n in range(x.shape[0]):
-                x[n] = fresh[n]
+            _put(fresh, x)
             t += h
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _kinds(axis: TableArray) -> tuple[bool, bool, bool]:
+    """Return whether any axis is static, has forces of effects, is followed between samples."""
+    static, forces, followed = False, False, False
+    for i in range(axis.shape[0]):
+        static |= axis[i].place < 0
+        forces |= axis[i].force < axis[i].motion
+        followed |= axis[i].inner_position != 0
+    return static, forces, followed
 
 
 @numba.njit(cache=True, error_model="numpy")

@@ -94,7 +94,7 @@ class Placed(NamedTuple):
 def machine_of(
     robot: Robot, groups: Sequence[Group], placed: Sequence[Placed]
 ) -> tuple[Machine, list[Attached]]:
-    """Number axes, states and outputs, and line the step functions up.
+    """Give axes, states and outputs their numbers, and line the step functions up.
 
     Returns
     -------

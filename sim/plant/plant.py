@@ -2,8 +2,7 @@
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
-from enum import IntEnum
-from typing import NamedTuple, Self
+from typing import Self
 
 import numpy as np
 
@@ -20,52 +19,9 @@ from rotemina.sim.plant.lead import lead_of
 from rotemina.sim.plant.machine import Machine, phase_of, states_of
 from rotemina.sim.plant.perturbation import Perturbation
 from rotemina.sim.plant.sampling import cut
+from rotemina.sim.plant.state import Behind, Motion, PlantState, Stack
 from rotemina.sim.plant.steps import steps_through
 from rotemina.sim.robot.model import Axis, CascadeController, PiezoAxis, Robot, StepperAxis
-
-
-class Behind(IntEnum):
-    """What the inputs of a run have passed already."""
-
-    COMMAND = kernel.WHOLE
-    AMPLIFIER = kernel.BEHIND_AMPLIFIER
-    ACTUATOR = kernel.BEHIND_ACTUATOR
-
-
-class Motion(NamedTuple):
-    """Response at n samples of all axes of a plant, each (n, axes), in the plant's order.
-
-    ``position`` m or rad as seen from outside, ``velocity`` of the axis itself, m/s or rad/s (zero
-    for static axes), ``inputs`` V as the amplifier gives them, or the commanded position of a
-    stepper, ``reading`` what the sensors say, offset included.
-    """
-
-    position: FloatArray
-    velocity: FloatArray
-    inputs: FloatArray
-    reading: FloatArray
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class PlantState:
-    """Where a run stands, with the samples whose inputs still act or have yet to act.
-
-    ``time_s`` (h,), and ``inputs`` (as asked for), ``position``, ``velocity``, ``reading``
-    (h, axes) of the last h samples; the very last is the present. ``elapsed_s`` is the time since
-    the run began; ``perturbation`` (axes,) is the Q that acts. ``x``, ``memory`` and ``seen`` are
-    the states of the axes and of their effects.
-    """
-
-    time_s: FloatArray
-    inputs: FloatArray
-    position: FloatArray
-    velocity: FloatArray
-    reading: FloatArray
-    elapsed_s: float
-    perturbation: FloatArray
-    x: FloatArray
-    memory: FloatArray
-    seen: FloatArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -264,7 +220,7 @@ class Plant:
         # A sample at the state's own time replaces it; later ones find it as their history.
         history = len(state.time_s) if time_s[0] > state.time_s[-1] else 0
         asked = self.open_loop_inputs(command) if inputs is None else inputs
-        stack = _Stack.of(state, history, time_s, asked)
+        stack = Stack.of(state, history, time_s, asked)
         # Effects count time from the start of the run, whatever the samples' times count from.
         clock_s = stack.time_s + (state.elapsed_s - state.time_s[-1])
         given = self._given(
@@ -368,7 +324,7 @@ class Plant:
         return np.array([self.axes.index(name) for name in group.axes], dtype=np.int64)
 
     def _after(
-        self, stack: "_Stack", moved: kernel.State, elapsed_s: float, perturbation: FloatArray
+        self, stack: Stack, moved: kernel.State, elapsed_s: float, perturbation: FloatArray
     ) -> PlantState:
         """Keep the present and every sample whose delayed input has yet to act or acts now."""
         lag_s = max(self.assembly.skews.values(), default=0.0) * elapsed_s
@@ -388,7 +344,7 @@ class Plant:
             moved.seen,
         )
 
-    def _check(self, stack: "_Stack") -> None:
+    def _check(self, stack: Stack) -> None:
         finite = np.isfinite(stack.position[stack.first :])
         if finite.all():
             return
@@ -400,41 +356,6 @@ class Plant:
             f"t = {stack.time_s[stack.first + row]:.6g} s; check the commands,{named} "
             "and the controller's gains"
         )
-
-
-class _Stack(NamedTuple):
-    """The rows of one call, those of the history first."""
-
-    first: int
-    time_s: FloatArray
-    inputs: FloatArray
-    position: FloatArray
-    velocity: FloatArray
-    reading: FloatArray
-
-    @classmethod
-    def of(cls, state: PlantState, history: int, time_s: FloatArray, inputs: FloatArray) -> Self:
-        """Make room for the rows to come behind those of the history."""
-        old = slice(0, history)
-        return cls(
-            history,
-            np.concatenate([state.time_s[old], time_s]),
-            np.concatenate([state.inputs[old], inputs]),
-            _extended(state.position[old], len(time_s)),
-            _extended(state.velocity[old], len(time_s)),
-            _extended(state.reading[old], len(time_s)),
-        )
-
-    def taken(self, effort: FloatArray) -> kernel.Taken:
-        """Return what the compiled loop fills in."""
-        return kernel.Taken(self.inputs, effort, self.position, self.velocity, self.reading)
-
-
-def _extended(history: FloatArray, rows: int) -> FloatArray:
-    """Return room for ``rows`` more rows behind those of the history."""
-    extended = np.empty((len(history) + rows, history.shape[1]))
-    extended[: len(history)] = history
-    return extended
 
 
 def _input_per_command(axis: Axis) -> float:

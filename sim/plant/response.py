@@ -8,8 +8,9 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.history import measured_start, steady_start
-from rotemina.sim.plant.plant import Behind, Motion, Plant
+from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.run import Run
+from rotemina.sim.plant.state import Behind, Motion
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import ForceAxis, Robot, StepperAxis
 

@@ -130,10 +130,11 @@ def _step(group: Group, length_s: float) -> FloatArray:
     Without the linear solves of a Padé approximation, which a parallel linear algebra library
     makes slow for matrices as small as these.
     """
-    balanced, scale = matrix_balance(group.generator, permute=False, separate=True)
-    scale = scale[0]
+    balanced, (scale, _) = matrix_balance(group.generator, permute=False, separate=True)
     doublings = max(int(np.ceil(np.log2(2.0 * length_s * np.linalg.norm(balanced, 1) + 1e-300))), 0)
-    exact = _series(balanced, np.array([length_s * 0.5**doublings]))[0]
+    exact = _series(np.asarray(balanced, dtype=np.float64), np.array([length_s * 0.5**doublings]))[
+        0
+    ]
     for _ in range(doublings):
         exact = exact @ exact
     return np.asarray((exact * scale[:, None] / scale)[: group.states])

@@ -66,8 +66,7 @@ def _holds(segments: Segments) -> FloatArray:
     begin = np.concatenate([[0.0], np.cumsum(lengths)[:-1]])
     end = float(begin[-1] + lengths[-1])
     hold = np.empty(segments.applied.shape)
-    for column in range(hold.shape[1]):
-        applied = segments.applied[:, column]
+    for column, applied in enumerate(segments.applied.T):
         changes = np.flatnonzero(np.diff(applied)) + 1
         until = np.append(begin[changes], end)
         hold[:, column] = until[np.searchsorted(changes, np.arange(len(applied)), "right")] - begin
