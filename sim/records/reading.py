@@ -1,9 +1,10 @@
 """Import of record and trajectory files."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import chain
 from os import PathLike, fspath
+from typing import NamedTuple
 
 import numpy as np
 
@@ -52,29 +53,56 @@ def read_record(
         ``file:line:column: what, value, bound, what to do``, with the line counted from 1 and the
         column by name or number.
     """
+    parts: list[FloatArray] = []
+    count = 0
+    comments = Comments()
+    for parsed in parsed_blocks(path, comments, columns=columns, robot=robot, limits=limits):
+        parts.append(parsed.rows)
+        count += parsed.rows.size
+        if count > limits.values:
+            raise RecordError(
+                f"{fspath(path)}:{parsed.first_line}: more than {limits.values} values; "
+                "split the file"
+            )
+    return assembled(parsed.layout, parts, comments.metadata)
+
+
+class Parsed(NamedTuple):
+    """Rows (k, columns) of one block in SI, time first, and the line at which it begins."""
+
+    layout: Layout
+    first_line: int
+    rows: FloatArray
+
+
+def parsed_blocks(
+    path: str | PathLike[str],
+    comments: Comments,
+    *,
+    columns: str | None,
+    robot: Robot | None,
+    limits: Limits,
+) -> Iterator[Parsed]:
+    """Give the rows of a file block by block, at least one; collect its comments on the way.
+
+    Parameters and errors as of :func:`read_record`.
+    """
     name = fspath(path)
     named = None if columns is None else parse_columns(columns, "columns", robot)
     with open_blocks(path, limits) as raw_blocks:
-        comments = Comments()
-        blocks = _collected(name, raw_blocks, comments, limits.comment_bytes)
+        blocks = collected(name, raw_blocks, comments, limits.comment_bytes)
         layout, first = _find_layout(name, blocks, named, robot)
         parser = RowParser(name, layout, small_block_bytes=limits.small_block_bytes)
-        parts: list[FloatArray] = []
-        count = 0
+        empty = True
         for block in chain([first], blocks):
-            parts.append(parser.parse(block))
-            count += parts[-1].size
-            if count > limits.values:
-                raise RecordError(
-                    f"{name}:{block.first_line}: more than {limits.values} values; split the file"
-                )
-    if count == 0:
+            rows = parser.parse(block)
+            empty = empty and len(rows) == 0
+            yield Parsed(layout, block.first_line, rows)
+    if empty:
         raise RecordError(f"{name}:{first.first_line}: no rows of numbers; the record is empty")
-    time_s, values = _assemble(parts)
-    return Record(time_s, layout.channels, values, layout.axis_units, comments.metadata)
 
 
-def _collected(
+def collected(
     name: str, blocks: Iterator[Block], comments: Comments, most_bytes: int
 ) -> Iterator[Block]:
     """Give on each block after collecting its comments."""
@@ -148,8 +176,8 @@ def _layout_of_row(text: str, where: str, named: tuple[Column, ...] | None) -> L
     return Layout(row_separator(text, len(named)) or header_separator(text), named)
 
 
-def _assemble(parts: list[FloatArray]) -> tuple[FloatArray, FloatArray]:
-    """Join (rows, columns) blocks into time and values; each signal is contiguous.
+def assembled(layout: Layout, parts: list[FloatArray], metadata: Mapping[str, str]) -> Record:
+    """Join (rows, columns) blocks into a record; each signal is contiguous.
 
     The blocks are given up one by one, so that the whole is not held twice.
     """
@@ -163,4 +191,4 @@ def _assemble(parts: list[FloatArray]) -> tuple[FloatArray, FloatArray]:
         values[start:stop] = part[:, 1:]
         parts[index] = part[:0]
         start = stop
-    return time_s, values
+    return Record(time_s, layout.channels, values, layout.axis_units, metadata)

@@ -69,7 +69,7 @@ class RowParser:
             if divisor != 1.0:
                 rows[:, index] /= divisor
         time_s = rows[:, 0]
-        if len(rows) and (time_s[0] <= self._last_time_s or (np.diff(time_s) <= 0).any()):
+        if len(rows) and (time_s[0] <= self._last_time_s or (time_s[1:] <= time_s[:-1]).any()):
             return None
         self._decimal_sign = self._decimal_sign or sign
         return rows

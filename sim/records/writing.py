@@ -1,8 +1,9 @@
 """Export of record and trajectory files."""
 
 import gzip
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from itertools import chain
 from os import PathLike, fspath
 from typing import BinaryIO, cast
 
@@ -44,13 +45,52 @@ def write_record(
     RecordError
         If the file cannot be written, a unit does not fit, or the record would not read back.
     """
-    name = fspath(path)
-    layout = _layout(record, units or {})
-    head = _head(record, layout) if header else b""
-    with _replaced(name) as file:
+    write_pieces([record], path, units=units, header=header)
+
+
+def write_pieces(
+    pieces: Iterable[Record],
+    path: str | PathLike[str],
+    *,
+    units: Mapping[str, str] | None = None,
+    header: bool = True,
+) -> None:
+    """Export a record that comes in pieces, one behind the other, as :func:`write_record` does.
+
+    The metadata are those of the first piece. Where a piece fails to come, no file is left.
+
+    Raises
+    ------
+    RecordError
+        As of :func:`write_record`; if there is no piece, or one does not go on where the one
+        before ended.
+    """
+    coming = iter(pieces)
+    first = next(coming, None)
+    if first is None:
+        raise RecordError("record: it holds no rows")
+    layout = _layout(first, units or {})
+    head = _head(first, layout) if header else b""
+    last_s = -np.inf
+    with _replaced(fspath(path)) as file:
         file.write(head)
-        for start in range(0, len(record.time_s), _ROWS_AT_A_TIME):
-            _write_rows(file, record, layout, slice(start, start + _ROWS_AT_A_TIME))
+        for piece in chain([first], coming):
+            _check_goes_on(first, piece, last_s)
+            last_s = float(piece.time_s[-1])
+            for start in range(0, len(piece.time_s), _ROWS_AT_A_TIME):
+                _write_rows(file, piece, layout, slice(start, start + _ROWS_AT_A_TIME))
+
+
+def _check_goes_on(first: Record, piece: Record, last_s: float) -> None:
+    if (piece.columns, piece.units) != (first.columns, first.units):
+        raise RecordError(
+            f"record: the piece from t = {piece.time_s[0]:.9g} s has other columns than the first"
+        )
+    if piece.time_s[0] <= last_s:
+        raise RecordError(
+            f"record: the piece from t = {piece.time_s[0]:.9g} s does not come after the one "
+            f"before, which ends at t = {last_s:.9g} s"
+        )
 
 
 def _layout(record: Record, units: Mapping[str, str]) -> Layout:
