@@ -10,6 +10,7 @@ _FORCE_SHARE = 1e-4  # of stiffness times range: a force that bends an axis noti
 _PITCHES = 50  # that a range is taken to hold where the robot file names no screw
 _STEPS_PER_PITCH = 200
 _PACE_HZ = 100.0
+_NOISE_SHARE = 1e-5  # of the range, where no sensor is declared
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +39,8 @@ class Facts:
         A force (N, or N m) that the axis notices.
     pitch, full_step : float
         Of the screw.
+    noise : float
+        Declared noise floor of the sensor; a hundred-thousandth of the range without.
     """
 
     kind: str
@@ -58,6 +61,7 @@ class Facts:
     force: float
     pitch: float
     full_step: float
+    noise: float
 
     @classmethod
     def of(cls, axis: Axis) -> Self:
@@ -90,6 +94,7 @@ class Facts:
             force=_force(axis, stiffness, inputs),
             pitch=pitch,
             full_step=pitch / (steps or _STEPS_PER_PITCH),
+            noise=(axis.sensor.noise_floor if axis.sensor else 0.0) or _NOISE_SHARE * (high - low),
         )
 
 

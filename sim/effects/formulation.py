@@ -45,7 +45,8 @@ class Trait(StrEnum):
     ``LINEAR``: what it adds obeys superposition. ``MEMORYLESS``: at rest, what it adds depends on
     the command alone, whatever came before. ``RATE_INDEPENDENT``: a slow path leaves the same
     trace at any pace. ``TRANSIENT``: adds nothing at rest. ``LOCKED_TO_TIME``: acts without
-    motion, and the same whatever the command. ``READING_ONLY``: the true motion stays as it is.
+    motion, and the same whatever the command. ``LOCKED_TO_POSITION``: what it adds depends on the
+    position alone, at any speed and either way. ``READING_ONLY``: the true motion stays as it is.
     ``RANDOM``: differs from seed to seed, and is absent without one.
     ``DISSIPATIVE``: never adds energy.
     """
@@ -55,6 +56,7 @@ class Trait(StrEnum):
     RATE_INDEPENDENT = "rate-independent"
     TRANSIENT = "transient"
     LOCKED_TO_TIME = "locked to time"
+    LOCKED_TO_POSITION = "locked to position"
     READING_ONLY = "reading only"
     RANDOM = "random"
     DISSIPATIVE = "dissipative"

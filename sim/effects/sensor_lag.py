@@ -1,0 +1,109 @@
+"""A sensor that follows with a delay of its own: the low pass of its electronics.
+
+Between two calls the position is taken to move along a straight line, for which the filters are
+stepped exactly ("triangle hold": Franklin, Powell, Workman, Digital Control of Dynamic Systems,
+3rd ed. (1998), section 6.3.2). So they are right for any time constant, one far below the
+sampling interval too, and the error is that of the straight line: ``(ω h)²/12`` of a vibration.
+"""
+
+from math import inf
+
+import numpy as np
+
+from rotemina.sim.effects.facts import Facts
+from rotemina.sim.effects.formulation import (
+    EVERY_KIND,
+    Effect,
+    Formulation,
+    Parameter,
+    Reading,
+    Stage,
+    Trait,
+    Values,
+)
+
+_INNER_SHARE = 1.0 / 40.0  # of the axis' period: (ω h)²/12 is 0.2 %
+_FREE_STEP_S = 1e-3  # where no spring sets a period
+_NEAR_CRITICAL = 1e-6  # the least √|1 − ζ²|: in between the two kinds of roots are one
+
+
+def first_order(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """``T ẏ + y = x``. p: T; s: x and y when last called."""
+    if p[0] <= 0.0:
+        return x
+    if h > 0.0:
+        behind = p[0] * (x - s[0]) / h
+        s[1] = x - behind + np.exp(-h / p[0]) * (s[1] - s[0] + behind)
+        s[0] = x
+    return s[1]
+
+
+def second_order(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """``T² ÿ + 2ζT ẏ + y = x``. p: T, ζ; s: x, y and T ẏ when last called.
+
+    The error ``e = y − x + 2ζT ẋ`` along a straight line is that of a free oscillator.
+    """
+    if p[0] <= 0.0:
+        return x
+    if h > 0.0:
+        pace = h / p[0]
+        drift = p[0] * (x - s[0]) / h
+        error = s[1] - s[0] + 2.0 * p[1] * drift
+        speed = s[2] - drift
+        apart = max(np.sqrt(abs(1.0 - p[1] * p[1])), _NEAR_CRITICAL)
+        if p[1] < 1.0:
+            fading = np.exp(-p[1] * pace)
+            even = fading * np.cos(apart * pace)
+            odd = fading * np.sin(apart * pace) / apart
+        else:
+            slow = np.exp((apart - p[1]) * pace)
+            fast = np.exp((-apart - p[1]) * pace)
+            even = 0.5 * (slow + fast)
+            odd = 0.5 * (slow - fast) / apart
+        s[1] = x - 2.0 * p[1] * drift + even * error + odd * (p[1] * error + speed)
+        s[2] = drift + even * speed - odd * (error + p[1] * speed)
+        s[0] = x
+    return s[1]
+
+
+def _between_samples(values: Values, facts: Facts) -> float:
+    """Return a step along which a ringing axis moves straight enough; static ones stand still."""
+    if values["time_constant"] <= 0.0 or facts.mass <= 0.0:
+        return inf
+    return _INNER_SHARE / facts.frequency_hz if facts.frequency_hz > 0.0 else _FREE_STEP_S
+
+
+_TIME_CONSTANT = Parameter("time_constant", "T", "s", 0.0, 0.1, 5e-4)
+_TRAITS = frozenset({Trait.LINEAR, Trait.MEMORYLESS, Trait.TRANSIENT, Trait.READING_ONLY})
+_SOURCE = "Fleming, Sensors and Actuators A 190 (2013) 106–126, section 2.5"
+
+SENSOR_LAG = Effect(
+    id="sensor_lag",
+    title="Sensor lag",
+    summary="Phase and gain of the reading fall with frequency; those of the motion do not.",
+    stage=Stage.SENSOR,
+    kinds=EVERY_KIND,
+    formulations=(
+        Formulation(
+            name="first_order",
+            equation="T ẏ + y = q",
+            source=_SOURCE,
+            parameters=(_TIME_CONSTANT,),
+            acts=Reading(step=first_order, states=2),
+            inner_step_s=_between_samples,
+            traits=_TRAITS,
+        ),
+        Formulation(
+            name="second_order",
+            equation="T² ÿ + 2ζT ẏ + y = q",
+            source=_SOURCE,
+            parameters=(
+                _TIME_CONSTANT,
+                Parameter("damping_ratio", "ζ; 0.707: Butterworth", "", 0.05, 5.0, 0.7071),
+            ),
+            acts=Reading(step=second_order, states=3),
+            inner_step_s=_between_samples,
+            traits=_TRAITS,
+        ),
+    ),
+)

@@ -1,0 +1,42 @@
+"""A sensor that reads in coarser steps than declared."""
+
+import numpy as np
+
+from rotemina.sim.effects.formulation import (
+    EVERY_KIND,
+    Effect,
+    Formulation,
+    Parameter,
+    Reading,
+    Stage,
+    Trait,
+)
+
+
+def rounded(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """``y = Δ (round(x/Δ − z) + z)``. p: Δ, z."""
+    if p[0] <= 0.0:
+        return x
+    return p[0] * (np.rint(x / p[0] - p[1]) + p[1])
+
+
+SENSOR_QUANTIZATION = Effect(
+    id="sensor_quantization",
+    title="Sensor quantization",
+    summary="Steps of the reading, sharp at any speed: no mechanics filters them.",
+    stage=Stage.SENSOR,
+    kinds=EVERY_KIND,
+    formulations=(
+        Formulation(
+            name="uniform",
+            equation="y = Δ (round(q/Δ − z) + z)",
+            source="Widrow and Kollár, Quantization Noise (2008), ch. 1",
+            parameters=(
+                Parameter("step", "Δ", "q", 0.0, 1000.0, 20.0, per="noise"),
+                Parameter("shift", "z, where in a step the zero lies", "", -0.5, 0.5, 0.0),
+            ),
+            acts=Reading(step=rounded),
+            traits=frozenset({Trait.MEMORYLESS, Trait.RATE_INDEPENDENT, Trait.READING_ONLY}),
+        ),
+    ),
+)
