@@ -77,7 +77,7 @@ class Plant:
         """
         share = np.array([_input_per_command(axis) for axis in self.robot.axes.values()])
         with np.errstate(over="ignore"):  # found, and said, after the run
-            return np.asarray(np.where(share != 0.0, command, 0.0) * share)
+            return np.asarray(command * share)
 
     def at_rest(self, time_s: float, command: FloatArray) -> PlantState:
         """Return the state in equilibrium with ``command`` (axes,), at ``time_s``.

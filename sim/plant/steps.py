@@ -63,6 +63,8 @@ def _flat(matrices: Sequence[FloatArray]) -> tuple[FloatArray, IntArray]:
 def _holds(segments: Segments) -> FloatArray:
     """Return for how long the input applied at each segment acts on, (s, d), within the run."""
     lengths = segments.lengths_s[segments.step]
+    if segments.applied.shape[1] == 1 and (np.diff(segments.applied[:, 0]) > 0).all():
+        return lengths[:, None]  # no input is late: each acts for one segment
     begin = np.concatenate([[0.0], np.cumsum(lengths)[:-1]])
     end = float(begin[-1] + lengths[-1])
     hold = np.empty(segments.applied.shape)
