@@ -16,6 +16,7 @@ from rotemina.sim.effects.formulation import (
 
 POLES = 10
 _SLOWEST_HZ = 1e-3
+_SAME = 1e-9  # relative difference of steps up to which they differ by rounding
 _DECADES_APART = 0.6  # so that the slope ripples by less than 2 %; the last pole is at 250 Hz
 
 
@@ -36,7 +37,7 @@ def flicker(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # comp
         for i in range(POLES):
             y += s[i]
         return y
-    if h != s[POLES]:
+    if abs(h - s[POLES]) > _SAME * h:
         s[POLES] = h
         for i in range(POLES):
             s[POLES + 1 + i] = np.exp(-p[i] * h)

@@ -1,12 +1,19 @@
-"""Readings that are stamped by a clock which runs fast or slow."""
+"""Readings that are stamped by a clock which runs fast or slow.
+
+Between samples the motion is interpolated by the polynomial through the few nearest ones. A
+reading that lags is made of samples up to its own alone, so a run done in pieces is the same as
+one done at once.
+"""
 
 from collections.abc import Mapping
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
-from rotemina.sim.arrays import FloatArray
+from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.robot.model import Robot
+
+ROWS = 6  # samples through which the motion is interpolated
+_BEHIND = 3  # of them that lie before the time that is asked for, where there are enough after it
 
 
 def on_skewed_clocks(
@@ -21,17 +28,48 @@ def on_skewed_clocks(
     """Return readings (n, axes) whose motion is that of ``clock_s − rate·clock_s``.
 
     ``position`` (n, axes) is the motion at ``clock_s`` (n,), history included. Before the first
-    row and behind the last the motion is taken to stand still. ``rounded``: to the sensors'
-    resolution.
+    row and behind the last (``rate`` < 0 asks for what is yet to come) the motion is taken to
+    stand still. ``rounded``: to the sensors' resolution.
     """
     skewed = reading.copy() if skews else reading
     for column, rate in skews.items():
-        if len(clock_s) < 2:
-            continue
-        path = CubicSpline(clock_s, position[:, column])
+        path = position[:, column]
         when = np.clip(clock_s * (1.0 - rate), clock_s[0], clock_s[-1])
-        skewed[:, column] += path(when) - position[:, column]
+        skewed[:, column] += _at(when, clock_s, path) - path
         sensor = list(robot.axes.values())[column].sensor
         if rounded and sensor is not None and sensor.resolution > 0.0:
             skewed[:, column] = np.rint(skewed[:, column] / sensor.resolution) * sensor.resolution
     return skewed
+
+
+def _at(when: FloatArray, time_s: FloatArray, path: FloatArray) -> FloatArray:
+    """Return ``path`` (n,) at ``when`` (n,), row by row from samples up to that row or that time.
+
+    Up to the later of both: a reading may be ahead.
+    """
+    after = np.searchsorted(time_s, when)
+    last = np.maximum(np.arange(len(time_s)), np.minimum(after + ROWS - _BEHIND, len(time_s) - 1))
+    last = np.where(when > time_s, last, np.arange(len(time_s)))
+    rows = np.minimum(last + 1, ROWS)
+    first = np.clip(after - _BEHIND, 0, last + 1 - rows)
+    value = np.empty(len(when))
+    for count in np.unique(rows):
+        own = rows == count
+        near = first[own, None] + np.arange(count)
+        value[own] = _polynomial(when[own], time_s, path, near)
+    return value
+
+
+def _polynomial(
+    when: FloatArray, time_s: FloatArray, path: FloatArray, near: IntArray
+) -> FloatArray:
+    """Return the polynomials through the rows ``near`` (m, k) at ``when`` (m,): Lagrange's."""
+    nodes = time_s[near]
+    value = np.zeros(len(when))
+    for i in range(near.shape[1]):
+        weight = np.ones(len(when))
+        for j in range(near.shape[1]):
+            if j != i:
+                weight *= (when - nodes[:, j]) / (nodes[:, i] - nodes[:, j])
+        value += weight * path[near[:, i]]
+    return value

@@ -11,7 +11,7 @@ from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.plant import kernel
 from rotemina.sim.plant.assembly import Assembly, assemble
 from rotemina.sim.plant.chance import Chance
-from rotemina.sim.plant.clocks import on_skewed_clocks
+from rotemina.sim.plant.clocks import ROWS, on_skewed_clocks
 from rotemina.sim.plant.equilibrium import rest
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.group import Group
@@ -330,6 +330,7 @@ class Plant:
         lag_s = max(self.assembly.skews.values(), default=0.0) * elapsed_s
         since_s = stack.time_s[-1] - max(*self._delays(), lag_s, 0.0)
         first = int(np.searchsorted(stack.time_s, since_s, side="right")) - 1
+        first -= ROWS if self.assembly.skews else 0
         kept = slice(max(first, 0), None)
         return PlantState(
             stack.time_s[kept].copy(),
