@@ -18,6 +18,8 @@ from rotemina.sim.identification.errors import ExcitationError
 from rotemina.sim.identification.loop import Loop, amplitude_exponent, loops
 
 _MOST_DRAWN = 20_000  # rows; more of a loop is a blot, and slow
+_MOST_CYCLES = 1000
+_LEAST_SWING = 0.02  # of the peak-to-peak: smaller reversals are noise
 _SLOW = 50  # rows a cycle
 _PERCENT = Scale("%", 1.0)
 
@@ -30,13 +32,19 @@ def loop_findings(question: Question) -> Findings:
     x, y = driven[: len(driven) - lag], answer[lag:]
     notices: list[str] = []
     found: tuple[Loop, ...] = ()
+    rows = _rows_measured(driven)
+    if rows < len(driven):
+        notices.append(
+            f"Measured are the cycles of the first {rows} of {len(driven)} rows, which turn "
+            f"{_MOST_CYCLES} times: the input is noise or very long."
+        )
     try:
-        found = loops(driven, answer, lag_samples=lag)
+        found = loops(driven[:rows], answer[:rows], lag_samples=lag, least_swing=_LEAST_SWING)
     except InputError as error:
         notices.append(str(error))
     if len(x) > _MOST_DRAWN:
         notices.append(
-            f"Drawn are the first {_MOST_DRAWN} of {len(x)} rows; the figures are of all."
+            f"Drawn are the first {_MOST_DRAWN} of {len(x)} rows; the figures are not cut there."
         )
     rows, columns = _sheet(question, found) if found else ((), ())
     notices += _doubts(question, found)
@@ -48,6 +56,14 @@ def loop_findings(question: Question) -> Findings:
         columns,
         tuple(notices),
     )
+
+
+def _rows_measured(driven: FloatArray) -> int:
+    """Return how many rows hold no more cycles than can be measured within a second."""
+    from scipy.signal import find_peaks  # takes its time to import
+
+    highs, _ = find_peaks(driven, prominence=_LEAST_SWING * float(np.ptp(driven)))
+    return int(highs[_MOST_CYCLES]) if len(highs) > _MOST_CYCLES else len(driven)
 
 
 def _pictures(question: Question, x: FloatArray, y: FloatArray) -> tuple[Picture, ...]:

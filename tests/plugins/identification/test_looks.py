@@ -115,6 +115,13 @@ def test_fast_cycles_are_no_hysteresis(ask, noise_record):
     assert any("drive slower" in text for text in loop_findings(ask(noise_record)).notices)
 
 
+def test_only_as_many_cycles_are_measured_as_take_a_second(ask):
+    command = np.random.default_rng(0).standard_normal(60_000)
+    findings = loop_findings(ask(plain(command, command)))
+    assert 100 < figure(findings, "cycles") <= 1000  # lopsided ones are left out
+    assert any("of 60000 rows, which turn 1000 times" in text for text in findings.notices)
+
+
 def test_without_a_whole_cycle_the_curve_is_drawn_and_the_reason_given(ask):
     ramp = np.linspace(0.0, 1e-5, 500)
     findings = loop_findings(ask(plain(ramp, ramp)))
