@@ -1,11 +1,13 @@
 """The perturbation Q of Eq. (1): how the base of the machine is shaken."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
-from rotemina.sim.arrays import FloatArray
+from rotemina.sim.arrays import FloatArray, read_only
+from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.group import Group
 
 
@@ -23,11 +25,55 @@ class Perturbation:
         Q, m/s² or rad/s², one row for each sample.
     a, b : (axes, axes)
         A, kg s (or kg m² s), and B, kg (or kg m²). Rows are the axes that are pushed.
+
+    Raises
+    ------
+    PlantError
+        If shapes disagree or a number is not finite.
     """
 
     acceleration: FloatArray
     a: FloatArray
     b: FloatArray
+
+    def __post_init__(self) -> None:
+        shape = np.shape(self.acceleration)
+        if len(shape) != 2:
+            raise PlantError(
+                f"perturbation: acceleration has shape {shape}; give it a row for each sample and "
+                "a column for each axis"
+            )
+        for name in ("a", "b"):
+            if np.shape(getattr(self, name)) != (shape[1], shape[1]):
+                raise PlantError(
+                    f"perturbation: {name} has shape {np.shape(getattr(self, name))}; "
+                    f"acceleration has {shape[1]} axes, so it must be {(shape[1], shape[1])}"
+                )
+        for name in ("acceleration", "a", "b"):
+            array = np.array(getattr(self, name), dtype=np.float64)
+            if not np.isfinite(array).all():
+                place = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
+                raise PlantError(f"perturbation: {name}{list(place)} is not finite")
+            object.__setattr__(self, name, read_only(array))
+
+    def check(self, rows: int, axes: Sequence[str]) -> None:
+        """Raise :class:`PlantError` unless there is a row for each sample, a column for each axis.
+
+        ``axes`` are those of the plant.
+        """
+        if self.acceleration.shape[1] != len(axes):
+            raise PlantError(
+                f"perturbation: it has {self.acceleration.shape[1]} axes; "
+                f"the plant has {len(axes)}: {' '.join(axes)}"
+            )
+        if len(self.acceleration) != rows:
+            raise PlantError(
+                f"perturbation: it has {len(self.acceleration)} rows; the commands have {rows}"
+            )
+
+    def part(self, rows: slice) -> Self:
+        """Return some of the rows."""
+        return replace(self, acceleration=self.acceleration[rows])
 
     def forces(self, before: FloatArray) -> FloatArray:
         """Return ``B Q`` (n + 1, axes), N or N m, that of the row ``before`` (axes,) first."""

@@ -2,16 +2,20 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.plant.assembly import assemble
 from rotemina.sim.plant.chance import Chance
 from rotemina.sim.plant.history import steady_start
 from rotemina.sim.plant.perturbation import Perturbation
-from rotemina.sim.plant.plant import Motion, Plant, PlantState
+from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.response import check_axes, run_of
 from rotemina.sim.plant.run import Run
+from rotemina.sim.plant.state import Motion, PlantState
+from rotemina.sim.records.pieces import PIECE_ROWS, join_records
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import AxisEffect, ReferenceNoise, Robot, StepperAxis
 
@@ -56,11 +60,29 @@ def simulate(
     return simulation.follow(commands, perturbation=perturbation)
 
 
+def needs_whole(robot: Robot, effects: Sequence[AxisEffect] | None, commands: Record) -> bool:
+    """Tell whether a simulation must have all commands at once, of which some are ``commands``.
+
+    A periodic record must, because its start is the steady state of a whole period, and a machine
+    some of whose clocks lead, because their readings are of what comes later.
+    """
+    leads = any(rate < 0.0 for rate in assemble(_with(robot, effects)).skews.values())
+    return leads or commands.history == "periodic"
+
+
+class Response(NamedTuple):
+    """A record, and the motion of all axes that were simulated for it."""
+
+    record: Record
+    motion: Motion
+
+
 class Simulation:
     """A simulated machine that is driven piece by piece, in bounded memory.
 
     It starts at rest at the first command of ``commands``, or in the steady state of a periodic
-    one. Parameters and errors as of :func:`simulate`.
+    one. Parameters and errors as of :func:`simulate`. Long commands are followed in pieces of
+    ``PIECE_ROWS`` rows, so that a run that comes in such pieces is the same to the last bit.
     """
 
     def __init__(
@@ -70,12 +92,12 @@ class Simulation:
         commands: Record,
         rng: np.random.Generator | None = None,
     ) -> None:
-        if effects is not None:
-            robot = replace(robot, effects=tuple(effects))
+        robot = _with(robot, effects)
         check_axes(robot, commands)
         self._plant = Plant.of(robot, closed_loop=commands.closed_loop, only=commands.axes)
         self._chance = Chance(rng) if rng is not None else None
-        self._reference = rng.spawn(1)[0] if rng is not None else None
+        # A stream for each axis, so that pieces draw from it what the whole would.
+        self._reference = rng.spawn(len(commands.axes)) if rng is not None else []
         run = run_of(self._plant, commands)
         self._state = self._start(commands, run)
 
@@ -84,8 +106,33 @@ class Simulation:
         """The axes that are simulated, in the robot's order."""
         return self._plant.axes
 
+    @property
+    def plant(self) -> Plant:
+        """What is simulated."""
+        return self._plant
+
     def follow(self, commands: Record, *, perturbation: Perturbation | None = None) -> Record:
         """Return the record of the next commands, whose times go on where the last ones ended."""
+        return self.respond(commands, perturbation=perturbation).record
+
+    def respond(self, commands: Record, *, perturbation: Perturbation | None = None) -> Response:
+        """Return the record of the next commands, and the motion behind it."""
+        leads = any(rate < 0.0 for rate in self._plant.assembly.skews.values())
+        if leads or len(commands.time_s) <= PIECE_ROWS:
+            return self._advance(commands, perturbation)
+        if perturbation is not None:
+            perturbation.check(len(commands.time_s), self._plant.axes)
+        responses = []
+        for first in range(0, len(commands.time_s), PIECE_ROWS):
+            rows = slice(first, first + PIECE_ROWS)
+            shaken = perturbation.part(rows) if perturbation is not None else None
+            responses.append(self._advance(commands.part(rows), shaken))
+        return Response(
+            join_records([one.record for one in responses]),
+            Motion(*map(np.concatenate, zip(*(one.motion for one in responses), strict=True))),
+        )
+
+    def _advance(self, commands: Record, perturbation: Perturbation | None) -> Response:
         run = run_of(self._plant, commands)
         motion, self._state = self._plant.advance(
             self._state,
@@ -96,7 +143,7 @@ class Simulation:
             perturbation=perturbation,
             chance=self._chance,
         )
-        return self._record(commands, motion)
+        return Response(self._record(commands, motion), motion)
 
     def _start(self, commands: Record, run: Run) -> PlantState:
         if commands.history == "periodic":
@@ -105,7 +152,7 @@ class Simulation:
 
     def _record(self, commands: Record, motion: Motion) -> Record:
         signals: dict[tuple[str, Tap], FloatArray] = {}
-        for name in commands.axes:
+        for number, name in enumerate(commands.axes):
             column = self._plant.axes.index(name)
             signals[name, Tap.CMD] = commands.signal(name, Tap.CMD)
             if commands.has(name, Tap.ADD):
@@ -113,15 +160,21 @@ class Simulation:
             if not isinstance(self._plant.robot.axes[name], StepperAxis):
                 signals[name, Tap.U] = motion.inputs[:, column]
             seen = motion.position[:, column]
-            signals[name, Tap.REF] = seen + self._reference_noise(commands.units[name], len(seen))
+            noise = self._reference_noise(number, commands.units[name], len(seen))
+            signals[name, Tap.REF] = seen + noise
             signals[name, Tap.MEAS] = motion.reading[:, column]
         return Record.from_signals(commands.time_s, signals, commands.units, commands.metadata)
 
-    def _reference_noise(self, unit: str, rows: int) -> FloatArray | float:
+    def _reference_noise(self, number: int, unit: str, rows: int) -> FloatArray | float:
+        """Return the noise (rows,) of the reference on an axis of the record."""
         rms = _rms(self._plant.robot.reference.noise_rms, unit)
-        if self._reference is None or rms is None:
+        if not self._reference or rms is None:
             return 0.0
-        return np.asarray(rms * self._reference.standard_normal(rows))
+        return np.asarray(rms * self._reference[number].standard_normal(rows))
+
+
+def _with(robot: Robot, effects: Sequence[AxisEffect] | None) -> Robot:
+    return robot if effects is None else replace(robot, effects=tuple(effects))
 
 
 def _rms(noise: ReferenceNoise, unit: str) -> float | None:
