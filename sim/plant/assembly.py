@@ -7,6 +7,7 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.effects.attachment import Attached, attached_effects
+from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.effects.formulation import Change, Force, Late, Motion, Part, Skew
 from rotemina.sim.plant.group import Group, PlacedPart, groups_of, static_groups_of
 from rotemina.sim.plant.machine import (
@@ -73,13 +74,16 @@ class Assembly:
         )
 
 
+_GROWTH = 1e-9  # of a pole, over the fastest: rounding may put one that stands still there
+
+
 def assemble(robot: Robot, only: Collection[str] | None = None) -> Assembly:
     """Put the axes ``only``, and those that a coupling or an effect joins to them, together.
 
     Raises
     ------
     EffectError
-        If an effect cannot be used.
+        If an effect cannot be used, or the robot is unstable with it.
     """
     effects = attached_effects(robot)
     if only is not None:
@@ -91,6 +95,7 @@ def assemble(robot: Robot, only: Collection[str] | None = None) -> Assembly:
     parts, placed = _placed(axes, effects)
     groups = groups_of(robot, parts)
     all_groups = groups + static_groups_of(robot, parts)
+    _check_stability(all_groups, effects)
     machine, functions = machine_of(robot, all_groups, placed)
     steps = [one.formulation.inner_step_s(one.values, one.facts) for one in effects]
     return Assembly(
@@ -167,6 +172,27 @@ def _placed(
             placed.append(Placed(replace(one, formulation=leaking), len(axes) + ports))
             ports += 1
     return parts, placed
+
+
+def _check_stability(groups: Sequence[Group], effects: Sequence[Attached]) -> None:
+    """Refuse states of axes and of effects that grow by themselves."""
+    for group in groups:
+        own = [one for one in effects if {one.asked.axis, one.asked.from_axis} & set(group.axes)]
+        if not own or group.states == 0:
+            continue
+        poles = np.linalg.eigvals(group.generator[: group.states, : group.states])
+        fastest = float(poles.real.max())
+        if fastest > _GROWTH * float(np.abs(poles).max()):
+            named = "; ".join(
+                f"{one.asked.id} on {one.asked.axis} with "
+                + ", ".join(f"{name} = {value:g}" for name, value in one.values.items())
+                for one in own
+                if isinstance(one.formulation.acts, Part | Change)
+            )
+            raise EffectError(
+                f"axis {', '.join(group.axes)}: unstable together, a motion grows by e every "
+                f"{1.0 / fastest:.3g} s ({named}); change or remove one of them"
+            )
 
 
 def _no_numbers(_values: object, _facts: object) -> tuple[float, ...]:

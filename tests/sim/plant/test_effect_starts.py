@@ -1,0 +1,88 @@
+"""How a run with effects begins: at rest, as after a rise; and in its steady state."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rotemina.sim.plant.plant import Plant
+from rotemina.sim.plant.response import nominal_response
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.simulation.simulation import simulate
+
+ROBOT = load_robot("rotemina")
+LOOP = AxisEffect(axis="zn", id="hysteresis", parameters={"width": 6e-6})
+
+
+def held(axis, share, rows=400, rate_hz=2000.0):
+    """A constant command."""
+    own = ROBOT.axes[axis]
+    command = np.full(rows, own.range[0] + share * own.span)
+    return Record.from_signals(
+        np.arange(rows) / rate_hz, {(axis, Tap.CMD): command}, {axis: own.unit}
+    )
+
+
+def sine(axis, rate_hz=2000.0, frequency_hz=5.0, periods=2, metadata=None):
+    own = ROBOT.axes[axis]
+    time_s = np.arange(round(periods * rate_hz / frequency_hz)) / rate_hz
+    wave = np.sin(2 * np.pi * frequency_hz * time_s)
+    command = own.range[0] + own.span * (0.5 + 0.2 * wave)
+    return Record.from_signals(time_s, {(axis, Tap.CMD): command}, {axis: own.unit}, metadata)
+
+
+@pytest.mark.parametrize(
+    "effect",
+    [
+        LOOP,
+        AxisEffect(axis="x", id="backlash"),
+        AxisEffect(axis="x", id="friction"),
+        AxisEffect(axis="x", id="flexible_mode", formulation="appendage"),
+        AxisEffect(axis="zn", id="flexible_mode", formulation="series"),
+        AxisEffect(axis="zn", id="delay"),
+    ],
+    ids=lambda effect: effect.id,
+)
+def test_a_held_command_stays_at_rest(effect):
+    record = simulate(ROBOT, [effect], held(effect.axis, 0.37))
+    drift = np.ptp(record.signal(effect.axis, Tap.MEAS))
+    assert drift <= 1e-9 * ROBOT.axes[effect.axis].span
+
+
+def test_memory_is_that_of_a_rise_from_the_low_end():
+    """The same command reached by a slow rise ends where the run at rest begins."""
+    own = ROBOT.axes["zn"]
+    high = own.range[0] + 0.6 * own.span
+    time_s = np.arange(12001) / 2000.0
+    ramp = np.minimum(time_s / 4.0, 1.0)
+    smooth = ramp * ramp * (3.0 - 2.0 * ramp)
+    rise = Record.from_signals(
+        time_s, {("zn", Tap.CMD): own.range[0] + smooth * (high - own.range[0])}, {"zn": "m"}
+    )
+    risen = simulate(ROBOT, [LOOP], rise).signal("zn", Tap.REF)[-1]
+    at_rest = simulate(ROBOT, [LOOP], held("zn", 0.6)).signal("zn", Tap.REF)[0]
+    assert risen == pytest.approx(at_rest, abs=1e-6 * own.span)
+
+
+def test_after_a_rise_friction_and_backlash_hold_the_table_back():
+    for effect in (AxisEffect(axis="x", id="friction"), AxisEffect(axis="x", id="backlash")):
+        record = simulate(ROBOT, [effect], held("x", 0.5))
+        behind = record.signal("x", Tap.CMD)[0] - record.signal("x", Tap.REF)[0]
+        assert behind > 1e-8, effect.id
+
+
+def test_a_periodic_run_with_effects_begins_in_its_steady_state():
+    robot = replace(ROBOT, effects=(LOOP,))
+    steady = nominal_response(robot, sine("zn", metadata={"history": "periodic"}))
+    first, second = np.split(steady.signal("zn", Tap.REF), 2)
+    np.testing.assert_allclose(first, second, atol=1e-6 * ROBOT.axes["zn"].span)
+
+
+def test_effects_join_the_axis_that_they_come_from():
+    plant = Plant.of(
+        replace(ROBOT, effects=(AxisEffect(axis="x", id="cross_coupling", from_axis="thy"),)),
+        only=["x"],
+    )
+    assert set(plant.axes) == {"x", "thx", "thy"}
