@@ -48,3 +48,11 @@ class Panel(QWidget):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
         self.workbench = workbench
+
+    @property
+    def main_window(self) -> QWidget:
+        """The window that the panel belongs to, also while its dock floats by itself."""
+        widget: QWidget = self
+        while (parent := widget.parentWidget()) is not None:
+            widget = parent
+        return widget

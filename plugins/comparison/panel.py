@@ -42,9 +42,9 @@ class ComparisonPanel(Panel):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
         self.open = QPushButton("Open record …")
-        self.open.clicked.connect(lambda: self.window().ask_record())
+        self.open.clicked.connect(lambda: self.main_window.ask_record())
         self.save = QPushButton("Save record …")
-        self.save.clicked.connect(lambda: self.window().ask_save())
+        self.save.clicked.connect(lambda: self.main_window.ask_save())
         self.save.setEnabled(False)
         self.summary = QLabel(EMPTY)
         self.summary.setWordWrap(True)

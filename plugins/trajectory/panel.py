@@ -34,7 +34,7 @@ class TrajectoryPanel(Panel):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
         self.load = QPushButton("Load …")
-        self.load.clicked.connect(lambda: self.window().ask_trajectory())
+        self.load.clicked.connect(lambda: self.main_window.ask_trajectory())
         self.resample = QPushButton("Resample …")
         self.resample.setEnabled(False)
         self.resample.clicked.connect(self._resample)

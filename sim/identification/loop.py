@@ -1,5 +1,6 @@
 """Figures of hysteresis loops: width, area, ends that saturate, dependence on amplitude."""
 
+from bisect import bisect_left, bisect_right
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -95,7 +96,7 @@ def loops(
 def _cycles(x: FloatArray, y: FloatArray, lows: list[int], highs: list[int]) -> list[Loop]:
     found = []
     for begin, end in pairwise(lows):
-        between = [row for row in highs if begin < row < end]
+        between = highs[bisect_right(highs, begin) : bisect_left(highs, end)]
         if between:
             top = max(between, key=lambda row: float(x[row]))
             loop = _measure(x, y, begin, top, end)
