@@ -11,15 +11,33 @@ from rotemina.sim.effects.formulation import (
     Values,
 )
 
+FLANKS = 8
 _INNER_SHARE = 1.0 / 20.0  # of the axis' period: how finely its turning points are seen
 _FREE_STEP_S = 1e-3
 
 
 def play(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
     """``y = max(x − w/2, min(x + w/2, y))``. p: w/2, low end of the range; s: y from there."""
-    x -= p[1]
-    s[0] = max(x - p[0], min(x + p[0], s[0]))
-    return s[0] + p[1]
+    risen = x - p[1]
+    s[0] = max(risen - p[0], min(risen + p[0], s[0]))
+    return x + (s[0] - risen)
+
+
+def flanks(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Return the mean of plays of different widths. p: low end, half of each width; s: each y."""
+    risen = x - p[0]
+    behind = 0.0
+    for i in range(FLANKS):
+        s[i] = max(risen - p[1 + i], min(risen + p[1 + i], s[i]))
+        behind += s[i] - risen
+    return x + behind / FLANKS
+
+
+def _spread(values: Values, facts: Facts) -> tuple[float, ...]:
+    """Spread the plays evenly between ``w (1 − softness)`` and ``w (1 + softness)``."""
+    places = [(2.0 * i + 1.0) / FLANKS - 1.0 for i in range(FLANKS)]
+    half = 0.5 * values["width"]
+    return (facts.low, *(half * (1.0 + values["softness"] * place) for place in places))
 
 
 def fine_enough(_values: Values, facts: Facts) -> float:
@@ -43,6 +61,19 @@ BACKLASH = Effect(
             parameters=(WIDTH,),
             acts=Motion(step=play, states=1),
             prepare=lambda values, facts: (0.5 * values["width"], facts.low),
+            inner_step_s=fine_enough,
+            traits=frozenset({Trait.RATE_INDEPENDENT}),
+        ),
+        Formulation(
+            name="compliant",
+            equation="y = Σ yᵢ / n, yᵢ = max(x − wᵢ/2, min(x + wᵢ/2, yᵢ)), wᵢ = w (1 ± softness)",
+            source="Brokate and Sprekels, Hysteresis and Phase Transitions (1996), ch. 2",
+            parameters=(
+                WIDTH,
+                Parameter("softness", "0: rigid; 1: taken up from the start on", "", 0.0, 1.0, 0.5),
+            ),
+            acts=Motion(step=flanks, states=FLANKS),
+            prepare=_spread,
             inner_step_s=fine_enough,
             traits=frozenset({Trait.RATE_INDEPENDENT}),
         ),

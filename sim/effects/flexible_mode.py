@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import (
     EVERY_KIND,
@@ -25,7 +26,12 @@ def _oscillator(values: Values) -> tuple[float, float]:
 
 
 def _appendage(values: Values, facts: Facts) -> LinearPart:
-    """A mass on a spring that hangs on the axis: ``μ ξ̈ = −f``, f the force on the axis."""
+    """Hang a mass on a spring on the axis: ``μ M ξ̈ = −f``, f the force on the axis."""
+    if facts.mass == 0.0:
+        raise EffectError(
+            "flexible_mode: formulation 'appendage' pulls on the mass of an axis, and this axis is "
+            "static; give it mass, damping and stiffness or choose another formulation"
+        )
     rate, loss = _oscillator(values)
     mass = values["mass_ratio"] * facts.mass
     return LinearPart(
@@ -37,20 +43,28 @@ def _appendage(values: Values, facts: Facts) -> LinearPart:
     )
 
 
-def _parallel(values: Values, _facts: Facts) -> LinearPart:
-    """A second way from the input to the position, with a mode of its own."""
+def _parallel(values: Values, facts: Facts) -> LinearPart:
+    """Give the input a second way to the position, with a mode of its own.
+
+    A free axis has no static motion to share: the mode is added to it, and r is its modal mass
+    over the axis' (``z̈ + 2ζω ż + ω² z = gain/M · u``).
+    """
     rate, loss = _oscillator(values)
     share = values["share"]
+    free = facts.stiffness == 0.0 and facts.mass > 0.0
+    drive = rate**2
+    if facts.kind == "force":
+        drive = facts.gain / facts.mass if free else rate**2 * facts.gain / facts.stiffness
     return LinearPart(
         a=np.array([[0.0, 1.0], [-(rate**2), -loss]]),
-        b=np.array([[0.0, 0.0, 0.0], [0.0, 0.0, rate**2]]),
+        b=np.array([[0.0, 0.0, 0.0], [0.0, 0.0, drive]]),
         output=np.array([share, 0.0]),
-        share=share,
+        share=0.0 if free else share,
     )
 
 
 def _series(values: Values, _facts: Facts) -> LinearPart:
-    """A flexible link between the axis and the point that is seen."""
+    """Put a flexible link between the axis and the point that is seen."""
     rate, loss = _oscillator(values)
     share = values["share"]
     return LinearPart(

@@ -1,6 +1,6 @@
 """Friction in guides and screw: a force against motion, and against its beginning."""
 
-from math import inf
+from math import inf, pi, sqrt
 
 import numpy as np
 
@@ -16,15 +16,17 @@ from rotemina.sim.effects.formulation import (
 )
 
 _INNER_SHARE = 1.0 / 60.0  # of the axis' period: the force is held for so long
-_FREE_STEP_S = 1e-4  # where no spring sets a period
+_FREE_STEP_S = 5e-4  # where no spring sets a period
+_BRISTLE_SHARE = 0.1  # of the period of the axis on its bristles, as far as
+_FINER = 4.0  # times finer steps will do it
 
 
 def coulomb(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
     """Return the dry and viscous force that goes with the speed at the end of the step.
 
-    ``|f| ≤ F`` brings the speed ``v + b f`` to zero where it can: the axis sticks. Else
-    ``f = −F(v) sign v − D v`` by direction, with ``F = Fc + (Fs − Fc) exp(−(v/vs)²)``, solved
-    for the speed that it leaves (F at the speed before). It never feeds energy in.
+    ``|f| ≤ Fs`` brings the speed ``v + b f`` to zero where it can: the axis sticks. Else
+    ``f = −F(v) sign v − D v`` by direction, with ``F = Fc + (Fs − Fc) exp(−(v/vs)²)``, is solved
+    for the speed that it leaves: from below, so that an axis that breaks loose meets Fs first.
 
     p: Fc+, Fc−, Fs/Fc, vs, D+, D−.
     """
@@ -32,21 +34,85 @@ def coulomb(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # comp
     dry = p[0] if forward else p[1]
     viscous = p[4] if forward else p[5]
     speed = abs(other)
-    dry *= 1.0 + (p[2] - 1.0) * np.exp(-((speed / p[3]) ** 2))
-    if speed <= b * dry:
+    most = dry * p[2]
+    if speed <= b * most:
         return -other / b
-    left = (speed - b * dry) / (1.0 + b * viscous)
-    force = dry + viscous * left
+    left = (speed - b * most) / (1.0 + b * viscous)
+    if p[2] > 1.0:
+        for _ in range(3):
+            most = dry * (1.0 + (p[2] - 1.0) * np.exp(-((left / p[3]) ** 2)))
+            left = (speed - b * most) / (1.0 + b * viscous)
+    force = most + viscous * left
     return -force if forward else force
+
+
+def lugre(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """``f = −σ₀ z − σ₁(v) ż − D v, ż = v − |v| z / (zs g(v))``, solved for the end of the step.
+
+    With ``g = 1 + (Fs/Fc − 1) exp(−(v/vs)²)`` and σ₁ of the speed found before, backward Euler
+    for z leaves a quadratic for the speed with one root of the right sign, at any stiffness:
+    ``(v (1 + b D) − v₀ − b σ₁ z₀/h) (1 + c v) + b (σ₀ + σ₁/h) (z₀ + h v) = 0``,
+    ``c = h/(zs g)``. The damping of the bristles fades as ``σ₁/(1 + σ₁ |v|/(Fc g))``, which keeps
+    the model passive at any speed.
+
+    p: σ₀, zs, Fs/Fc − 1, vs, σ₁, σ₁/Fc, D; s: z.
+    """
+    forward = other - b * p[0] * s[0] >= 0.0
+    free = other if forward else -other
+    bent = s[0] if forward else -s[0]
+    heavy = 1.0 + b * p[6]
+    speed, bend, damping, rise = 0.0, bent, 0.0, 1.0 + p[2]
+    for again in range(3):
+        if again > 0:
+            rise = 1.0 + p[2] * np.exp(-((speed / p[3]) ** 2)) if p[2] > 0.0 else 1.0
+        damping = p[4] / (1.0 + p[5] * speed / rise) / h
+        limit = h / (p[1] * rise)
+        known = free + b * damping * bent
+        square = limit * heavy
+        linear = heavy - limit * known + b * (p[0] + damping) * h
+        rest = max(free - b * p[0] * bent, 0.0)
+        root = np.sqrt(linear * linear + 4.0 * square * rest)
+        speed = 2.0 * rest / (linear + root) if linear > 0.0 else (root - linear) / (2.0 * square)
+        bend = (bent + h * speed) / (1.0 + limit * speed)
+    s[0] = bend if forward else -bend
+    force = p[0] * bend + damping * (bend - bent) + p[6] * speed
+    return -force if forward else force
+
+
+def _bristles(values: Values, facts: Facts) -> tuple[float, ...]:
+    """Return the numbers of :func:`lugre`; σ₁ is the damping ratio of the mass on its bristles."""
+    dry, deflection = values["coulomb"], values["deflection"]
+    stiffness = dry / deflection
+    damping = 2.0 * values["bristle_damping"] * sqrt(stiffness * facts.mass)
+    return (
+        stiffness,
+        deflection,
+        values["static_ratio"] - 1.0,
+        values["stribeck_speed"],
+        damping,
+        damping / dry if dry > 0.0 else 0.0,
+        values["viscous"],
+    )
 
 
 def _inner_step(_values: Values, facts: Facts) -> float:
     return _INNER_SHARE / facts.frequency_hz if facts.frequency_hz > 0.0 else _FREE_STEP_S
 
 
+def _bristle_step(values: Values, facts: Facts) -> float:
+    """Return a step that follows the axis on its bristles, if that asks for little more work."""
+    longest = _inner_step(values, facts)
+    rate = sqrt(values["coulomb"] / values["deflection"] / facts.mass)
+    period = 2.0 * pi / rate if rate > 0.0 else inf
+    return min(longest, max(_BRISTLE_SHARE * period, longest / _FINER))
+
+
 def _dry(name: str, meaning: str) -> Parameter:
     return Parameter(name, meaning, "N", 0.0, 1.0, 0.05, per="force")
 
+
+_STATIC_RATIO = Parameter("static_ratio", "of static over dry friction", "", 1.0, 3.0, 1.0)
+_STRIBECK = Parameter("stribeck_speed", "where static friction fades", "q/s", 1e-6, 1.0, 1e-3)
 
 FRICTION = Effect(
     id="friction",
@@ -62,13 +128,38 @@ FRICTION = Effect(
             parameters=(
                 _dry("coulomb_forward", "dry friction forward"),
                 _dry("coulomb_backward", "dry friction backward"),
-                Parameter("static_ratio", "of static over dry friction", "", 1.0, 3.0, 1.0),
-                Parameter("stribeck_speed", "where static friction fades", "q/s", 1e-6, 1.0, 1e-3),
+                _STATIC_RATIO,
+                _STRIBECK,
                 Parameter("viscous_forward", "viscous friction forward", "N s/q", 0.0, inf, 0.0),
                 Parameter("viscous_backward", "viscous friction backward", "N s/q", 0.0, inf, 0.0),
             ),
             acts=Force(step=coulomb),
             inner_step_s=_inner_step,
+            traits=frozenset({Trait.DISSIPATIVE}),
+        ),
+        Formulation(
+            name="lugre",
+            equation="f = −σ₀ z − σ₁ ż − D v, ż = v − σ₀ |v| z / (Fc + (Fs − Fc) exp(−(v/vs)²))",
+            source="Canudas de Wit, Olsson, Åström, Lischinsky, IEEE TAC 40 (1995) 419–425",
+            parameters=(
+                _dry("coulomb", "dry friction"),
+                Parameter(
+                    "deflection",
+                    "Fc/σ₀, by which bristles yield",
+                    "q",
+                    1e-8,
+                    1e-2,
+                    1e-5,
+                    per="span",
+                ),
+                Parameter("bristle_damping", "damping ratio on the bristles", "", 0.0, 2.0, 0.5),
+                _STATIC_RATIO,
+                _STRIBECK,
+                Parameter("viscous", "viscous friction", "N s/q", 0.0, inf, 0.0),
+            ),
+            acts=Force(step=lugre, states=1),
+            prepare=_bristles,
+            inner_step_s=_bristle_step,
             traits=frozenset({Trait.DISSIPATIVE}),
         ),
     ),

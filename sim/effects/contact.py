@@ -1,0 +1,170 @@
+"""Contact on one side: a stop, a dish, a cell membrane; nothing before it.
+
+The sign of the strength says on which side: positive for what is met on the way up, negative for
+what is met on the way down. So a fit goes smoothly through "no contact" from one to the other.
+"""
+
+from math import inf, pi, sqrt
+
+import numpy as np
+
+from rotemina.sim.effects.facts import Facts
+from rotemina.sim.effects.formulation import (
+    EVERY_KIND,
+    Effect,
+    Force,
+    Formulation,
+    Motion,
+    Parameter,
+    Stage,
+    Trait,
+    Values,
+)
+
+_INNER_SHARE = 1.0 / 30.0  # of the period of the axis in contact
+_DEPTH = 0.1  # of the range, at which a progressive contact is as stiff as it is said to be
+
+
+def spring(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Push as a spring and damper do that are met at a place.
+
+    The force is the one whose work over the step equals the change of the spring's energy, with
+    the depths before and after it (``δ₀``, and ``δ₁`` reduced by the force N itself,
+    ``δ₁ − a N``): ``N (δ₁ − a N − δ₀) = k/2 (⟨δ₁ − a N⟩² − ⟨δ₀⟩²)``, ``⟨δ⟩ = max(δ, 0)``; a root
+    of a quadratic at most, at any stiffness. The damper acts for the share of the step that is
+    spent in contact, and nothing ever pulls.
+
+    p: side, place, k, c.
+    """
+    middle = p[0] * (x - p[1])
+    half = 0.5 * h * p[0] * other
+    before, after = middle - half, middle + half
+    push, share = 0.0, 1.0
+    if before > 0.0:
+        push = p[2] * middle / (1.0 + 0.5 * p[2] * a)
+        if push < 0.0 or after - a * push <= 0.0:  # it leaves
+            root = np.sqrt(half * half + 0.5 * p[2] * a * before * before)
+            push = 0.5 * p[2] * before * before / (root - half)
+            share = before / (before - after + a * push)
+    elif after > 0.0:  # it comes
+        linear = 2.0 * half + p[2] * a * after
+        root = np.sqrt(4.0 * half * half - 2.0 * p[2] * a * after * before)
+        push = p[2] * after * after / (linear + root)
+        inside = after - a * push
+        share = inside / (inside - before)
+    else:
+        return 0.0
+    loss = share * p[3]
+    push = (push + loss * p[0] * other) / (1.0 + loss * b)
+    return -p[0] * max(push, 0.0)
+
+
+def progressive(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Push by ``N = k D (δ/D)ⁿ`` and a damper, with δ at mid-step, where ``a N/2`` moves it.
+
+    Newton's steps from N = 0 stay below the root, for the right side is convex.
+
+    p: side, place, k, c, n, D.
+    """
+    depth = p[0] * (x - p[1])
+    if depth <= 0.0:
+        return 0.0
+    push = 0.0
+    for _ in range(3):
+        inside = depth - 0.5 * a * push
+        force = p[2] * p[5] * (inside / p[5]) ** p[4]
+        push -= (push - force) / (1.0 + 0.5 * a * p[4] * force / inside)
+    push = (push + p[3] * p[0] * other) / (1.0 + p[3] * b)
+    return -p[0] * max(push, 0.0)
+
+
+def stop(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Leave only a share of the motion beyond a place. p: side, place, share that is blocked."""
+    return x - p[2] * p[0] * max(p[0] * (x - p[1]), 0.0)
+
+
+def _side(strength: float) -> float:
+    return -1.0 if strength < 0.0 else 1.0
+
+
+def _stiffness(values: Values, facts: Facts) -> float:
+    """Return the stiffness in contact; a free axis is measured by its full force over its range."""
+    own = facts.stiffness if facts.stiffness > 0.0 else facts.force / facts.span
+    return abs(values["stiffness"]) * own
+
+
+def _numbers(values: Values, facts: Facts) -> tuple[float, ...]:
+    """Make c the damping that goes with ``c = 2ζ k/ω`` at the frequency of the axis alone."""
+    stiffness = _stiffness(values, facts)
+    damping = stiffness * values["damping_ratio"] / (pi * facts.pace_hz)
+    return (_side(values["stiffness"]), facts.low + values["place"], stiffness, damping)
+
+
+def _progressive_numbers(values: Values, facts: Facts) -> tuple[float, ...]:
+    return (*_numbers(values, facts), values["exponent"], _DEPTH * facts.span)
+
+
+def _stop_numbers(values: Values, facts: Facts) -> tuple[float, ...]:
+    return (_side(values["blocked"]), facts.low + values["place"], abs(values["blocked"]))
+
+
+def _inner_step(values: Values, facts: Facts) -> float:
+    stiffness = facts.stiffness + _stiffness(values, facts) * values.get("exponent", 1.0)
+    return _INNER_SHARE * 2.0 * pi * sqrt(facts.mass / stiffness) if stiffness > 0.0 else inf
+
+
+_PLACE = Parameter(
+    "place", "where it is met, from the low end of the range", "q", 0.0, 1.0, 0.7, per="span"
+)
+_STIFFNESS = Parameter(
+    "stiffness", "over the axis' own; negative: met on the way down", "", -100.0, 100.0, 0.5
+)
+_DAMPING = Parameter("damping_ratio", "ζ, of the contact", "", 0.0, 2.0, 0.1)
+_DISSIPATIVE = frozenset({Trait.MEMORYLESS, Trait.DISSIPATIVE})
+
+CONTACT = Effect(
+    id="contact",
+    title="Contact",
+    summary="A stop or a membrane: acts beyond a position alone.",
+    stage=Stage.MECHANICS,
+    kinds=EVERY_KIND,
+    formulations=(
+        Formulation(
+            name="spring",
+            equation="f = −(k δ + c δ̇), δ > 0 the depth beyond the place; never pulls",
+            source="Laursen and Chawla, Int. J. Numer. Methods Eng. 40 (1997) 863–886",
+            parameters=(_PLACE, _STIFFNESS, _DAMPING),
+            acts=Force(step=spring),
+            prepare=_numbers,
+            inner_step_s=_inner_step,
+            traits=_DISSIPATIVE,
+        ),
+        Formulation(
+            name="progressive",
+            equation="f = −(k D (δ/D)ⁿ + c δ̇), D a tenth of the range; n = 1.5: Hertz, 3: membrane",
+            source="Johnson, Contact Mechanics (1985), ch. 4",
+            parameters=(
+                _PLACE,
+                _STIFFNESS,
+                _DAMPING,
+                Parameter("exponent", "n", "", 1.0, 3.0, 1.5),
+            ),
+            acts=Force(step=progressive),
+            prepare=_progressive_numbers,
+            inner_step_s=_inner_step,
+            traits=_DISSIPATIVE,
+        ),
+        Formulation(
+            name="stop",
+            equation="y = x − β max(x − place, 0): the share β of what lies beyond is missing",
+            source="definition",
+            parameters=(
+                _PLACE,
+                Parameter("blocked", "β; negative: met on the way down", "", -1.0, 1.0, 0.8),
+            ),
+            acts=Motion(step=stop),
+            prepare=_stop_numbers,
+            traits=frozenset({Trait.MEMORYLESS, Trait.RATE_INDEPENDENT}),
+        ),
+    ),
+)

@@ -1,0 +1,61 @@
+"""The resonance is not where the model has it, or not as sharp."""
+
+from dataclasses import replace
+
+from rotemina.sim.effects.errors import EffectError
+from rotemina.sim.effects.formulation import (
+    EVERY_KIND,
+    Change,
+    Effect,
+    Formulation,
+    Parameter,
+    Stage,
+    Trait,
+    Values,
+)
+from rotemina.sim.robot.model import Axis
+
+
+def detuned(values: Values, axis: Axis) -> Axis:
+    """Return the axis with another mass and damping, so that its static gain stays.
+
+    With ``ω' = (1 + δ) ω`` and ``ζ' = (1 + ε) ζ`` at the same stiffness:
+    ``M' = M / (1 + δ)²``, ``D' = D (1 + ε) / (1 + δ)``.
+    """
+    inertia = axis.inertia
+    if inertia is None or inertia.stiffness == 0.0:
+        raise EffectError(
+            "resonance_mismatch: nothing holds this axis, so it has no resonance; "
+            "give it mass, damping and stiffness or take the effect away"
+        )
+    faster = 1.0 + values["frequency_error"]
+    return replace(
+        axis,
+        mass=inertia.mass / faster**2,
+        damping=inertia.damping * (1.0 + values["damping_error"]) / faster,
+        stiffness=inertia.stiffness,
+        natural_frequency_hz=None,
+        damping_ratio=None,
+    )
+
+
+RESONANCE_MISMATCH = Effect(
+    id="resonance_mismatch",
+    title="Resonance mismatch",
+    summary="Frequency or damping off: seen near the resonance alone.",
+    stage=Stage.MECHANICS,
+    kinds=EVERY_KIND,
+    formulations=(
+        Formulation(
+            name="detuned",
+            equation="ω' = (1 + δ) ω, ζ' = (1 + ε) ζ, the static gain stays",
+            source="Preumont, Vibration Control of Active Structures, 4th ed. (2018), ch. 2",
+            parameters=(
+                Parameter("frequency_error", "δ, of the natural frequency", "", -0.5, 0.5, 0.05),
+                Parameter("damping_error", "ε, of the damping ratio", "", -0.9, 9.0, 0.0),
+            ),
+            acts=Change(change=detuned),
+            traits=frozenset({Trait.LINEAR, Trait.TRANSIENT, Trait.MEMORYLESS}),
+        ),
+    ),
+)

@@ -1,0 +1,72 @@
+"""A flexure that stiffens as it bends: a bowed static curve whose resonance moves with position."""
+
+from rotemina.sim.effects.facts import Facts
+from rotemina.sim.effects.formulation import (
+    Effect,
+    Force,
+    Formulation,
+    Parameter,
+    Stage,
+    Trait,
+    Values,
+)
+
+_INNER_SHARE = 1.0 / 40.0  # of the axis' period; the error goes with its square
+
+
+def cubic(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """``f = −K (x − x₀)³`` at mid-step, where ``a f/2`` has moved it: midpoint rule, by Newton.
+
+    p: K, x₀.
+    """
+    bent = x - p[1]
+    force = 0.0
+    for _ in range(2):
+        at = bent + 0.5 * a * force
+        force -= (force + p[0] * at**3) / (1.0 + 1.5 * a * p[0] * at**2)
+    return force
+
+
+def _numbers(values: Values, facts: Facts) -> tuple[float, ...]:
+    """Make ``hardening`` the force at half the range from x₀, over that of the linear stiffness."""
+    reach = 0.5 * facts.span
+    middle = 0.5 * (facts.low + facts.high)
+    return (values["hardening"] * facts.stiffness / reach**2, middle + values["centre"])
+
+
+def _inner_step(_values: Values, facts: Facts) -> float:
+    return _INNER_SHARE / facts.frequency_hz
+
+
+STIFFNESS_NONLINEARITY = Effect(
+    id="stiffness_nonlinearity",
+    title="Stiffness nonlinearity",
+    summary="A bowed static curve, and a resonance that moves with position.",
+    stage=Stage.MECHANICS,
+    kinds=frozenset({"piezo"}),
+    formulations=(
+        Formulation(
+            name="cubic",
+            equation="f = −ε k (q − q₀)³ / L², L half the range, k the linear stiffness",
+            source="Kovacic and Brennan, The Duffing Equation (2011), ch. 2",
+            parameters=(
+                Parameter(
+                    "hardening", "ε, share of further force at L from q₀", "", -0.05, 1.0, 0.05
+                ),
+                Parameter(
+                    "centre",
+                    "where it is straight, from mid-range",
+                    "q",
+                    -0.5,
+                    0.5,
+                    0.0,
+                    per="span",
+                ),
+            ),
+            acts=Force(step=cubic),
+            prepare=_numbers,
+            inner_step_s=_inner_step,
+            traits=frozenset({Trait.MEMORYLESS, Trait.RATE_INDEPENDENT, Trait.DISSIPATIVE}),
+        ),
+    ),
+)

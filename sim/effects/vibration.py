@@ -1,0 +1,79 @@
+"""Vibration from outside, of the floor or of a fan: periodic in time."""
+
+import numpy as np
+
+from rotemina.sim.effects.facts import Facts
+from rotemina.sim.effects.formulation import (
+    EVERY_KIND,
+    Effect,
+    Formulation,
+    Motion,
+    Parameter,
+    Stage,
+    Trait,
+    Values,
+)
+
+
+def tone(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """``y = x + s₁ sin 2πft + c₁ cos 2πft``. p: 2πf, s₁, c₁."""
+    angle = p[0] * t
+    return x + p[1] * np.sin(angle) + p[2] * np.cos(angle)
+
+
+def two_tones(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """Add a tone and its second harmonic. p: 2πf, s₁, c₁, s₂, c₂."""
+    sine, cosine = np.sin(p[0] * t), np.cos(p[0] * t)
+    second = 2.0 * p[3] * sine * cosine + p[4] * (1.0 - 2.0 * sine * sine)
+    return x + p[1] * sine + p[2] * cosine + second
+
+
+def _numbers(values: Values, _facts: Facts) -> tuple[float, ...]:
+    amplitudes = [
+        values[name] for name in ("sine", "cosine", "sine_2", "cosine_2") if name in values
+    ]
+    return (2.0 * np.pi * values["frequency"], *amplitudes)
+
+
+def _amplitude(name: str, meaning: str, typical: float) -> Parameter:
+    return Parameter(name, meaning, "q", -0.1, 0.1, typical, per="span")
+
+
+_TONE = (
+    Parameter("frequency", "f", "Hz", 0.1, 2000.0, 50.0),
+    _amplitude("sine", "s₁, zero as the run begins", 1e-4),
+    _amplitude("cosine", "c₁, greatest as the run begins", 0.0),
+)
+_SOURCE = "Harris and Piersol, Shock and Vibration Handbook, 5th ed. (2002)"
+
+VIBRATION = Effect(
+    id="vibration",
+    title="Vibration",
+    summary="Periodic in time, whatever the position and the command.",
+    stage=Stage.MECHANICS,
+    kinds=EVERY_KIND,
+    formulations=(
+        Formulation(
+            name="tone",
+            equation="y = x + s₁ sin 2πft + c₁ cos 2πft, t since the run began",
+            source=_SOURCE,
+            parameters=_TONE,
+            acts=Motion(step=tone),
+            prepare=_numbers,
+            traits=frozenset({Trait.LOCKED_TO_TIME}),
+        ),
+        Formulation(
+            name="two_tones",
+            equation="y = x + s₁ sin 2πft + c₁ cos 2πft + s₂ sin 4πft + c₂ cos 4πft",
+            source=_SOURCE,
+            parameters=(
+                *_TONE,
+                _amplitude("sine_2", "s₂, of the second harmonic", 5e-5),
+                _amplitude("cosine_2", "c₂, of the second harmonic", 0.0),
+            ),
+            acts=Motion(step=two_tones),
+            prepare=_numbers,
+            traits=frozenset({Trait.LOCKED_TO_TIME}),
+        ),
+    ),
+)
