@@ -29,8 +29,9 @@ def random_walk(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # 
 def flicker(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
     """``y = x + Σ wᵢ``, ``ẇᵢ = −pᵢ wᵢ + rᵢ n``, all driven by the same white noise n.
 
-    Each wᵢ is stepped with its exact variance. p: pᵢ, then rᵢ; s: wᵢ, then h when last called,
-    then how far a step of h lets each fade, and by how much a variate moves it.
+    n holds while h lasts, so what is faster than the samples does not fold back among them.
+    p: pᵢ, then rᵢ; s: wᵢ, then h when last called, then how far a step of h lets each fade, and
+    by how much a variate moves it.
     """
     if h <= 0.0:
         y = x
@@ -41,8 +42,7 @@ def flicker(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # comp
         s[POLES] = h
         for i in range(POLES):
             s[POLES + 1 + i] = np.exp(-p[i] * h)
-            spread = -np.expm1(-2.0 * p[i] * h) / (2.0 * p[i])
-            s[2 * POLES + 1 + i] = p[POLES + i] * np.sqrt(spread)
+            s[2 * POLES + 1 + i] = -np.expm1(-p[i] * h) * p[POLES + i] / (p[i] * np.sqrt(h))
     y = x
     for i in range(POLES):
         s[i] = s[POLES + 1 + i] * s[i] + s[2 * POLES + 1 + i] * a

@@ -57,9 +57,9 @@ def second_order(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  #
             odd = fading * np.sin(apart * pace) / apart
         else:
             slow = np.exp((apart - p[1]) * pace)
-            fast = np.exp((-apart - p[1]) * pace)
-            even = 0.5 * (slow + fast)
-            odd = 0.5 * (slow - fast) / apart
+            gap = np.expm1(-2.0 * apart * pace)  # of the faster root from the slower, relative
+            even = slow * (1.0 + 0.5 * gap)
+            odd = -0.5 * slow * gap / apart
         s[1] = x - 2.0 * p[1] * drift + even * error + odd * (p[1] * error + speed)
         s[2] = drift + even * speed - odd * (error + p[1] * speed)
         s[0] = x
