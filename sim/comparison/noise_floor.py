@@ -65,7 +65,8 @@ def _noise_gain(robot: Robot, axis: str, period_s: float) -> float | None:
     loop = described.controller
     linear: CascadeController = replace(loop, limit=1e300)
     free = replace(described, controller=linear)
-    plant = Plant.of(replace(robot, axes={**robot.axes, axis: free}), closed_loop=True)
+    whole = replace(robot, axes={**robot.axes, axis: free}, effects=())
+    plant = Plant.of(whole, closed_loop=True)
     column = plant.axes.index(axis)
     command = np.zeros((_IMPULSE_ROWS, len(plant.axes)))
     time_s = period_s * np.arange(_IMPULSE_ROWS, dtype=np.float64)

@@ -1,7 +1,12 @@
-"""Backlash: at a reversal the table stays behind until the play is used up."""
+"""Backlash: at a reversal the table stays behind until the play is used up.
+
+The play may lie behind the springs of the axis (``rigid``, ``compliant``), or in the screw before
+them (``screw``): then the table, once it is taken along, rings as after any step.
+"""
 
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import (
+    Drive,
     Effect,
     Formulation,
     Motion,
@@ -75,6 +80,15 @@ BACKLASH = Effect(
             acts=Motion(step=flanks, states=FLANKS),
             prepare=_spread,
             inner_step_s=fine_enough,
+            traits=frozenset({Trait.RATE_INDEPENDENT}),
+        ),
+        Formulation(
+            name="screw",
+            equation="U' = max(U − w/2, min(U + w/2, U')) drives the mass and its spring",
+            source="Nordin and Gutman, Automatica 38 (2002) 1633–1649",
+            parameters=(WIDTH,),
+            acts=Drive(step=play, states=1),
+            prepare=lambda values, facts: (0.5 * values["width"], facts.low),
             traits=frozenset({Trait.RATE_INDEPENDENT}),
         ),
     ),
