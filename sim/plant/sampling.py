@@ -147,7 +147,8 @@ def _many_steps(group: Group, lengths_s: FloatArray) -> FloatArray:
     converges to rounding; one matrix exponential then serves many lengths.
     """
     balanced, _ = matrix_balance(group.generator, permute=False)
-    pitch = 1.0 / float(np.linalg.norm(balanced, 1))
+    # A static axis without states has a rate of zero: one step serves all its lengths.
+    pitch = 1.0 / max(float(np.linalg.norm(balanced, 1)), np.finfo(np.float64).tiny)
     bucket = np.rint(lengths_s / pitch).astype(np.int64)
     series = _series(group.generator, lengths_s - bucket * pitch)
     exact = np.empty((len(lengths_s), group.states, len(group.generator)))
