@@ -120,11 +120,12 @@ def _formulation(effect: Effect, name: str | None, where: str) -> Formulation:
 
 
 def _check_place(effect: Effect, formulation: Formulation, axis: Axis, where: str) -> None:
-    if axis.kind not in effect.kinds:
-        allowed = ", ".join(sorted(effect.kinds))
-        raise EffectError(
-            f"{where}: sits on an axis of kind {allowed}; this one is of kind {axis.kind!r}"
-        )
+    for kinds, what in ((effect.kinds, ""), (formulation.kinds, f" as {formulation.name!r}")):
+        if kinds and axis.kind not in kinds:
+            raise EffectError(
+                f"{where}{what}: sits on an axis of kind {', '.join(sorted(kinds))}; "
+                f"this one is of kind {axis.kind!r}"
+            )
     if axis.static and isinstance(formulation.acts, Force | Change):
         raise EffectError(
             f"{where}: formulation {formulation.name!r} acts on the dynamics of an axis, and this "

@@ -89,6 +89,7 @@ BACKLASH = Effect(
             parameters=(WIDTH,),
             acts=Drive(step=play, states=1),
             prepare=lambda values, facts: (0.5 * values["width"], facts.low),
+            kinds=frozenset({"stepper"}),
             traits=frozenset({Trait.RATE_INDEPENDENT}),
         ),
     ),

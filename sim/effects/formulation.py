@@ -253,6 +253,8 @@ class Formulation:
         in the order of ``parameters``.
     inner_step_s : callable
         The longest step with which it is accurate, from values and facts.
+    kinds : frozenset of str
+        Axis kinds that can carry it; empty for all those of its effect.
     """
 
     name: str
@@ -263,6 +265,7 @@ class Formulation:
     traits: frozenset[Trait] = frozenset()
     prepare: Callable[[Values, Facts], Sequence[float]] | None = None
     inner_step_s: Callable[[Values, Facts], float] = no_inner_step
+    kinds: frozenset[str] = frozenset()
 
     def numbers(self, values: Values, facts: Facts) -> FloatArray:
         """Return what the step function gets as ``p``."""
