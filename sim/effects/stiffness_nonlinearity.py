@@ -11,7 +11,7 @@ from rotemina.sim.effects.formulation import (
     Values,
 )
 
-_INNER_SHARE = 1.0 / 40.0  # of the axis' period; the error goes with its square
+_INNER_SHARE = 1.0 / 30.0  # of the axis' period; the error goes with its square
 
 
 def cubic(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled

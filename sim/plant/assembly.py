@@ -10,6 +10,7 @@ from rotemina.sim.effects.attachment import Attached, attached_effects
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.effects.formulation import Change, Force, Late, Motion, Part, Skew
 from rotemina.sim.plant.group import Group, PlacedPart, groups_of, static_groups_of
+from rotemina.sim.plant.lead import is_led
 from rotemina.sim.plant.machine import (
     Machine,
     Placed,
@@ -69,8 +70,7 @@ class Assembly:
     def leads_in(self) -> bool:
         """Whether rest is to be found by simulation: a force of an effect acts on a held axis."""
         return any(
-            isinstance(one.formulation.acts, Force) and one.facts.stiffness > 0.0
-            for one in self.effects
+            isinstance(one.formulation.acts, Force) and is_led(one.facts) for one in self.effects
         )
 
 
