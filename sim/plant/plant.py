@@ -265,6 +265,7 @@ class Plant:
         axes, rows = len(self.axes), len(clock_s)
         force, kick = np.zeros((0, axes)), np.zeros((0, 0))
         if perturbation is not None:
+            perturbation.check(rows, self.axes)
             force = perturbation.forces(shaken)
             kick = perturbation.kicks(shaken, self.axes, self.assembly.all_groups)
         drawn = np.zeros((0, axes))
