@@ -1,0 +1,175 @@
+"""What records say of one axis, and what a model with given effects would have said.
+
+The constant part of a difference is no evidence: the offset of a record is a nuisance.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Self
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.comparison.noise_floor import noise_floor
+from rotemina.sim.gap.errors import GapError
+from rotemina.sim.plant.history import measured_start, steady_start
+from rotemina.sim.plant.plant import Plant
+from rotemina.sim.plant.response import check_axes, run_of
+from rotemina.sim.plant.run import Run
+from rotemina.sim.plant.state import PlantState
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.model import AxisEffect, Robot, StepperAxis
+
+_TAPS = (Tap.U, Tap.REF, Tap.MEAS)
+_GRID_ROWS = 20_000  # in which the steps of a signal are looked for
+
+Signals = Mapping[Tap, FloatArray]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Observation:
+    """One record as it speaks of one axis.
+
+    ``real`` (n,) per tap, SI; ``floor`` rms per tap of what no model can explain.
+    """
+
+    record: Record
+    real: Signals
+    floor: Mapping[Tap, float]
+
+    @property
+    def taps(self) -> tuple[Tap, ...]:
+        """The taps that were measured, in the order of the chain."""
+        return tuple(self.real)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Evidence:
+    """All records that speak of one axis of a robot, whose own effects are part of the model."""
+
+    robot: Robot
+    axis: str
+    observations: tuple[Observation, ...]
+    _runs: dict[tuple[int, tuple[str, ...]], Run] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, robot: Robot, axis: str, records: Sequence[Record]) -> Self:
+        """Gather what records say of an axis.
+
+        Raises
+        ------
+        GapError
+            If none of them measures it.
+        PlantError
+            If a record does not fit the robot.
+        """
+        observations = []
+        for record in records:
+            if axis not in record.axes:
+                continue
+            check_axes(robot, record)
+            observation = _observe(robot, axis, record)
+            if observation.real:
+                observations.append(observation)
+        if not observations:
+            raise GapError(
+                f"axis {axis!r}: no record holds a measured channel of it (u, ref or meas) whose "
+                "noise floor is known or can be measured; nothing can be compared"
+            )
+        return cls(robot, axis, tuple(observations))
+
+    def response(self, effects: Sequence[AxisEffect] = ()) -> list[Signals]:
+        """Return what the model with further effects answers to each record.
+
+        Raises
+        ------
+        EffectError, PlantError
+            If it cannot be simulated.
+        """
+        robot = replace(self.robot, effects=(*self.robot.effects, *effects))
+        plants: dict[bool, Plant] = {}
+        answers: list[Signals] = []
+        for number, observation in enumerate(self.observations):
+            record = observation.record
+            if record.closed_loop not in plants:
+                plants[record.closed_loop] = Plant.of(
+                    robot, closed_loop=record.closed_loop, only={self.axis}
+                )
+            plant = plants[record.closed_loop]
+            run = self._run(number, plant)
+            motion, _ = plant.advance(
+                _start(plant, record, run),
+                run.time_s,
+                run.command,
+                add=run.add,
+                inputs=run.inputs,
+            )
+            column = plant.axes.index(self.axis)
+            signals = (motion.inputs, motion.position, motion.reading)
+            taps = zip(_TAPS, (signal[:, column] for signal in signals), strict=True)
+            answers.append({tap: signal for tap, signal in taps if tap in observation.real})
+        return answers
+
+    def gaps(self, effects: Sequence[AxisEffect] = ()) -> list[Signals]:
+        """Return real minus model of each record and tap, without its mean, over the floor."""
+        gaps: list[Signals] = []
+        for observation, answer in zip(self.observations, self.response(effects), strict=True):
+            gaps.append(
+                {
+                    tap: _centred(real - answer[tap]) / observation.floor[tap]
+                    for tap, real in observation.real.items()
+                }
+            )
+        return gaps
+
+    def _run(self, number: int, plant: Plant) -> Run:
+        key = number, plant.axes
+        if key not in self._runs:
+            self._runs[key] = run_of(plant, self.observations[number].record)
+        return self._runs[key]
+
+
+def _start(plant: Plant, record: Record, run: Run) -> PlantState:
+    if record.history == "periodic":
+        return steady_start(plant, run, record.period_samples)
+    if record.history == "unknown":
+        return measured_start(plant, record, run)
+    return plant.at_rest(run.time_s[0], run.command[0])
+
+
+def _observe(robot: Robot, axis: str, record: Record) -> Observation:
+    real: dict[Tap, FloatArray] = {}
+    floors: dict[Tap, float] = {}
+    for tap in _TAPS:
+        if not record.has(axis, tap) or (tap is Tap.U and not _answers_u(robot, axis, record)):
+            continue
+        floor = noise_floor(robot, record, axis, tap).rms
+        if floor is None:
+            continue
+        signal = record.signal(axis, tap)
+        if tap is not Tap.MEAS:  # that a sensor reads in coarser steps than declared is an effect
+            floor = float(np.hypot(floor, _grid(signal) / np.sqrt(12.0)))
+        real[tap], floors[tap] = signal, floor
+    return Observation(record, real, floors)
+
+
+def _answers_u(robot: Robot, axis: str, record: Record) -> bool:
+    """Whether ``u`` is an answer of the model, and does not drive it."""
+    described = robot.axes[axis]
+    if isinstance(described, StepperAxis):
+        return False
+    return described.kind == "piezo" or record.closed_loop
+
+
+def _grid(signal: FloatArray) -> float:
+    """Return the step in which a signal was written down, 0 where there is none."""
+    levels = np.unique(signal[:_GRID_ROWS])
+    if len(levels) < 3:
+        return 0.0
+    step = float(np.diff(levels).min())
+    off = levels / step - np.rint(levels / step)
+    return step if float(np.abs(off).max()) < 0.05 else 0.0
+
+
+def _centred(signal: FloatArray) -> FloatArray:
+    return np.asarray(signal - signal.mean())
