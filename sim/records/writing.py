@@ -72,7 +72,7 @@ def write_pieces(
     layout = _layout(first, units or {})
     head = _head(first, layout) if header else b""
     last_s = -np.inf
-    with _replaced(fspath(path)) as file:
+    with open_export(fspath(path)) as file:
         file.write(head)
         for piece in chain([first], coming):
             _check_goes_on(first, piece, last_s)
@@ -154,8 +154,16 @@ def _converted(signal: FloatArray, column: Column, factor: float) -> FloatArray:
 
 
 @contextmanager
-def _replaced(name: str) -> Iterator[BinaryIO]:
-    """Open the file that takes the place of ``name`` when it is complete, compressed if asked."""
+def open_export(name: str) -> Iterator[BinaryIO]:
+    """Open the file that takes the place of ``name`` when it is complete.
+
+    What is written is compressed if the name ends in ``.gz``.
+
+    Raises
+    ------
+    RecordError
+        If it cannot be written.
+    """
     try:
         with replaced(name) as file:
             if name.endswith(".gz"):

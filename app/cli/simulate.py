@@ -1,0 +1,220 @@
+"""``rotemina simulate``: what a machine with its effects would record over given commands."""
+
+import argparse
+import sys
+from collections.abc import Iterator
+from contextlib import ExitStack
+from dataclasses import replace
+from itertools import chain
+from pathlib import Path
+
+import numpy as np
+
+from rotemina.app.cli.options import add_columns, add_robot, robot_of
+from rotemina.sim.effects.attachment import Attached, attached_effects
+from rotemina.sim.effects.errors import EffectError
+from rotemina.sim.errors import InputError
+from rotemina.sim.plant.loads import RunningLoads
+from rotemina.sim.records.pieces import read_pieces
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records.writing import write_pieces
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import Robot
+from rotemina.sim.simulation.loads_table import LoadsTable, loads_table
+from rotemina.sim.simulation.simulation import Simulation, needs_whole
+
+_PREFIX = "simulated "  # of the metadata that say how a record came about
+_SLACK = 1e-9  # share of its range by which a command may lie outside unnoticed
+
+
+def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Add the subcommand."""
+    parser = commands.add_parser(
+        "simulate",
+        help="simulate the robot with its effects over the commands of a file",
+        description="Drive the model, with the effects and the noise of its robot file, by the "
+        "commands of a trajectory or record, and write what the machine would have recorded: "
+        "cmd, u, ref and meas. Long files go through in bounded memory.",
+    )
+    parser.add_argument("commands", type=Path, metavar="COMMANDS", help="a trajectory or record")
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="RECORD")
+    add_robot(parser)
+    add_columns(parser)
+    parser.add_argument(
+        "--effects", metavar="FILE", help="take the effects of this robot file instead"
+    )
+    chance = parser.add_mutually_exclusive_group()
+    chance.add_argument(
+        "--seed", type=int, default=0, metavar="N", help="of noise and random effects (default: 0)"
+    )
+    chance.add_argument(
+        "--no-noise", action="store_true", help="no noise, no rounding, no random effects"
+    )
+    parser.add_argument(
+        "--loads", type=Path, metavar="FILE", help="write accelerations and joint forces as CSV"
+    )
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Simulate piece by piece, and write the record."""
+    _check_files(options)
+    if options.seed < 0:
+        raise InputError(f"--seed {options.seed}: must be 0 or more")
+    robot = _robot(options)
+    commands = _commands(options, robot)
+    first = next(commands)
+    rng = None if options.no_noise else np.random.default_rng(options.seed)
+    simulation = Simulation(robot, None, first, rng)
+    run_ = _Run(simulation, _Outside(robot), tell=sys.stderr.isatty())
+    # Both files appear together or neither: a failure at one leaves the other's place alone.
+    with ExitStack() as files:
+        if options.loads is not None:
+            units = _units(robot, first)
+            table = loads_table(options.loads, simulation.plant, units)
+            run_.write_loads(files.enter_context(table))
+        write_pieces(run_.records(chain([first], commands)), options.output)
+    for warning in run_.outside.warnings():
+        print(f"rotemina: {options.commands}: {warning}", file=sys.stderr)
+    print(f"{options.output}: {run_.rows} rows, {run_.duration_s:.6g} s")
+    return 0
+
+
+def _check_files(options: argparse.Namespace) -> None:
+    sources = [options.commands]
+    for output in (options.output, options.loads):
+        if output is None:
+            continue
+        if any(output.absolute() == source.absolute() for source in sources) or (
+            output.exists() and any(s.exists() and output.samefile(s) for s in sources)
+        ):
+            raise InputError(f"{output}: it is named twice; give each file a name of its own")
+        sources.append(output)
+
+
+def _robot(options: argparse.Namespace) -> Robot:
+    """Return the robot with the effects that are to act."""
+    robot = robot_of(options)
+    if options.effects is None:
+        return robot
+    robot = replace(robot, effects=load_robot(options.effects).effects)
+    try:
+        attached_effects(robot)
+    except EffectError as error:
+        raise InputError(f"{options.effects}: on robot {robot.name!r}: {error}") from error
+    return robot
+
+
+def _commands(options: argparse.Namespace, robot: Robot) -> Iterator[Record]:
+    """Give the commands piece by piece, or at once where the simulation must have them all."""
+    pieces = read_pieces(options.commands, columns=options.columns, robot=robot)
+    first = next(pieces)
+    if needs_whole(robot, None, first):
+        # The steady state of a periodic record, and a clock that leads, look ahead: this alone
+        # takes memory that grows with the file.
+        pieces.close()
+        first = read_record(options.commands, columns=options.columns, robot=robot)
+        pieces = iter(())
+    metadata = _metadata(options, robot, first)
+    for piece in chain([first], pieces):
+        yield replace(piece, metadata=metadata)
+
+
+def _metadata(options: argparse.Namespace, robot: Robot, commands: Record) -> dict[str, str]:
+    """Return what the record says of itself, in place of what the commands say of such things."""
+    kept = {k: v for k, v in commands.metadata.items() if not k.startswith(_PREFIX)}
+    if commands.history == "unknown":
+        del kept["history"]  # the simulation begins at rest
+    said = {
+        "robot": " ".join(robot.name.split()),
+        "seed": "none" if options.no_noise else str(options.seed),
+    }
+    for number, one in enumerate(attached_effects(robot), start=1):
+        said[f"effect {number}"] = _described(one)
+    return kept | {f"{_PREFIX}{key}": value for key, value in said.items()}
+
+
+def _described(one: Attached) -> str:
+    source = f" from {one.asked.from_axis}" if one.asked.from_axis is not None else ""
+    values = "".join(f"; {name} = {value!r}" for name, value in one.values.items())
+    return f"{one.asked.id} on {one.asked.axis}{source}; {one.formulation.name}{values}"
+
+
+def _units(robot: Robot, commands: Record) -> dict[str, str]:
+    """Return the unit of each axis' position, as far as robot or commands tell."""
+    stated = {name: robot.unit(name) for name in robot.axes}
+    return {name: unit for name, unit in stated.items() if unit is not None} | dict(commands.units)
+
+
+class _Run:
+    """A simulation on its way from file to file."""
+
+    def __init__(self, simulation: Simulation, outside: "_Outside", *, tell: bool) -> None:
+        self._simulation = simulation
+        self._tell = tell
+        self._loads: tuple[RunningLoads, LoadsTable] | None = None
+        self._since_s: float | None = None
+        self.outside = outside
+        self.rows = 0
+        self.duration_s = 0.0
+
+    def write_loads(self, table: LoadsTable) -> None:
+        """Let the loads go to a table as well."""
+        self._loads = RunningLoads(self._simulation.plant), table
+
+    def records(self, commands: Iterator[Record]) -> Iterator[Record]:
+        """Give the record of each piece of the commands."""
+        for piece in commands:
+            self.outside.look_at(piece, self.rows)
+            response = self._simulation.respond(piece)
+            if self._loads is not None:
+                running, table = self._loads
+                table.add(running.follow(piece.time_s, response.motion))
+            self._count(piece)
+            yield response.record
+        if self._loads is not None:
+            running, table = self._loads
+            table.add(running.last())
+        if self._tell:
+            print(file=sys.stderr)
+
+    def _count(self, piece: Record) -> None:
+        self._since_s = piece.time_s[0] if self._since_s is None else self._since_s
+        self.rows += len(piece.time_s)
+        self.duration_s = float(piece.time_s[-1] - self._since_s)
+        if self._tell:
+            print(f"\rsimulated {self.duration_s:.1f} s", end="", file=sys.stderr, flush=True)
+
+
+class _Outside:
+    """Commands outside the range of their axis: they are simulated, and said."""
+
+    def __init__(self, robot: Robot) -> None:
+        self._robot = robot
+        self._first: dict[str, str] = {}
+        self._rows: dict[str, int] = {}
+
+    def look_at(self, piece: Record, before: int) -> None:
+        """Look at the next rows, which come after ``before`` others."""
+        for name in piece.axes:
+            axis, command = self._robot.axes[name], piece.signal(name, Tap.CMD)
+            slack = _SLACK * axis.span
+            beyond = (command < axis.range[0] - slack) | (command > axis.range[1] + slack)
+            if not beyond.any():
+                continue
+            row = int(np.argmax(beyond))
+            low, high = axis.range
+            self._first.setdefault(
+                name,
+                f"{name}.cmd = {command[row]:.9g} at row {before + row + 1} "
+                f"(t = {piece.time_s[row]:.9g} s) is outside {low:g} … {high:g}",
+            )
+            self._rows[name] = self._rows.get(name, 0) + int(beyond.sum())
+
+    def warnings(self) -> list[str]:
+        """Return a line for each axis that was commanded outside."""
+        return [
+            f"{text} {self._robot.unit(name) or ''}".rstrip() + f"; {self._rows[name]} such rows"
+            for name, text in self._first.items()
+        ]

@@ -1,0 +1,327 @@
+"""``rotemina simulate`` as its users meet it."""
+
+import csv
+import gzip
+from functools import partial
+from importlib import resources
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rotemina.app.cli.main import main
+from rotemina.sim.records.pieces import PIECE_ROWS, read_pieces
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records.writing import write_record
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.simulation.simulation import Simulation, simulate
+
+ROBOT = load_robot("rotemina")
+EFFECTS = """
+[[axis.thx.effect]]
+id = "hysteresis"
+
+[[axis.x.effect]]
+id = "friction"
+formulation = "lugre"
+"""
+
+
+@pytest.fixture(autouse=True)
+def in_tmp(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def own_robot():
+    """A robot file of one's own, with effects."""
+    shipped = resources.files("rotemina.resources.robots").joinpath("rotemina.toml")
+    Path("own.toml").write_text(shipped.read_text("utf-8") + EFFECTS, "utf-8")
+    return "own.toml"
+
+
+def make_commands(rows=2000, axes=("x", "thx"), **metadata):
+    time_s = np.arange(rows) / 1000
+    swing = 0.5 + 0.3 * np.sin(9.0 * time_s) * np.minimum(time_s, 1.0)
+    signals = {(a, Tap.CMD): min(ROBOT.axes[a].span, 1e-3) * swing for a in axes}
+    return Record.from_signals(time_s, signals, {a: ROBOT.unit(a) for a in axes}, metadata)
+
+
+def write_commands(name="c.csv", **how):
+    record = make_commands(**how)
+    write_record(record, name)
+    return record
+
+
+def same(left, right):
+    return left.columns == right.columns and left.values.tobytes() == right.values.tobytes()
+
+
+def test_a_record_has_what_the_machine_would_have_recorded(own_robot, capsys):
+    commands = write_commands(note="n")
+    assert main(["simulate", "c.csv", "--robot", own_robot, "-o", "r.csv"]) == 0
+    assert capsys.readouterr().out == "r.csv: 2000 rows, 1.999 s\n"
+    record = read_record("r.csv")
+    names = ["x.cmd", "x.ref", "x.meas", "thx.cmd", "thx.u", "thx.ref", "thx.meas"]
+    assert [str(column) for column in record.columns] == names
+    expected = simulate(load_robot(own_robot), None, commands, np.random.default_rng(0))
+    assert same(record, expected)
+    assert not same(record, simulate(ROBOT, (), commands, np.random.default_rng(0)))
+    assert main(["compare", "r.csv"]) == 0
+
+
+def test_the_record_says_how_it_came_about(own_robot):
+    write_commands(note="n", **{"simulated effect 7": "of another time"})
+    assert main(["simulate", "c.csv", "--robot", own_robot, "--seed", "4", "-o", "r.csv"]) == 0
+    metadata = read_record("r.csv").metadata
+    assert metadata["note"] == "n"
+    assert metadata["simulated robot"] == "RoTeMiNa"
+    assert metadata["simulated seed"] == "4"
+    assert metadata["simulated effect 1"].startswith("friction on x; lugre; ")
+    assert metadata["simulated effect 2"].startswith("hysteresis on thx; ")
+    assert "simulated effect 7" not in metadata
+    assert main(["simulate", "c.csv", "--no-noise", "-o", "r.csv"]) == 0
+    metadata = read_record("r.csv").metadata
+    assert metadata["simulated seed"] == "none"
+    assert not [key for key in metadata if "effect" in key]
+
+
+def test_a_simulated_record_can_be_simulated_again_from_its_commands(own_robot):
+    write_commands()
+    assert main(["simulate", "c.csv", "--robot", own_robot, "-o", "a.csv"]) == 0
+    assert main(["simulate", "a.csv", "--robot", own_robot, "-o", "b.csv"]) == 0
+    assert Path("a.csv").read_bytes() == Path("b.csv").read_bytes()
+
+
+def test_a_record_of_unknown_history_is_simulated_from_rest():
+    write_commands(history="unknown")
+    assert main(["simulate", "c.csv", "-o", "r.csv"]) == 0
+    assert read_record("r.csv").history == "rest"
+
+
+def test_seeds_and_their_absence():
+    commands = write_commands()
+    for name, asked in (
+        ("usual", []),
+        ("zero", ["--seed", "0"]),
+        ("one", ["--seed", "1"]),
+        ("none", ["--no-noise"]),
+    ):
+        assert main(["simulate", "c.csv", *asked, "-o", f"{name}.csv"]) == 0
+    assert Path("usual.csv").read_bytes() == Path("zero.csv").read_bytes()
+    assert not same(read_record("usual.csv"), read_record("one.csv"))
+    assert same(read_record("none.csv"), simulate(ROBOT, (), commands))
+
+
+def test_effects_of_another_robot_file(own_robot):
+    commands = write_commands()
+    assert main(["simulate", "c.csv", "--effects", own_robot, "-o", "with.csv"]) == 0
+    arguments = ["--robot", own_robot, "--effects", "rotemina", "-o", "without.csv"]
+    assert main(["simulate", "c.csv", *arguments]) == 0
+    rng = np.random.default_rng
+    assert same(read_record("with.csv"), simulate(load_robot(own_robot), None, commands, rng(0)))
+    assert same(read_record("without.csv"), simulate(ROBOT, (), commands, rng(0)))
+
+
+@pytest.mark.parametrize("name", ["c.csv", "c.csv.gz"])
+@pytest.mark.parametrize("output", ["r.csv", "r.csv.gz"])
+def test_a_long_file_streams_to_the_same_bits(monkeypatch, own_robot, name, output):
+    """Three pieces, one of them short; the machine keeps its state and its chance between."""
+    commands = write_commands(name, rows=2 * PIECE_ROWS + 100, axes=("thx",))
+    whole = simulate(load_robot(own_robot), None, commands, np.random.default_rng(0))
+    monkeypatch.setattr("rotemina.app.cli.simulate.read_record", None)  # it is not read at once
+    assert main(["simulate", name, "--robot", own_robot, "-o", output]) == 0
+    assert Path(output).read_bytes().startswith(b"\x1f\x8b") == output.endswith(".gz")
+    assert same(read_record(output), whole)
+
+
+def leads():
+    return [AxisEffect(axis="thx", id="clock_skew", parameters={"skew": -1000.0})]
+
+
+@pytest.mark.parametrize("why", ["periodic", "a clock that leads"])
+def test_what_looks_ahead_is_read_at_once(why):
+    rows = PIECE_ROWS + 1000
+    metadata = {"history": "periodic", "period_samples": str(rows)} if why == "periodic" else {}
+    commands = write_commands(rows=rows, axes=("thx",), **metadata)
+    effects, asked = (), []
+    if not metadata:
+        effects, asked = leads(), ["--effects", "leads.toml"]
+        Path("leads.toml").write_text(
+            '[robot]\nname = "a"\naxes = ["thx"]\n[axis.thx]\nkind = "piezo"\nrange = [0.0, 1.0]\n'
+            'gain = 1.0\nstatic = true\n[[axis.thx.effect]]\nid = "clock_skew"\nskew = -1000.0\n'
+        )
+    assert main(["simulate", "c.csv", *asked, "-o", "r.csv"]) == 0
+    assert same(read_record("r.csv"), simulate(ROBOT, effects, commands, np.random.default_rng(0)))
+    if metadata:
+        assert read_record("r.csv").history == "periodic"
+
+
+def test_a_command_outside_its_range_is_simulated_and_said(capsys):
+    time_s = np.arange(4) / 1000
+    signals = {("x", Tap.CMD): np.array([0.05, 0.0551, 0.056, 0.05])}
+    write_record(Record.from_signals(time_s, signals, {"x": "m"}), "c.csv")
+    assert main(["simulate", "c.csv", "-o", "r.csv"]) == 0
+    assert capsys.readouterr().err == (
+        "rotemina: c.csv: x.cmd = 0.0551 at row 2 (t = 0.001 s) is outside 0 … 0.055 m; "
+        "2 such rows\n"
+    )
+    assert read_record("r.csv").signal("x", Tap.CMD)[2] == 0.056
+
+
+def test_the_row_outside_is_counted_from_the_first_piece(capsys):
+    rows = PIECE_ROWS + 10
+    command = np.full(rows, 0.02)
+    command[-3:] = -1.0
+    signals = {("x", Tap.CMD): command}
+    write_record(Record.from_signals(np.arange(rows) / 1000, signals, {"x": "m"}), "c.csv")
+    assert main(["simulate", "c.csv", "-o", "r.csv"]) == 0
+    said = f"x.cmd = -1 at row {rows - 2} (t = {(rows - 3) / 1000:.9g} s)"
+    assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["c.csv", "c.csv.gz"])
+def test_a_refusal_in_a_later_piece_leaves_no_file(name, capsys):
+    write_commands(rows=PIECE_ROWS + 5000, axes=("thx",))
+    lines = Path("c.csv").read_text().splitlines()
+    broken = PIECE_ROWS + 4000
+    lines[broken] = lines[broken].split(",")[0] + ",nan"
+    text = ("\n".join(lines) + "\n").encode()
+    Path(name).write_bytes(gzip.compress(text, 1) if name.endswith(".gz") else text)
+    if name != "c.csv":
+        Path("c.csv").unlink()
+    assert main(["simulate", name, "--loads", "l.csv", "-o", "r.csv"]) == 2
+    error = capsys.readouterr().err
+    assert error == (
+        f"rotemina: {name}:{broken + 1}:thx.cmd: value 'nan' is not finite; write a finite number\n"
+    )
+    assert [path.name for path in Path().iterdir()] == [name]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ("none.csv -o r.csv", "none.csv: there is no such file"),
+        ("c.csv -o r.csv --robot nobody", "nobody: no such robot"),
+        ("c.csv -o r.csv --robot emps", "robot 'EMPS' has no axis 'x'"),
+        ("c.csv -o r.csv --effects none.toml", "none.toml: no such robot file"),
+        ("c.csv -o r.csv --effects q.toml", "q.toml: on robot 'RoTeMiNa': axis.q.effect delay"),
+        ("c.csv -o r.csv --seed -1", "--seed -1: must be 0 or more"),
+        ("c.csv -o c.csv", "c.csv: it is named twice"),
+        ("c.csv -o r.csv --loads r.csv", "r.csv: it is named twice"),
+        ("c.csv -o r.csv --loads ./c.csv", "c.csv: it is named twice"),
+        ("c.csv -o no/such/r.csv", "no/such/r.csv: it cannot be written"),
+        ("c.csv -o r.csv --loads no/such/l.csv", "no/such/l.csv: it cannot be written"),
+        ("p.csv -o r.csv", "period_samples = 5000: the record has only 2000 rows"),
+    ],
+)
+def test_a_bad_request_is_one_clear_line_and_status_2(arguments, message, capsys):
+    write_commands()
+    write_commands("p.csv", history="periodic", period_samples="5000")
+    Path("q.toml").write_text(
+        '[robot]\nname = "q"\naxes = ["q"]\n[axis.q]\nkind = "piezo"\nrange = [0.0, 1.0]\n'
+        'gain = 1.0\nstatic = true\n[[axis.q.effect]]\nid = "delay"\n'
+    )
+    before = sorted(path.name for path in Path().iterdir())
+    content = Path("c.csv").read_bytes()
+    assert main(["simulate", *arguments.split()]) == 2
+    error = capsys.readouterr().err
+    assert error.startswith("rotemina: ")
+    assert error.count("\n") == 1
+    assert message in error
+    assert sorted(path.name for path in Path().iterdir()) == before
+    assert Path("c.csv").read_bytes() == content
+
+
+def test_seed_and_no_noise_exclude_each_other(capsys):
+    with pytest.raises(SystemExit) as caught:
+        main(["simulate", "c.csv", "-o", "r.csv", "--seed", "1", "--no-noise"])
+    assert caught.value.code == 2
+    assert "not allowed with" in capsys.readouterr().err
+
+
+def test_loads_are_a_table_with_units(own_robot):
+    write_commands()
+    asked = ["--robot", own_robot, "--no-noise", "--loads", "l.csv"]
+    assert main(["simulate", "c.csv", *asked, "-o", "r.csv"]) == 0
+    with Path("l.csv").open(newline="") as file:
+        heading, *rows = csv.reader(file)
+    column = {name: index for index, name in enumerate(heading)}
+    table, record = np.array(rows, dtype=float), read_record("r.csv")
+    assert table.shape == (2000, len(heading))
+    assert heading[:5] == [
+        "t [s]",
+        "x position [m]",
+        "x velocity [m/s]",
+        "x acceleration [m/s2]",
+        "x inertia [N]",
+    ]
+    assert "thx impulse [N m s]" in column
+    assert heading[-2:] == ["kinetic energy [J]", "elastic energy [J]"]
+    assert table[:, 0].tolist() == record.time_s.tolist()
+    positions = table[:, column["thx position [rad]"]]
+    assert positions.tolist() == record.signal("thx", Tap.REF).tolist()
+    for axis, force in (("x", "N"), ("thx", "N m"), ("thy", "N m")):  # thy is coupled to thx
+        term = {
+            name: table[:, column[f"{axis} {name} [{force}]"]]
+            for name in (
+                ["inertia", "damping", "stiffness", "actuation", "constant", "perturbation", "rest"]
+            )
+        }
+        left = term["inertia"] + term["damping"] + term["stiffness"]
+        right = term["actuation"] + term["constant"] + term["perturbation"] + term["rest"]
+        assert np.abs(left - right).max() <= 1e-12 * np.abs(term["stiffness"]).max()
+    assert table[:, column["x rest [N]"]].any()  # friction
+
+
+def test_loads_of_a_long_file_are_as_long(monkeypatch):
+    """Piece by piece or at once, row for row."""
+    write_commands(rows=1000, axes=("zn",))
+    assert main(["simulate", "c.csv", "--loads", "whole.csv.gz", "-o", "r.csv"]) == 0
+    small = partial(read_pieces, rows=97)
+    monkeypatch.setattr("rotemina.app.cli.simulate.read_pieces", small)
+    assert main(["simulate", "c.csv", "--loads", "pieces.csv", "-o", "r2.csv"]) == 0
+    whole = np.loadtxt("whole.csv.gz", delimiter=",", skiprows=1)
+    pieces = np.loadtxt("pieces.csv", delimiter=",", skiprows=1)
+    assert pieces == pytest.approx(whole, rel=1e-6, abs=1e-9)
+
+
+def test_static_axes_have_no_columns_of_forces():
+    Path("s.toml").write_text(
+        '[robot]\nname = "s"\naxes = ["q"]\n[axis.q]\nkind = "piezo"\nrange = [0.0, 1.0]\n'
+        "gain = 1.0\nstatic = true\n"
+    )
+    Path("c.csv").write_text("t [s],q [rad]\n0,0.1\n1,0.2\n")
+    assert main(["simulate", "c.csv", "--robot", "s.toml", "--loads", "l.csv", "-o", "r.csv"]) == 0
+    assert Path("l.csv").read_text() == (
+        "t [s],q position [rad],q velocity [rad/s],q acceleration [rad/s2],"
+        "kinetic energy [J],elastic energy [J]\n"
+        "0.0,0.1,0.1,0.1,0.0,0.0\n1.0,0.2,0.1,0.0,0.0,0.0\n"
+    )
+
+
+def test_an_interrupt_leaves_no_file(capsys, monkeypatch):
+    write_commands(rows=PIECE_ROWS + 10, axes=("thx",))
+    respond, calls = Simulation.respond, []
+
+    def interrupted(self, commands):
+        calls.append(len(commands.time_s))
+        if len(calls) == 2:
+            raise KeyboardInterrupt
+        return respond(self, commands)
+
+    monkeypatch.setattr(Simulation, "respond", interrupted)
+    assert main(["simulate", "c.csv", "--loads", "l.csv", "-o", "r.csv"]) == 130
+    assert capsys.readouterr().err == "rotemina: interrupted\n"
+    assert calls == [PIECE_ROWS, 10]
+    assert [path.name for path in Path().iterdir()] == ["c.csv"]
+
+
+def test_progress_is_told_on_a_terminal(capsys, monkeypatch):
+    write_commands(axes=("thx",))
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
+    assert main(["simulate", "c.csv", "-o", "r.csv"]) == 0
+    assert capsys.readouterr().err == "\rsimulated 2.0 s\n"
