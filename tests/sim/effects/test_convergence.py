@@ -1,0 +1,82 @@
+"""Forces of effects are held over inner steps: how the error falls with the step."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rotemina.sim.plant.plant import Plant
+from rotemina.sim.robot.file import parse_robot
+from rotemina.sim.robot.model import AxisEffect
+
+SAMPLE_S = 5e-3
+TIME_S = np.arange(0.0, 2.0, SAMPLE_S)
+WAVE = 0.45 * np.sin(2 * np.pi * 1.3 * TIME_S) + 0.05 * np.sign(np.sin(2 * np.pi * 2.7 * TIME_S))
+STEPS = np.array([4, 8, 16, 32])
+FINE = 1024
+
+FADING = {"static_ratio": 2.0, "stribeck_speed": 1e-2, "viscous_forward": 20.0}
+DRY = {"coulomb_forward": 0.6, "coulomb_backward": 0.5}
+BRISTLES = {"coulomb": 0.6, "deflection": 1e-4, "static_ratio": 1.5, "stribeck_speed": 2e-3}
+ELASTIC = {"place": 0.7, "stiffness": 5.0, "damping_ratio": 0.0}
+CASES = {
+    # effect, formulation, parameters, amplitude, least order that is asked for, error at first
+    "dry friction": ("friction", "stribeck", DRY, 1e-3, 1.5, 2e-3),
+    "fading friction": ("friction", "stribeck", {**DRY, **FADING}, 1e-3, 0.8, 0.1),
+    "lugre": ("friction", "lugre", BRISTLES, 1e-3, 0.85, 0.03),
+    "flexure": ("stiffness_nonlinearity", "cubic", {"hardening": 0.5}, 1.0, 1.9, 0.01),
+    "elastic contact": ("contact", "spring", ELASTIC, 1.0, 1.8, 0.05),
+    "damped contact": ("contact", "spring", {**ELASTIC, "damping_ratio": 0.1}, 1.0, 0.85, 0.01),
+    "membrane": ("contact", "progressive", {**ELASTIC, "exponent": 3.0}, 1.0, 1.8, 0.1),
+    "damped membrane": (
+        "contact",
+        "progressive",
+        {**ELASTIC, "exponent": 3.0, "damping_ratio": 0.1},
+        1.0,
+        0.8,
+        0.01,
+    ),
+}
+
+
+def paths(effect_id, formulation, parameters, amplitude, counts):
+    """Return the motion of one axis of 10 Hz with so many steps in each interval of samples."""
+    kind = "stepper" if effect_id == "friction" else "piezo"
+    gain = "gain = 0.1\n" if kind == "piezo" else ""
+    mass, rate = 2.0, 2 * np.pi * 10.0
+    robot = parse_robot(
+        f"[robot]\nname='one'\naxes=['a']\n[axis.a]\nkind='{kind}'\nunit='m'\nrange=[0.0, 1.0]\n"
+        f"{gain}mass={mass}\ndamping={0.04 * mass * rate}\nstiffness={mass * rate**2}\n"
+    )
+    effect = AxisEffect(axis="a", id=effect_id, formulation=formulation, parameters=parameters)
+    plant = Plant.of(replace(robot, effects=(effect,)))
+    command = (0.5 + amplitude * WAVE)[:, None]
+    state = plant.at_rest(0.0, command[0])
+    for count in counts:
+        stepped = replace(plant, assembly=replace(plant.assembly, inner_step_s=SAMPLE_S / count))
+        yield stepped.advance(state, TIME_S, command)[0].position[:, 0] - command[:, 0]
+
+
+@pytest.mark.parametrize("case", CASES.values(), ids=CASES)
+def test_measured_order_of_convergence(case):
+    *case, least, first = case
+    *coarse, fine = paths(*case, (*STEPS, FINE))
+    error = np.array([np.linalg.norm(path - fine) for path in coarse]) / np.linalg.norm(fine)
+    order = -np.polyfit(np.log(STEPS), np.log(error), 1)[0]
+    assert order > least, error
+    assert error[0] < first
+
+
+@pytest.mark.parametrize("case", CASES.values(), ids=CASES)
+def test_the_presets_of_the_step_are_fine_enough(case):
+    effect_id, formulation, parameters, amplitude, *_ = case
+    usual, fine = (
+        path
+        for path in paths(effect_id, formulation, parameters, amplitude, (usual_count(case), FINE))
+    )
+    assert np.linalg.norm(usual - fine) < 0.06 * np.linalg.norm(fine)
+
+
+def usual_count(case):
+    """Return how many steps the formulation asks for, at least, on this axis."""
+    return {"friction": 3, "stiffness_nonlinearity": 2, "contact": 4}[case[0]]
