@@ -21,6 +21,7 @@ def main(folder: Path) -> int:
     from rotemina.app.shell.window_run import make_window
     from rotemina.drivers.simulator.driver import Simulator
     from rotemina.sim.robot.file import load_robot
+    from rotemina.sim.robot.model import AxisEffect
     from rotemina.sim.trajectory.example import example_for
 
     log_qt_messages()
@@ -35,6 +36,11 @@ def main(folder: Path) -> int:
         play(window, example_for(robot))
         while window.workbench.busy:  # panels that work on what was played
             QApplication.processEvents()
+        effects = (AxisEffect(axis="thx", id="hysteresis"), AxisEffect(axis="x", id="friction"))
+        window.workbench.session.set_effects(effects)
+        while window.workbench.session.effects != effects:  # the panel shows what is in place
+            QApplication.processEvents()
+        window.workbench.refreshed.emit(window.workbench.session.snapshot())
         for theme in ("dark", "light"):
             window.use_theme(theme)
             for width, height in SIZES:

@@ -1,0 +1,1 @@
+"""Effects of the running simulator: switched, tuned, loaded and saved."""

@@ -1,0 +1,149 @@
+"""The chosen effect: its formulation, where it comes from, and its parameters."""
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QFrame,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QScrollArea,
+    QSizePolicy,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.display import label
+from rotemina.plugins.effects.field import ParameterField, SteadyChoice, tip
+from rotemina.plugins.effects.quantity import Quantity
+from rotemina.sim.effects.attachment import Attached
+from rotemina.sim.robot.model import Robot
+
+NOTHING = "Add an effect, and tune it here while the simulator runs."
+
+
+class Editor(QWidget):
+    """Fields for one effect; empty without one.
+
+    Signals
+    -------
+    value_changed(str, float) : a parameter's name and value, SI.
+    value_refused(str, str) : a parameter's name, and why what was typed is not applied.
+    formulation_chosen(str), source_chosen(str)
+    """
+
+    value_changed = Signal(str, float)
+    value_refused = Signal(str, str)
+    formulation_chosen = Signal(str)
+    source_chosen = Signal(str)
+
+    def __init__(self, robot: Robot) -> None:
+        super().__init__()
+        self._robot = robot
+        self._shown: object = None
+        self.fields: dict[str, ParameterField] = {}
+        self.title = QLabel(NOTHING)
+        self.title.setTextFormat(Qt.TextFormat.PlainText)
+        self.formulation = SteadyChoice()
+        self.formulation.setAccessibleName("Formulation")
+        self.formulation.activated.connect(
+            lambda: self.formulation_chosen.emit(self.formulation.currentData())
+        )
+        self._from = QLabel("from")
+        self.source = SteadyChoice()
+        self.source.setAccessibleName("The axis that the effect comes from")
+        self.source.activated.connect(lambda: self.source_chosen.emit(self.source.currentData()))
+        self.equation = QLabel()
+        self.equation.setTextFormat(Qt.TextFormat.PlainText)
+        self.equation.setProperty("quiet", True)
+        # A long equation must not widen the window; its tooltip has all of it.
+        self.equation.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        self._scroll = QScrollArea()
+        self._scroll.setObjectName("panelScroll")
+        self._scroll.setFrameShape(QFrame.Shape.NoFrame)
+        self._scroll.setWidgetResizable(True)
+        self._lay_out()
+        self.show_effect(None, -1)
+
+    def _lay_out(self) -> None:
+        head = QHBoxLayout()
+        head.setSpacing(6)
+        head.addWidget(self.title)
+        head.addStretch(1)
+        for widget in (self.formulation, self._from, self.source):
+            head.addWidget(widget)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(8, 0, 0, 0)
+        column.setSpacing(3)
+        column.addLayout(head)
+        column.addWidget(self.equation)
+        column.addWidget(self._scroll, 1)
+
+    def show_effect(self, one: Attached | None, place: int) -> None:
+        """Show an effect at its place in the list, or that there is none."""
+        shown = None
+        if one is not None:
+            shown = (place, one.asked.axis, one.effect, one.formulation, one.asked.from_axis)
+        anew = shown != self._shown
+        self._shown = shown
+        if anew:
+            self._show_head(one)
+            self._make_fields(one)
+        for name, value in (one.values if one is not None else {}).items():
+            self.fields[name].show_value(value, anew=anew)
+
+    def _show_head(self, one: Attached | None) -> None:
+        for widget in (self.formulation, self.equation):
+            widget.setVisible(one is not None)
+        for widget in (self._from, self.source):
+            widget.setVisible(one is not None and one.effect.coupled)
+        self.title.setProperty("quiet", one is None)
+        self.title.setProperty("heading", one is not None)
+        self.title.style().unpolish(self.title)
+        self.title.style().polish(self.title)
+        if one is None:
+            self.title.setText(NOTHING)
+            self.title.setToolTip("")
+            return
+        self.title.setText(f"{label(one.asked.axis)}: {one.effect.title}")
+        self.title.setToolTip(tip(one.effect.summary))
+        self.equation.setText(" ".join(one.formulation.equation.split()))
+        self.equation.setToolTip(tip(one.formulation.equation, one.formulation.source))
+        names = [formulation.name for formulation in one.effect.formulations]
+        _offer(self.formulation, [(spoken(name), name) for name in names], one.formulation.name)
+        self.formulation.setEnabled(len(names) > 1)
+        others = [name for name in self._robot.axes if name != one.asked.axis]
+        _offer(self.source, [(label(name), name) for name in others], one.asked.from_axis)
+
+    def _make_fields(self, one: Attached | None) -> None:
+        for field in self.fields.values():
+            field.retire()
+        self.fields = {}
+        content = QWidget()
+        grid = QGridLayout(content)
+        grid.setContentsMargins(0, 2, 4, 2)
+        grid.setVerticalSpacing(3)
+        grid.setColumnStretch(3, 1)
+        if one is not None:
+            source = one.asked.from_axis
+            source_unit = (self._robot.unit(source) or "m") if source is not None else ""
+            for row, parameter in enumerate(one.formulation.parameters):
+                quantity = Quantity.of(parameter, one.facts, source_unit)
+                field = ParameterField(parameter.name, quantity, content)
+                field.changed.connect(self.value_changed)
+                field.refused.connect(self.value_refused)
+                field.place(grid, row)
+                self.fields[parameter.name] = field
+        grid.setRowStretch(grid.rowCount(), 1)
+        self._scroll.setWidget(content)
+
+
+def spoken(name: str) -> str:
+    """Return the name of a formulation as people write it."""
+    return name.replace("_", " ")
+
+
+def _offer(choice: SteadyChoice, items: list[tuple[str, str]], chosen: str | None) -> None:
+    choice.clear()
+    for text, data in items:
+        choice.addItem(text, data)
+    choice.setCurrentIndex(choice.findData(chosen))

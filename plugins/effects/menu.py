@@ -1,0 +1,70 @@
+"""What may be added: axis by axis, stage by stage, with the formulations that fit."""
+
+from collections.abc import Callable, Mapping
+
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QMenu
+
+from rotemina.app.display import label
+from rotemina.plugins.effects.chain import candidates
+from rotemina.plugins.effects.editor import spoken
+from rotemina.plugins.effects.field import tip
+from rotemina.sim.effects.formulation import Effect, Formulation
+from rotemina.sim.robot.model import Robot
+
+Add = Callable[[str, Effect, Formulation], None]
+
+
+def fill(
+    menu: QMenu, robot: Robot, effects: Mapping[str, Effect], broken: Mapping[str, str], add: Add
+) -> None:
+    """Fill a menu with the effects that may sit on each axis, and name those left out."""
+    for axis in robot.axes:
+        _add_axis(_submenu(menu, label(axis)), robot, axis, effects, add)
+    if broken:
+        menu.addSeparator()
+        left_out = _submenu(menu, f"Left out ({len(broken)})")
+        for effect_id, reason in broken.items():
+            action = _line(left_out, effect_id)
+            action.setToolTip(tip(reason))
+
+
+def _add_axis(
+    menu: QMenu, robot: Robot, axis: str, effects: Mapping[str, Effect], add: Add
+) -> None:
+    stage = None
+    for effect_id, names in candidates(robot, axis, effects).items():
+        effect = effects[effect_id]
+        if effect.stage is not stage:
+            stage = effect.stage
+            _line(menu, stage.capitalize())
+        _add_effect(menu, axis, effect, names, add)
+
+
+def _add_effect(menu: QMenu, axis: str, effect: Effect, names: list[str], add: Add) -> None:
+    formulations = [f for f in effect.formulations if f.name in names]
+    several = _submenu(menu, f"   {effect.title}") if len(formulations) > 1 else None
+    if several is not None:
+        several.menuAction().setToolTip(tip(effect.summary))
+    for formulation in formulations:
+        text = f"   {effect.title}" if several is None else spoken(formulation.name)
+        action = (several or menu).addAction(_literal(text))
+        action.setToolTip(tip(effect.summary, formulation.equation))
+        action.triggered.connect(lambda _=False, chosen=formulation: add(axis, effect, chosen))
+
+
+def _submenu(menu: QMenu, text: str) -> QMenu:
+    inner = menu.addMenu(_literal(text))
+    inner.setToolTipsVisible(True)
+    return inner
+
+
+def _line(menu: QMenu, text: str) -> QAction:
+    """Add a line that says something and cannot be chosen."""
+    action = menu.addAction(_literal(text))
+    action.setEnabled(False)
+    return action
+
+
+def _literal(text: str) -> str:
+    return text.replace("&", "&&")  # an axis' name marks no shortcut

@@ -1,0 +1,320 @@
+"""Effects of the running simulator: switch and tune them, live."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import (
+    QFileDialog,
+    QHBoxLayout,
+    QLabel,
+    QMenu,
+    QPushButton,
+    QSizePolicy,
+    QSplitter,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.display import label
+from rotemina.app.motion.state import Connection, SessionState
+from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.plugins.effects.chain import Chain, with_formulation, with_value
+from rotemina.plugins.effects.editor import Editor, spoken
+from rotemina.plugins.effects.field import tip
+from rotemina.plugins.effects.live import Effects, LiveEffects, Standing
+from rotemina.plugins.effects.menu import fill
+from rotemina.plugins.effects.table import EffectTable
+from rotemina.sim.effects.formulation import Effect, Formulation
+from rotemina.sim.effects.registry import all_effects
+from rotemina.sim.errors import InputError
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.robot.writing import write_robot
+
+REAL_MACHINE = (
+    "Effects belong to the simulator. A real machine has its own: connect to the simulator to "
+    "switch and tune any."
+)
+FILES = "Robot files (*.toml)"
+
+
+class EffectsPanel(Panel):
+    """The list of effects in place, and the fields of the chosen one."""
+
+    title = "Effects"
+    area = Area.BOTTOM
+    order = 40
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__(workbench)
+        self.chain = Chain(workbench.robot)
+        self.place = -1
+        self._last: tuple[int, str] | None = None  # what was tuned last: place and parameter
+        self._make_buttons()
+        self.table, self.editor = EffectTable(), Editor(workbench.robot)
+        self.status = QLabel()
+        self.status.setTextFormat(Qt.TextFormat.PlainText)
+        # Its text may be long; the notice and the tooltip have all of it.
+        self.status.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.left_out = QLabel()
+        self._lay_out()
+        asked = workbench.session.effects
+        if asked is None:
+            self._body.setEnabled(False)
+            self._say(REAL_MACHINE)
+            return
+        self._offer_effects()
+        self.live = LiveEffects(workbench.session, self)
+        self._connect()
+        self._adopt(asked)
+
+    # --- parts ------------------------------------------------------------------------------------
+
+    def _make_buttons(self) -> None:
+        self.add = QPushButton("Add effect")
+        self.add.setToolTip("Choose an axis, an effect that it may have, and its formulation")
+        self.up = _button("▲", "Let the signal meet this effect earlier within its stage")
+        self.down = _button("▼", "Let the signal meet this effect later within its stage")
+        self.remove = _button("Remove", "Take this effect away")
+        self.all_off = _button(
+            "All off", "Compare with the nominal machine: no effect acts until this is released"
+        )
+        self.all_off.setCheckable(True)
+        self.load = _button("Load …", "Take the effects of a robot file in place of these")
+        self.save = _button("Save robot …", "Write a robot file of this robot with these effects")
+
+    def _lay_out(self) -> None:
+        buttons = QHBoxLayout()
+        buttons.setSpacing(6)
+        for widget in (self.add, self.up, self.down, self.remove, self.all_off):
+            buttons.addWidget(widget)
+        buttons.addWidget(self.status, 1)
+        for widget in (self.left_out, self.load, self.save):
+            buttons.addWidget(widget)
+        split = QSplitter(Qt.Orientation.Horizontal)
+        split.addWidget(self.table)
+        split.addWidget(self.editor)
+        split.setSizes([450, 500])
+        self._body = QWidget()
+        body = QVBoxLayout(self._body)
+        body.setContentsMargins(10, 8, 10, 8)
+        body.addLayout(buttons)
+        body.addWidget(split, 1)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        outer.addWidget(self._body)
+
+    def _offer_effects(self) -> None:
+        effects, broken = all_effects()
+        menu = QMenu(self.add)
+        fill(menu, self.workbench.robot, effects, broken, self.add_effect)
+        self.add.setMenu(menu)
+        self.left_out.setVisible(bool(broken))
+        self.left_out.setText(f"{len(broken)} left out")
+        self.left_out.setToolTip(tip("Effects that cannot be loaded:", *broken.values()))
+
+    def _connect(self) -> None:
+        self.up.clicked.connect(lambda: self._move(-1))
+        self.down.clicked.connect(lambda: self._move(+1))
+        self.remove.clicked.connect(self._remove)
+        self.all_off.toggled.connect(lambda _: self._use(self.chain))
+        self.load.clicked.connect(self._ask_load)
+        self.save.clicked.connect(self._ask_save)
+        self.table.chosen.connect(self._choose)
+        self.table.switched.connect(self._switch)
+        self.editor.value_changed.connect(self._tune)
+        self.editor.value_refused.connect(self._refuse)
+        self.editor.formulation_chosen.connect(
+            lambda name: self._change(with_formulation(self.chain.effects[self.place], name))
+        )
+        self.editor.source_chosen.connect(
+            lambda axis: self._change(replace(self.chain.asked[self.place], from_axis=axis))
+        )
+        self.live.changed.connect(self._show_standing)
+        self.live.refused.connect(lambda text: self.workbench.notify(Level.ERROR, text))
+        self.live.replaced.connect(self._adopt)
+        self.workbench.refreshed.connect(self._refresh)
+        self.workbench.theme_changed.connect(lambda _: self._show())
+
+    # --- what the operator does -------------------------------------------------------------------
+
+    def add_effect(self, axis: str, effect: Effect, formulation: Formulation) -> None:
+        """Put an effect with its presets on an axis."""
+        others = [name for name in self.workbench.robot.axes if name != axis]
+        usual = formulation is effect.formulations[0]
+        asked = AxisEffect(
+            axis=axis,
+            id=effect.id,
+            formulation=None if usual else formulation.name,
+            from_axis=others[0] if effect.coupled else None,
+        )
+        chain, self.place = self.chain.added(asked)
+        self._use(chain)
+
+    def _remove(self) -> None:
+        chain = self.chain.removed(self.place)
+        self.place = min(self.place, len(chain) - 1)
+        self._use(chain)
+
+    def _move(self, step: int) -> None:
+        other = self.chain.neighbour(self.place, step)
+        if other is not None:
+            chain, self.place = self.chain.swapped(self.place, other), other
+            self._use(chain)
+
+    def _choose(self, place: int) -> None:
+        self.place = place
+        self._show_chosen()
+
+    def _switch(self, place: int, on: bool) -> None:
+        self.place = place
+        self._change(replace(self.chain.asked[place], enabled=on))
+
+    def _tune(self, name: str, value: float) -> None:
+        self._last = (self.place, name)
+        self._change(with_value(self.chain.effects[self.place], name, value), keep_last=True)
+
+    def _refuse(self, name: str, reason: str) -> None:
+        one = self.chain.effects[self.place]
+        where = f"{label(one.asked.axis)} {one.effect.title}, {spoken(name)}"
+        self.workbench.notify(Level.ERROR, f"{where}: {reason}")
+
+    def _change(self, asked: AxisEffect, *, keep_last: bool = False) -> None:
+        try:
+            chain = self.chain.changed(self.place, asked)
+        except InputError as error:
+            self.workbench.notify(Level.ERROR, str(error))
+            self._show()
+            return
+        self._use(chain, keep_last=keep_last)
+
+    # --- files ------------------------------------------------------------------------------------
+
+    def load_effects(self, path: Path) -> None:
+        """Take the effects of a robot file in place of these."""
+
+        def work() -> Chain:
+            effects = load_robot(path).effects
+            if not effects:
+                raise InputError(f"{path}: the robot file has no effects; these stay")
+            return Chain.of(self.workbench.robot, effects)
+
+        def done(chain: Chain) -> None:
+            self.place = 0
+            self._use(chain)
+
+        self.workbench.work("load effects", f"Reading {path.name} …", work, done)
+
+    def save_robot(self, path: Path) -> None:
+        """Write a robot file of the robot with its effects, over one that is there."""
+        robot = replace(self.workbench.robot, effects=self.chain.asked)
+        self.workbench.work(
+            "save robot",
+            f"Writing {path.name} …",
+            lambda: write_robot(robot, path, overwrite=True),
+            lambda _: self.workbench.notify(Level.GOOD, f"Saved {path}"),
+        )
+
+    def _ask_load(self) -> None:
+        dialog = self._file_dialog("Load effects from a robot file", self.load_effects)
+        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
+        dialog.show()
+
+    def _ask_save(self) -> None:
+        """Ask where to; the dialog asks again before a file is replaced."""
+        dialog = self._file_dialog("Save the robot with its effects", self.save_robot)
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setDefaultSuffix("toml")
+        dialog.selectFile("robot.toml")
+        dialog.show()
+
+    def _file_dialog(self, title: str, use: Callable[[Path], None]) -> QFileDialog:
+        """Return a dialog beside which the window, and its stop button, can still be used."""
+        settings = self.workbench.settings
+        dialog = QFileDialog(self, title, settings.get("files.folder", ""), FILES)
+        dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.fileSelected.connect(
+            lambda name: settings.set("files.folder", str(Path(name).parent))
+        )
+        dialog.fileSelected.connect(lambda name: use(Path(name)))
+        return dialog
+
+    # --- what is shown ----------------------------------------------------------------------------
+
+    def _use(self, chain: Chain, *, keep_last: bool = False) -> None:
+        """Take effects in hand, show them, and have the simulator do them."""
+        if not keep_last:
+            self._last = None
+        self.chain = chain
+        self._show()
+        self.live.ask(chain.silent if self.all_off.isChecked() else chain.asked)
+
+    def _adopt(self, effects: Effects) -> None:
+        """Show effects that came from elsewhere."""
+        self.chain = Chain.of(self.workbench.robot, effects)
+        self.place = min(max(self.place, 0), len(self.chain) - 1)
+        self.all_off.blockSignals(True)
+        self.all_off.setChecked(False)
+        self.all_off.blockSignals(False)
+        self._show()
+
+    def _refresh(self, state: SessionState) -> None:
+        self._body.setEnabled(state.connection is Connection.CONNECTED)
+        self.live.refresh(state)
+
+    def _show(self) -> None:
+        muted = self.all_off.isChecked()
+        self.table.show_chain(self.chain, self.place, self.workbench.theme, muted=muted)
+        self._show_chosen()
+        self._show_standing()
+
+    def _show_chosen(self) -> None:
+        chosen = 0 <= self.place < len(self.chain)
+        self.editor.show_effect(self.chain.effects[self.place] if chosen else None, self.place)
+        self.remove.setEnabled(chosen)
+        for button, step in ((self.up, -1), (self.down, +1)):
+            button.setEnabled(chosen and self.chain.neighbour(self.place, step) is not None)
+
+    def _show_standing(self) -> None:
+        self._mark_fields()
+        if self.live.standing is Standing.REFUSED:
+            self._say(f"Not applied: {self.live.reason}", bad=True)
+        elif self.live.standing is Standing.PREPARING:
+            self._say("preparing …")
+        else:
+            self._say(self._count())
+
+    def _mark_fields(self) -> None:
+        """Mark the parameter that was tuned last while the simulator does not take it."""
+        if self.live.standing is Standing.APPLIED:
+            for field in self.editor.fields.values():
+                field.settle()
+        elif self.live.standing is Standing.REFUSED and self._last is not None:
+            place, name = self._last
+            if place == self.place and name in self.editor.fields:
+                self.editor.fields[name].set_not_applied(True)
+
+    def _count(self) -> str:
+        if not len(self.chain):
+            return "No effects: the simulator is the nominal machine."
+        on = sum(one.enabled for one in self.chain.asked)
+        state = "all off" if self.all_off.isChecked() else f"{on} on"
+        return f"{len(self.chain)} effect{'s' if len(self.chain) > 1 else ''}, {state}"
+
+    def _say(self, text: str, *, bad: bool = False) -> None:
+        self.status.setText(text)
+        self.status.setToolTip(tip(text))
+        self.status.setProperty("bad", bad)
+        self.status.style().unpolish(self.status)
+        self.status.style().polish(self.status)
+
+
+def _button(text: str, about: str) -> QPushButton:
+    button = QPushButton(text)
+    button.setToolTip(about)
+    button.setAccessibleName(about if len(text) == 1 else text)
+    return button

@@ -1,0 +1,157 @@
+"""How the parameters of effects are shown: units, digits, and places on a slider. Free of Qt."""
+
+import math
+import re
+from dataclasses import dataclass
+
+from rotemina.sim.effects.facts import Facts
+from rotemina.sim.effects.formulation import Parameter
+from rotemina.sim.units import drawing_unit, per_si, symbol
+
+# What float() takes beside this (1_0, digits of other scripts) is likelier a slip than a number.
+PLAIN_NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
+SLIDER_STEPS = 1000
+
+_RATES = ("", "/s", "/s²", "/√s")  # behind a unit of position, these leave it free to be chosen
+_SHORT_TIMES = (("s", 0.1), ("ms", 1e-4), ("us", 0.0))
+_DIGITS = 6
+_SLIDER_DIGITS = 4
+_BEND_WITHOUT_PRESET = 2.0  # where the preset is nothing
+
+
+class ValueRefusedError(ValueError):
+    """A typed value that is no number, or out of bounds; the text says which."""
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """One parameter on one axis, as screens show it.
+
+    Attributes
+    ----------
+    meaning, unit : str
+        ``unit`` is what is shown, such as ``µrad``.
+    per_si : float
+        How many of it make one SI unit.
+    low, high, preset : float
+        SI; ``low`` and ``high`` may be infinite.
+    """
+
+    meaning: str
+    unit: str
+    per_si: float
+    low: float
+    high: float
+    preset: float
+
+    @classmethod
+    def of(cls, parameter: Parameter, facts: Facts, source_unit: str = "") -> "Quantity":
+        """Choose the unit of a parameter by its preset; ``source_unit`` is that of `from_axis`."""
+        low, high = parameter.bounds(facts)
+        preset = parameter.preset(facts)
+        size = abs(preset) or _largest(low, high)
+        unit, factor = _shown_unit(parameter.unit_on(facts), size, source_unit)
+        return cls(parameter.meaning, unit, factor, low, high, preset)
+
+    @property
+    def bounded(self) -> bool:
+        """Whether a slider can show it."""
+        return math.isfinite(self.low) and math.isfinite(self.high) and self.low < self.high
+
+    def number(self, value: float) -> str:
+        """Return a value (SI) as digits, without its unit."""
+        return f"{value * self.per_si + 0.0:.{_DIGITS}g}"
+
+    def text(self, value: float) -> str:
+        """Return a value (SI) with its unit."""
+        return f"{self.number(value)} {self.unit}".rstrip()
+
+    @property
+    def range_text(self) -> str:
+        """Bounds as a sentence has them."""
+        if math.isinf(self.high):
+            return f"at least {self.text(self.low)}"
+        return f"between {self.number(self.low)} and {self.text(self.high)}"
+
+    def value(self, text: str) -> float:
+        """Return the value (SI) that a text with the shown unit means.
+
+        Raises
+        ------
+        ValueRefusedError
+            If it is no plain number, or out of bounds.
+        """
+        if PLAIN_NUMBER.fullmatch(text.strip()) is None:
+            unit = f" in {self.unit}" if self.unit else ""
+            raise ValueRefusedError(f"{text!r} is no number; type one{unit} with a decimal point")
+        value = self._snapped(float(text) / self.per_si)
+        if not self.low <= value <= self.high or math.isinf(value):
+            typed = f"{text.strip()} {self.unit}".rstrip()
+            raise ValueRefusedError(f"{typed} is refused: must be {self.range_text}")
+        return value
+
+    # --- slider -----------------------------------------------------------------------------------
+
+    # A slider bends so that the preset is half way to its end, where it can be tuned finely. One
+    # that passes zero has zero in its middle.
+
+    def place(self, value: float) -> int:
+        """Return where a value (SI) is on a slider of ``SLIDER_STEPS``."""
+        zero, end = self._reach(value >= self._zero)
+        share = min(max((value - zero) / (end - zero), 0.0), 1.0) ** (1.0 / self._bend)
+        if zero == self.low:
+            return round(SLIDER_STEPS * share)
+        return round(SLIDER_STEPS * 0.5 * (1.0 + math.copysign(share, end)))
+
+    def at(self, place: int) -> float:
+        """Return the value (SI) at a place of the slider, in few digits."""
+        way = place / SLIDER_STEPS
+        if self._zero != self.low:
+            way = 2.0 * way - 1.0
+        zero, end = self._reach(way >= 0.0)
+        value = zero + (end - zero) * abs(way) ** self._bend
+        rounded = float(f"{value * self.per_si:.{_SLIDER_DIGITS}g}") / self.per_si
+        return min(max(rounded, self.low), self.high)
+
+    @property
+    def _zero(self) -> float:
+        return 0.0 if self.low < 0.0 < self.high else self.low
+
+    def _reach(self, upward: bool) -> tuple[float, float]:
+        """Return where a side of the slider begins, and its end."""
+        return self._zero, self.high if upward else self.low
+
+    @property
+    def _bend(self) -> float:
+        zero, end = self._reach(self.preset >= self._zero)
+        share = (self.preset - zero) / (end - zero)
+        if share == 0.0:
+            return _BEND_WITHOUT_PRESET
+        return max(math.log(share) / math.log(0.5), 1.0) if share < 1.0 else 1.0
+
+    def _snapped(self, value: float) -> float:
+        """Return the bound itself where a value was typed as the bound is shown."""
+        for bound in (self.low, self.high):
+            if math.isfinite(bound) and self.number(value) == self.number(bound):
+                return bound
+        return value
+
+
+def _largest(low: float, high: float) -> float:
+    return max((abs(bound) for bound in (low, high) if math.isfinite(bound)), default=0.0)
+
+
+def _shown_unit(unit: str, size: float, source_unit: str) -> tuple[str, float]:
+    """Return the unit in which a value of this size reads well, and how many make one SI unit."""
+    for si_unit in ("rad", "m"):
+        rest = unit.removeprefix(si_unit)
+        if rest != unit and rest in _RATES:
+            shown = drawing_unit(si_unit, size)
+            return symbol(shown) + rest, per_si(shown)
+    if unit == "s":
+        shown = next(name for name, least in _SHORT_TIMES if size >= least)
+        return symbol(shown), per_si(shown)
+    if unit.endswith("/…"):
+        head = unit.removesuffix("/…")
+        return ("" if head == source_unit else f"{head}/{source_unit}"), 1.0
+    return unit, 1.0

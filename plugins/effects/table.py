@@ -1,0 +1,75 @@
+"""The effects in place, in the order in which a signal meets them."""
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QColor, QPalette
+from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableWidget, QTableWidgetItem
+
+from rotemina.app.display import label
+from rotemina.app.shell.theme import Theme
+from rotemina.plugins.effects.chain import Chain
+from rotemina.plugins.effects.editor import spoken
+from rotemina.plugins.effects.field import tip
+from rotemina.sim.effects.attachment import Attached
+
+COLUMNS = ("On", "Axis", "Stage", "Effect", "Formulation")
+_CHECKS = {True: Qt.CheckState.Checked, False: Qt.CheckState.Unchecked}
+
+
+class EffectTable(QTableWidget):
+    """One row for each effect, with its switch.
+
+    Signals
+    -------
+    switched(int, bool) : the place of an effect, and whether it is to act.
+    chosen(int) : the place of the effect to be tuned, −1 without one.
+    """
+
+    switched = Signal(int, bool)
+    chosen = Signal(int)
+
+    def __init__(self) -> None:
+        super().__init__(0, len(COLUMNS))
+        self.setAccessibleName("Effects in place")
+        self.setHorizontalHeaderLabels(list(COLUMNS))
+        self.verticalHeader().hide()
+        self.verticalHeader().setDefaultSectionSize(24)
+        self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        self.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        self.horizontalHeader().setStretchLastSection(True)
+        self.itemChanged.connect(self._on_change)
+        self.currentCellChanged.connect(lambda row, *_: self.chosen.emit(row))
+
+    def show_chain(self, chain: Chain, place: int, theme: Theme, *, muted: bool) -> None:
+        """Show effects with one of them chosen; those that do not act stand back."""
+        palette = self.palette()  # the style draws the edge of a switch in a darker shade of this
+        palette.setColor(QPalette.ColorRole.Window, QColor(theme.quiet).lighter(110))
+        self.setPalette(palette)
+        self.blockSignals(True)
+        self.setRowCount(len(chain))
+        for row, one in enumerate(chain.effects):
+            acts = one.asked.enabled and not muted
+            for column, text in enumerate(("", *_texts(one))):
+                item = QTableWidgetItem(text)
+                item.setForeground(QColor(theme.text if acts else theme.quiet))
+                item.setToolTip(tip(one.effect.summary))
+                self.setItem(row, column, item)
+            switch = self.item(row, 0)
+            switch.setFlags(switch.flags() | Qt.ItemFlag.ItemIsUserCheckable)
+            switch.setCheckState(_CHECKS[one.asked.enabled])
+            switch.setToolTip(tip("Whether the effect acts"))
+        if 0 <= place < len(chain):
+            self.setCurrentCell(place, max(self.currentColumn(), 0))
+        self.blockSignals(False)
+
+    def _on_change(self, item: QTableWidgetItem) -> None:
+        if item.column() == 0:
+            self.switched.emit(item.row(), item.checkState() is Qt.CheckState.Checked)
+
+
+def _texts(one: Attached) -> tuple[str, ...]:
+    formulation = spoken(one.formulation.name)
+    if one.asked.from_axis is not None:
+        formulation += f", from {label(one.asked.from_axis)}"
+    return label(one.asked.axis), str(one.effect.stage), one.effect.title, formulation
