@@ -1,0 +1,131 @@
+"""``rotemina effect``: which effects there are, what they say of themselves, whether it is true."""
+
+import argparse
+import time
+from collections.abc import Iterable
+
+from rotemina.app.cli.options import add_robot, robot_of
+from rotemina.sim.effects.errors import EffectError
+from rotemina.sim.effects.facts import Facts
+from rotemina.sim.effects.formulation import Effect, Formulation, Parameter
+from rotemina.sim.effects.registry import all_effects, effect_ids, effect_named
+from rotemina.sim.robot.model import Robot
+from rotemina.sim.simulation.check import Check, Report
+from rotemina.sim.simulation.effect_check import check_effect
+
+_FAILED = 1
+
+
+def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Add the subcommand with its own subcommands."""
+    parser = commands.add_parser(
+        "effect",
+        help="list, show and check the effects that a simulated machine may have",
+        description="The effects that are installed, ours and those of plugins.",
+    )
+    parser.set_defaults(run=_list)
+    verbs = parser.add_subparsers(title="subcommands", metavar="")
+    listing = verbs.add_parser("list", help="one line for each effect (this without a subcommand)")
+    listing.set_defaults(run=_list)
+    showing = verbs.add_parser("show", help="equations, sources, parameters on a robot's axes")
+    showing.add_argument("id", metavar="ID")
+    add_robot(showing)
+    showing.set_defaults(run=_show)
+    checking = verbs.add_parser(
+        "check",
+        help="measure whether effects are what they say",
+        description="Put every formulation on axes of the shipped robots, or of one robot, and "
+        "measure what it says of itself. Exit status: 0 all passed, 1 a check failed.",
+    )
+    checking.add_argument("ids", nargs="*", metavar="ID", help="which (default: all)")
+    checking.add_argument(
+        "--robot",
+        default=None,
+        metavar="NAME_OR_FILE",
+        help="a robot file, or a shipped robot, whose axes are used (default: all shipped ones)",
+    )
+    checking.add_argument("--verbose", action="store_true", help="every check, not failed ones")
+    checking.set_defaults(run=_check)
+
+
+def _list(_options: argparse.Namespace) -> int:
+    """Print a line for each effect in the order of the signal chain."""
+    effects, broken = all_effects()
+    for effect in effects.values():
+        kinds = ", ".join(sorted(effect.kinds))
+        print(f"{effect.id:24}{effect.stage:13}{kinds:24}{effect.title}")
+    for reason in broken.values():
+        print(f"left out: {reason}")
+    return 0
+
+
+def _show(options: argparse.Namespace) -> int:
+    """Print everything that an effect says of itself."""
+    effect = effect_named(options.id)
+    robot = robot_of(options)
+    print(f"{effect.title} ({effect.id}), {effect.stage}")
+    print(effect.summary)
+    print(f"sits on axes of kind {', '.join(sorted(effect.kinds))}")
+    if effect.coupled:
+        print("comes from another axis: name it by from_axis")
+    for formulation in effect.formulations:
+        print()
+        print("\n".join(_formulation_lines(effect, formulation, robot)))
+    return 0
+
+
+def _formulation_lines(effect: Effect, formulation: Formulation, robot: Robot) -> Iterable[str]:
+    yield f"formulation {formulation.name}"
+    yield f"  {formulation.equation}"
+    yield f"  source: {formulation.source}"
+    if formulation.traits:
+        yield f"  traits: {', '.join(sorted(formulation.traits))}"
+    for parameter in formulation.parameters:
+        yield f"  {parameter.name}: {parameter.meaning}"
+        texts: dict[str, list[str]] = {}
+        for name, axis in robot.axes.items():
+            if axis.kind in effect.kinds:
+                texts.setdefault(_figures(parameter, Facts.of(axis)), []).append(name)
+        for figures, names in texts.items():
+            yield f"    {', '.join(names):24} {figures}"
+
+
+def _figures(parameter: Parameter, facts: Facts) -> str:
+    """Return preset and bounds on an axis, SI."""
+    low, high = parameter.bounds(facts)
+    preset = f"{parameter.preset(facts):.4g} {parameter.unit_on(facts)}".rstrip()
+    return f"{preset:22} ({low:.4g} to {high:.4g})"
+
+
+def _check(options: argparse.Namespace) -> int:
+    """Check effects and print what was found; status 1 if something failed."""
+    robots = [robot_of(options)] if options.robot is not None else None
+    known = effect_ids()
+    for effect_id in options.ids:
+        if effect_id not in known:
+            raise EffectError(f"there is no effect {effect_id!r}; there are {', '.join(known)}")
+    failed = 0
+    for effect_id in options.ids or known:
+        report = check_effect(effect_id, robots, clock=time.perf_counter)
+        failed += not report.passed
+        print("\n".join(_report_lines(report, verbose=options.verbose)), flush=True)
+    return _FAILED if failed else 0
+
+
+def _report_lines(report: Report, *, verbose: bool) -> Iterable[str]:
+    passed = sum(check.passed is True for check in report.checks)
+    failed = len(report.failures)
+    verdict = "passed" if report.passed else "FAILED"
+    counts = f"{passed} checks passed" + (f", {failed} failed" if failed else "")
+    yield f"{report.effect_id:24}{verdict}  {counts}"
+    for check in report.checks if verbose else report.failures:
+        yield _check_line(check)
+
+
+def _check_line(check: Check) -> str:
+    verdict = {True: "ok", False: "FAILED", None: "-"}[check.passed]
+    where = " ".join(part for part in (check.formulation, check.place) if part)
+    figures = ""
+    if check.value == check.value and check.passed is not None:
+        figures = f"{check.value:.3g} (bound {check.bound:.3g})"
+    return f"  {verdict:7}{where:36}{check.name:38}{figures}  {check.note}".rstrip()

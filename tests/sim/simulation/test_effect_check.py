@@ -1,0 +1,248 @@
+"""The check of effects: ours pass it, a third party's too, and what is wrong with one is found."""
+
+import textwrap
+from importlib.metadata import EntryPoint
+
+import pytest
+
+from rotemina.sim.effects import registry
+from rotemina.sim.effects.errors import EffectError
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.simulation.effect_check import check_effect
+
+INSTALLED = tuple(registry.all_effects()[0])
+
+MODULE = """
+import numpy as np
+from rotemina.sim.effects.formulation import (
+    Drive, Effect, Force, Formulation, Motion, Parameter, Reading, Stage, Trait
+)
+
+SIZE = Parameter("size", "how much", "", -0.5, 0.5, 0.1)
+POSITIVE = Parameter("size", "how much", "", 0.0, 0.5, 0.1)
+CURVE = {Trait.MEMORYLESS, Trait.RATE_INDEPENDENT, Trait.READING_ONLY}
+
+
+def effect(acts, *traits, parameters=(SIZE,), stage=Stage.SENSOR, kinds=("piezo",), **told):
+    said = dict(name="one", equation="y = f(x)", source="a book", parameters=parameters)
+    form = Formulation(**(said | told), acts=acts, traits=frozenset(traits))
+    return Effect(
+        id="other", title="Other", summary="Something else.", stage=stage,
+        kinds=frozenset(kinds), formulations=(form,),
+    )
+
+
+def bent(x, other, t, h, a, b, p, s):
+    return x * (1.0 + p[0] * np.sin(1000.0 * x))
+
+
+def late(x, other, t, h, a, b, p, s):
+    s[0] += (x - s[0]) * (1.0 - np.exp(-h / (1e-3 + abs(p[0]))))
+    return s[0]
+
+
+def far(x, other, t, h, a, b, p, s):
+    s[1] = x
+    return x + p[0] * s[1]
+
+
+def deep(x, other, t, h, a, b, p, s):
+    return x + p[0] * x + p[1] * x
+
+
+def divided(x, other, t, h, a, b, p, s):
+    return x * p[0] / np.sqrt(p[0])
+
+
+def dice(x, other, t, h, a, b, p, s):
+    return x + p[0] * 1e-6 * np.random.normal()
+
+
+def chance(x, other, t, h, a, b, p, s):
+    return x + p[0] * 1e-6 * a
+
+
+def biased(x, other, t, h, a, b, p, s):
+    return x + p[0] * 1e-6 * (a + 1.0)
+
+
+def counting(x, other, t, h, a, b, p, s):
+    s[0] += 1.0
+    return x + p[0] * 1e-9 * s[0]
+
+
+def play(x, other, t, h, a, b, p, s):
+    s[0] = max(x - 1e-4 * p[0], min(x + 1e-4 * p[0], s[0]))
+    return s[0]
+
+
+def lead(x, other, t, h, a, b, p, s):
+    s[0] = max(x - 1e-4 * p[0], min(x + 1e-4 * p[0], s[0]))
+    return 2.0 * x - s[0]
+
+
+def push(x, other, t, h, a, b, p, s):
+    return 1000.0 * p[0] * other
+
+
+def idle(x, other, t, h, a, b, p, s):
+    return x
+
+
+def drift(x, other, t, h, a, b, p, s):
+    return x + 1e-5 * p[0] * np.sin(50.0 * t) * (1.0 + 100.0 * x)
+
+
+GOOD = effect(Reading(step=bent), *CURVE)
+GOOD_DRIVE = effect(Drive(step=play, states=1), Trait.RATE_INDEPENDENT, Trait.DISSIPATIVE,
+                    stage=Stage.ACTUATOR, parameters=(POSITIVE,))
+GOOD_CHANCE = effect(Reading(step=chance, random=True), Trait.RANDOM, Trait.READING_ONLY)
+NOT_LINEAR = effect(Reading(step=bent), Trait.LINEAR)
+NOT_READING = effect(Motion(step=bent), Trait.READING_ONLY)
+NOT_MEMORYLESS = effect(Motion(step=play, states=1), Trait.MEMORYLESS, parameters=(POSITIVE,))
+NOT_TRANSIENT = effect(Reading(step=bent), Trait.TRANSIENT)
+NOT_RATE = effect(Reading(step=late, states=1), Trait.RATE_INDEPENDENT)
+NOT_PLACE = effect(Motion(step=play, states=1), Trait.LOCKED_TO_POSITION, parameters=(POSITIVE,))
+NOT_TIME = effect(Reading(step=drift), Trait.LOCKED_TO_TIME)
+NOT_LOSSY = effect(Drive(step=lead, states=1), Trait.DISSIPATIVE, stage=Stage.ACTUATOR,
+                   parameters=(POSITIVE,))
+NOT_LOSSY_FORCE = effect(Force(step=push), Trait.DISSIPATIVE, stage=Stage.MECHANICS,
+                         kinds=("stepper",))
+NOT_RANDOM = effect(Reading(step=bent, random=True), Trait.RANDOM)
+UNSAID_CHANCE = effect(Reading(step=chance, random=True))
+BIASED = effect(Reading(step=biased, random=True), Trait.RANDOM)
+IMPURE = effect(Reading(step=dice))
+OVERRUN = effect(Reading(step=far, states=1))
+DEEP = effect(Reading(step=deep))
+NAN = effect(Reading(step=divided), parameters=(POSITIVE,))
+FORGETS = effect(Drive(step=counting, states=1), stage=Stage.ACTUATOR)
+RESTLESS = effect(Reading(step=counting, states=1))
+IDLE = effect(Reading(step=idle))
+BAD_PRESET = effect(Reading(step=bent), parameters=(Parameter("size", "how much", "", 0, 1, 2),))
+BAD_UNIT = effect(Reading(step=bent), parameters=(Parameter("size", "it", "furlong", 0, 1, 1),))
+BAD_NAME = effect(Reading(step=bent), parameters=(Parameter("enabled", "it", "", 0, 1, 1),))
+TWICE = effect(Reading(step=bent), parameters=(SIZE, SIZE))
+NO_SOURCE = effect(Reading(step=bent), source=" ")
+RAISES = effect(Reading(step=bent), prepare=lambda values, facts: 1 / 0)
+"""
+
+FAULTS = [
+    ("NOT_LINEAR", "trait linear"),
+    ("NOT_READING", "trait reading only"),
+    ("NOT_MEMORYLESS", "trait memoryless"),
+    ("NOT_TRANSIENT", "trait transient"),
+    ("NOT_RATE", "trait rate-independent"),
+    ("NOT_PLACE", "trait locked to position"),
+    ("NOT_TIME", "trait locked to time"),
+    ("NOT_LOSSY", "trait dissipative"),
+    ("NOT_LOSSY_FORCE", "trait dissipative"),
+    ("NOT_RANDOM", "differs from seed to seed"),
+    ("UNSAID_CHANCE", "is not random"),
+    ("BIASED", "is absent without chance"),
+    ("IMPURE", "one seed gives one answer"),
+    ("OVERRUN", "leaves other memory alone"),
+    ("OVERRUN", "stays within its memory"),
+    ("DEEP", "stays within its memory"),
+    ("NAN", "stays finite at presets and bounds"),
+    ("FORGETS", "reads without forgetting"),
+    ("RESTLESS", "starts at rest"),
+    ("IDLE", "does something"),
+    ("BAD_PRESET", "formulation is described"),
+    ("BAD_UNIT", "formulation is described"),
+    ("BAD_NAME", "formulation is described"),
+    ("TWICE", "formulation is described"),
+    ("NO_SOURCE", "formulation is described"),
+    ("RAISES", "can be simulated"),
+    ("MISSING", "can be loaded"),
+]
+
+
+@pytest.fixture(scope="module")
+def other_package(tmp_path_factory):
+    """A third party's package, installed as one is: a module and its entry points."""
+    folder = tmp_path_factory.mktemp("site")
+    (folder / "other_effects.py").write_text(textwrap.dedent(MODULE), "utf-8")
+    about = folder / "other_effects-1.0.dist-info"
+    about.mkdir()
+    (about / "METADATA").write_text("Metadata-Version: 2.1\nName: other-effects\nVersion: 1.0\n")
+    (about / "entry_points.txt").write_text("[rotemina.effects]\nother = other_effects:GOOD\n")
+    return folder
+
+
+@pytest.fixture
+def other(other_package, monkeypatch):
+    """Let a third party's effect of a name in the module be the installed ``other``."""
+    monkeypatch.syspath_prepend(str(other_package))
+
+    def install(name):
+        point = EntryPoint("other", f"other_effects:{name}", registry.GROUP)
+        monkeypatch.setattr(registry, "_points", lambda: {"other": point})
+        registry.effect_named.cache_clear()
+
+    yield install
+    registry.effect_named.cache_clear()
+
+
+def failed(report):
+    return {check.name for check in report.failures}
+
+
+@pytest.mark.parametrize("effect_id", INSTALLED)
+def test_an_installed_effect_is_what_it_says(effect_id):
+    report = check_effect(effect_id)
+    assert report.passed, "\n".join(map(str, report.failures))
+    names = {check.name for check in report.checks}
+    assert {"stays finite at presets and bounds", "in pieces is as at once"} <= names
+
+
+def test_an_effect_is_found_by_the_entry_point_of_another_package(other_package, monkeypatch):
+    monkeypatch.syspath_prepend(str(other_package))
+    registry._points.cache_clear()
+    try:
+        assert {"other", "delay"} <= set(registry.effect_ids())
+        assert check_effect("other").passed
+    finally:
+        registry._points.cache_clear()
+        registry.effect_named.cache_clear()
+
+
+@pytest.mark.parametrize("name", ["GOOD", "GOOD_DRIVE", "GOOD_CHANCE"])
+def test_a_good_effect_of_a_third_party_passes(name, other):
+    other(name)
+    report = check_effect("other")
+    assert not report.failures
+    assert {check.place for check in report.checks} >= {"RoTeMiNa thx", "PICMA P-885.91 p"}
+
+
+@pytest.mark.parametrize(("name", "check"), FAULTS)
+def test_what_is_wrong_with_an_effect_is_found(name, check, other):
+    other(name)
+    report = check_effect("other")
+    assert not report.passed
+    assert check in failed(report)
+    assert all(fault.note for fault in report.failures)
+
+
+def test_a_wrong_trait_is_the_only_thing_that_fails(other):
+    other("NOT_LINEAR")
+    assert failed(check_effect("other")) == {"trait linear"}
+
+
+def test_time_is_measured_by_the_clock_that_is_given():
+    ticks = iter(range(1000))
+    slow = check_effect("sensor_gain", clock=lambda: float(next(ticks)))
+    assert failed(slow) == {"is fast enough to be fitted"}
+    assert "is fast enough to be fitted" not in {
+        check.name for check in check_effect("sensor_gain").checks
+    }
+
+
+def test_on_a_robot_without_an_axis_for_it_nothing_fails_but_that_is_said():
+    report = check_effect("hysteresis", [load_robot("emps")])
+    assert report.passed
+    assert [check.name for check in report.checks if check.passed is None] == ["finds an axis"]
+
+
+def test_an_unknown_effect_is_bad_input():
+    with pytest.raises(EffectError, match="there is no effect 'nope'"):
+        check_effect("nope")
