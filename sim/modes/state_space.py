@@ -7,6 +7,12 @@ the axes that have dynamics::
     y = C s + D u
 
 The constant force F moves the point of rest and is left out.
+
+The perturbation of the same equation, ``A Q̇ + B Q`` (with capitals that are no state matrices:
+here P and R), comes in by matrices of its own. So that its input is Q and not Q̇ as well, the
+state is ``s' = s − [0, M⁻¹P Q]``::
+
+    ṡ' = A s' + (A [0, M⁻¹P] + [0, M⁻¹R]) Q,   y = C (s' + [0, M⁻¹P] Q)
 """
 
 from dataclasses import dataclass
@@ -15,9 +21,14 @@ from enum import StrEnum
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray, read_only
+from rotemina.sim.errors import InputError
 from rotemina.sim.plant.group import input_gain
 from rotemina.sim.robot.matrices import inertia_matrices
 from rotemina.sim.robot.model import Robot, StepperAxis
+
+
+class StateSpaceError(InputError):
+    """Matrices that cannot be made."""
 
 
 class Output(StrEnum):
@@ -36,7 +47,7 @@ class StateSpace:
     ----------
     inputs : tuple of str, length n
         The axes, in the robot's order, whose ``u`` is the input: V, or the commanded position of
-        a stepper. The outputs have the same order.
+        a stepper; or their Q. The outputs have the same order.
     states : tuple of str, length m
         The axes with dynamics; the state is their positions, then their velocities.
     a : (2m, 2m)
@@ -84,6 +95,55 @@ def state_space(robot: Robot, output: Output = Output.POSITION) -> StateSpace:
     if output is Output.POSITION:
         d += np.diag([_static_gain(robot, name) for name in inputs])
     return StateSpace(inputs, names, *(read_only(matrix) for matrix in (a, b, c, d)))
+
+
+def perturbed_state_space(
+    robot: Robot, rate: FloatArray, level: FloatArray, output: Output = Output.POSITION
+) -> StateSpace:
+    """Return the matrices of ``robot`` from the perturbation Q of its axes, inputs held.
+
+    Parameters
+    ----------
+    robot : Robot
+    rate, level : (n, n)
+        A and B of Eq. (1), kg s and kg (or kg m² s and kg m²), as of
+        :class:`rotemina.sim.plant.perturbation.Perturbation`. Rows are the axes that are pushed.
+    output : Output
+        Where Q̇ pushes, accelerations do not follow from Q, and are refused.
+
+    Returns
+    -------
+    StateSpace
+        Its inputs are Q, m/s² or rad/s², in the robot's order; the state is s'.
+
+    Raises
+    ------
+    StateSpaceError
+        If a matrix does not fit, or accelerations are asked for where Q̇ pushes.
+    """
+    driven = state_space(robot, output)
+    n, m = len(driven.inputs), len(driven.states)
+    for name, matrix in (("rate", rate), ("level", level)):
+        if np.shape(matrix) != (n, n) or not np.isfinite(matrix).all():
+            raise StateSpaceError(
+                f"{name} has shape {np.shape(matrix)}; give it ({n}, {n}) finite numbers, "
+                f"a row and a column for each of {' '.join(driven.inputs)}"
+            )
+    if output is Output.ACCELERATION and np.any(rate):
+        raise StateSpaceError(
+            "accelerations under a perturbation by its rate have no finite response; "
+            "ask for velocities"
+        )
+    names, mass, _, _ = inertia_matrices(robot)
+    place = [driven.inputs.index(name) for name in names]
+    by_rate, by_level = np.zeros((2, 2 * m, n))
+    by_rate[m:] = np.linalg.solve(mass, np.asarray(rate)[place])
+    by_level[m:] = np.linalg.solve(mass, np.asarray(level)[place])
+    through = driven.c @ by_rate
+    if output is Output.ACCELERATION:
+        through[place] = by_level[m:]
+    matrices = (driven.a, driven.a @ by_rate + by_level, driven.c, through)
+    return StateSpace(driven.inputs, driven.states, *(read_only(matrix) for matrix in matrices))
 
 
 def _static_gain(robot: Robot, name: str) -> float:

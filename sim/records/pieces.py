@@ -13,7 +13,9 @@ from rotemina.sim.records.record import Record
 from rotemina.sim.records.source import LIMITS, Limits, open_blocks
 from rotemina.sim.robot.model import Robot
 
-PIECE_ROWS = 65_536
+# With these a simulation of six axes takes about 400 MB at most; larger ones are no faster.
+PIECE_ROWS = 32_768
+PIECE_LIMITS = replace(LIMITS, block_bytes=4_000_000)
 
 
 def read_pieces(
@@ -22,7 +24,7 @@ def read_pieces(
     columns: str | None = None,
     robot: Robot | None = None,
     rows: int = PIECE_ROWS,
-    limits: Limits = LIMITS,
+    limits: Limits = PIECE_LIMITS,
 ) -> Iterator[Record]:
     """Import a record or trajectory piece by piece, plain or compressed.
 

@@ -4,7 +4,13 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from rotemina.sim.modes.state_space import Output, state_space
+from rotemina.sim.modes.state_space import (
+    Output,
+    StateSpaceError,
+    perturbed_state_space,
+    state_space,
+)
+from rotemina.sim.plant.perturbation import Perturbation
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.robot.file import load_robot, parse_robot
 
@@ -74,3 +80,57 @@ def test_static_axes_pass_straight_through():
     only_static = state_space(load_robot("picma"))
     assert only_static.a.shape == (0, 0)
     assert only_static.response(np.array(5.0)) == pytest.approx(12.53e-6)
+
+
+RATE, LEVEL = 1e-3 * np.random.default_rng(1).uniform(-1.0, 1.0, (2, 6, 6))
+
+
+@pytest.mark.parametrize("output", [Output.POSITION, Output.VELOCITY])
+def test_a_perturbation_moves_it_as_it_moves_the_simulated_plant(output):
+    """Q is held from sample to sample, so s' steps by the matrix exponential; y is before it."""
+    system, plant = perturbed_state_space(ROBOT, RATE, LEVEL, output), Plant.of(ROBOT)
+    step_s, rows = 1e-3, 50
+    shaken = np.random.default_rng(2).normal(size=(rows, 6))
+    rest, time_s = np.zeros(6), np.arange(rows) * step_s
+    motion, _ = plant.advance(
+        plant.at_rest(0.0, rest),
+        time_s,
+        np.zeros((rows, 6)),
+        perturbation=Perturbation(shaken, RATE, LEVEL),
+    )
+    exact = motion.position if output is Output.POSITION else motion.velocity
+    step = expm(np.block([[system.a, system.b], [np.zeros((6, 18))]]) * step_s)
+    state, before, found = np.zeros(12), np.zeros(6), []
+    for push in shaken:
+        found.append(system.c @ state + system.d @ before)
+        state, before = (step @ np.concatenate([state, push]))[:12], push
+    scale = np.abs(exact).max(axis=0)
+    assert (np.abs(np.array(found) - exact).max(axis=0) < 1e-8 * scale).all()
+
+
+def test_a_perturbation_at_one_frequency_follows_the_equation_of_motion():
+    """(−ω²M + iωD + C) q = (iωA + B) Q, solved as it stands."""
+    frequency = 130.0
+    rate = 2j * np.pi * frequency
+    mass = np.diag([40.0, 40.0, 42.0, 2e-5, 2e-5, 0.15])
+    mass[2, 5] = mass[5, 2] = 0.15
+    mass[3, 4] = mass[4, 3] = 3e-7
+    damping = np.diag([8485.0, 8485.0, 8695.0, 2.2619e-3, 2.2619e-3, 19.792])
+    stiffness = np.diag([2e7, 2e7, 2e7, 71.061, 71.061, 1.0446e6])
+    dynamic = rate**2 * mass + rate * damping + stiffness
+    exact = np.linalg.solve(dynamic, rate * RATE + LEVEL)
+    for power, output in enumerate([Output.POSITION, Output.VELOCITY]):
+        found = perturbed_state_space(ROBOT, RATE, LEVEL, output).response(np.array(frequency))
+        np.testing.assert_allclose(found, rate**power * exact, rtol=1e-8)
+    exact = rate**2 * np.linalg.solve(dynamic, LEVEL)
+    system = perturbed_state_space(ROBOT, 0.0 * RATE, LEVEL, Output.ACCELERATION)
+    np.testing.assert_allclose(system.response(np.array(frequency)), exact, rtol=1e-8)
+
+
+def test_perturbations_that_do_not_fit_are_refused():
+    with pytest.raises(StateSpaceError, match=r"rate has shape \(5, 6\); give it \(6, 6\)"):
+        perturbed_state_space(ROBOT, RATE[:5], LEVEL)
+    with pytest.raises(StateSpaceError, match="level has shape"):
+        perturbed_state_space(ROBOT, RATE, np.full((6, 6), np.nan))
+    with pytest.raises(StateSpaceError, match="ask for velocities"):
+        perturbed_state_space(ROBOT, RATE, LEVEL, Output.ACCELERATION)

@@ -1,0 +1,113 @@
+"""Peak memory of ``rotemina simulate`` over 10 minutes and 1 hour of six axes at 1 kHz.
+
+The commands go from file to file in pieces, so the peak must not grow with their length; beside
+it stand the limit and how long it took. Effects, noise and the table of loads are on in the second
+pair of runs. ``make bench`` runs it; it needs about 5 GB of room for a while.
+"""
+
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from importlib import resources
+from pathlib import Path
+
+import numpy as np
+
+from rotemina.sim.records.pieces import PIECE_ROWS
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records.writing import write_pieces
+from rotemina.sim.robot.file import load_robot
+
+RATE_HZ = 1000
+DURATIONS_S = (600, 3600)
+LIMIT_MB = 500.0
+MOST_GROWTH = 1.1  # of the peak, from the shortest to the longest
+
+EFFECTS = """
+[[axis.thx.effect]]
+id = "hysteresis"
+[[axis.thy.effect]]
+id = "delay"
+[[axis.zn.effect]]
+id = "flexible_mode"
+"""
+
+PROBE = """
+import sys
+import psutil
+from rotemina.app.cli.main import main
+def peak_bytes():
+    if sys.platform == "win32":
+        return psutil.Process().memory_info().peak_wset
+    if sys.platform == "darwin":
+        import resource
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    # Not ru_maxrss, which on Linux begins with the peak of the parent process.
+    status = open("/proc/self/status").read()
+    return 1024 * int(status.split("VmHWM:")[1].split()[0])
+status = main(sys.argv[1:])
+print(peak_bytes())
+sys.exit(status)
+"""
+
+
+def test_a_long_simulation_keeps_within_its_memory() -> None:
+    peaks = main()
+    assert max(max(each) for each in peaks) <= LIMIT_MB
+    assert all(long <= MOST_GROWTH * short for short, long in peaks)
+
+
+def main(*durations_s: int) -> list[tuple[float, float]]:
+    """Measure and print; return the peaks of the shortest and the longest run, MB, of each way."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        commands = [make_commands(folder, length) for length in durations_s or DURATIONS_S]
+        shipped = resources.files("rotemina.resources.robots").joinpath("rotemina.toml")
+        own = folder / "own.toml"
+        own.write_text(shipped.read_text("utf-8") + EFFECTS, "utf-8")
+        print()
+        nominal = [measure("nominal", path, "--no-noise") for path in commands]
+        loads = ("--robot", str(own), "--loads", str(folder / "loads.csv"))
+        full = [measure("effects, noise, loads", path, *loads) for path in commands]
+    return [(nominal[0], nominal[-1]), (full[0], full[-1])]
+
+
+def make_commands(folder: Path, duration_s: int) -> Path:
+    """Write slow waves of all axes, piece by piece; return the file."""
+    path = folder / f"{duration_s}.csv"
+    write_pieces(waves(duration_s * RATE_HZ + 1), path)
+    return path
+
+
+def waves(rows: int) -> Iterator[Record]:
+    """Give the commands in pieces."""
+    robot = load_robot("rotemina")
+    for first in range(0, rows, PIECE_ROWS):
+        time_s = np.arange(first, min(first + PIECE_ROWS, rows)) / RATE_HZ
+        signals = {}
+        for number, (name, axis) in enumerate(robot.axes.items()):
+            wave = 0.5 + 0.3 * np.sin(0.3 * (number + 1) * time_s) * np.minimum(time_s / 10.0, 1.0)
+            signals[name, Tap.CMD] = axis.range[0] + axis.span * wave
+        yield Record.from_signals(time_s, signals, {n: robot.unit(n) or "m" for n in robot.axes})
+
+
+def measure(title: str, commands: Path, *asked: str) -> float:
+    """Simulate in a process of its own, print what it took, and return its peak, MB."""
+    output = commands.with_name("record.csv")
+    command = [sys.executable, "-c", PROBE, "simulate", str(commands), *asked, "-o", str(output)]
+    start = time.perf_counter()
+    printed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    seconds = time.perf_counter() - start
+    peak_mb = int(printed.split()[-1]) / 1e6
+    print(
+        f"simulate {commands.stem:>5} s x 6 axes, {title:22} {output.stat().st_size / 1e6:6.0f} MB "
+        f"written in {seconds:6.1f} s; peak {peak_mb:5.0f} MB, limit {LIMIT_MB:.0f} MB"
+    )
+    output.unlink()
+    return peak_mb
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:]))
