@@ -157,7 +157,7 @@ def _check_value(
             f"it has {known}"
         )
     low, high = parameter.bounds(facts)
-    slack = _SLACK * max(abs(low), abs(high))
+    slack = _SLACK * max((abs(end) for end in (low, high) if isfinite(end)), default=0.0)
     if not isfinite(value) or not low - slack <= value <= high + slack:
         raise EffectError(f"{where}.{name} = {value:g}: {_between(parameter, low, high, facts)}")
 

@@ -111,6 +111,12 @@ def test_a_bound_itself_is_allowed():
     Attached.of(ROBOT, AxisEffect(axis="thx", id="hysteresis", parameters={"width": high}))
 
 
+def test_an_open_upper_bound_leaves_the_lower_one_closed():
+    asked = AxisEffect(axis="x", id="friction", parameters={"viscous_forward": -1.0})
+    with pytest.raises(EffectError, match=r"viscous_forward = -1: must be between 0 and inf"):
+        Attached.of(ROBOT, asked)
+
+
 def test_parsing_keeps_what_is_written():
     asked = parse_effect("thx", {"id": "delay", "delay": 1, "enabled": False})
     assert asked == AxisEffect(axis="thx", id="delay", parameters={"delay": 1.0}, enabled=False)
