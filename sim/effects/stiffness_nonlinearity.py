@@ -28,7 +28,11 @@ def cubic(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compil
 
 
 def _numbers(values: Values, facts: Facts) -> tuple[float, ...]:
-    """Make ``hardening`` the force at half the range from x₀, over that of the linear stiffness."""
+    """Make ``hardening`` the force at half the range from x₀, over that of the linear stiffness.
+
+    A little less than none is allowed, so that a fit may pass; with more, a step over the whole
+    range could throw the axis out of its well.
+    """
     reach = 0.5 * facts.span
     middle = 0.5 * (facts.low + facts.high)
     return (values["hardening"] * facts.stiffness / reach**2, middle + values["centre"])
@@ -51,7 +55,7 @@ STIFFNESS_NONLINEARITY = Effect(
             source="Kovacic and Brennan, The Duffing Equation (2011), ch. 2",
             parameters=(
                 Parameter(
-                    "hardening", "ε, share of further force at L from q₀", "", -0.05, 1.0, 0.05
+                    "hardening", "ε, share of further force at L from q₀", "", -0.01, 1.0, 0.05
                 ),
                 Parameter(
                     "centre",

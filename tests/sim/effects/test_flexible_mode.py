@@ -1,0 +1,183 @@
+"""Flexible modes against state-space models integrated by scipy, on every kind of axis."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.signal import StateSpace, lsim
+
+from rotemina.sim.effects.errors import EffectError
+from rotemina.sim.plant.plant import Plant
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.file import load_robot, parse_robot
+from rotemina.sim.robot.matrices import inertia_matrices
+from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.simulation.simulation import simulate
+
+ROBOT = load_robot("rotemina")
+RATE_HZ = 8000.0
+TIME_S = np.arange(3000) / RATE_HZ
+MODE = {"frequency": 510.0, "damping_ratio": 0.03}
+W = 2 * np.pi * 510.0
+LOSS = 2 * 0.03 * W
+WAVE = np.random.default_rng(3).normal(size=300).repeat(10)
+WAVE[0] = 0.0
+
+
+def moved(robot, axis, formulation, signals, **parameters):
+    effect = AxisEffect(
+        axis=axis, id="flexible_mode", formulation=formulation, parameters=parameters
+    )
+    units = {name: ROBOT.unit(name) or "m" if robot is ROBOT else "m" for name, _ in signals}
+    record = Record.from_signals(TIME_S, signals, units)
+    return simulate(robot, [effect] if parameters else (), record)
+
+
+def integrated(a, b, c, inputs, start=None):
+    d = np.zeros((len(c), b.shape[1]))
+    return lsim(StateSpace(a, b, c, d), inputs, TIME_S, X0=start, interp=False)[1]
+
+
+def chain(formulation, mass, damping, stiffness, size):
+    """A, B, C of states [q, q̇, z, ż] under the force."""
+    a = np.zeros((4, 4))
+    a[0, 1] = a[2, 3] = 1.0
+    a[1, :2] = [-stiffness / mass, -damping / mass]
+    a[3, 2:] = [-(W**2), -LOSS]
+    b = np.array([[0.0], [1.0 / mass], [0.0], [0.0]])
+    c = np.array([[1.0 - size, 0.0, size, 0.0]])
+    if formulation == "series":
+        a[3, 0] = W**2
+    elif formulation == "parallel":
+        b[3, 0] = W**2 / stiffness
+    else:  # a mass hung on a spring and a damper
+        own = size * mass
+        a[3, :2] = [W**2, LOSS]
+        a[1] += np.array([-(W**2), -LOSS, W**2, LOSS]) * own / mass
+        c = np.array([[1.0, 0.0, 0.0, 0.0]])
+    return a, b, c
+
+
+@pytest.mark.parametrize(
+    ("formulation", "name"),
+    [("parallel", "share"), ("series", "share"), ("appendage", "mass_ratio")],
+)
+@pytest.mark.parametrize("axis", ["x", "y"])
+def test_a_lone_axis_moves_as_its_state_space_model(formulation, name, axis):
+    command = 0.02 + 1e-5 * WAVE
+    path = moved(ROBOT, axis, formulation, {(axis, Tap.CMD): command}, **MODE, **{name: 0.2})
+    mass, damping, stiffness = ROBOT.axes[axis].inertia
+    system = chain(formulation, mass, damping, stiffness, 0.2)
+    expected = 0.02 + integrated(*system, stiffness * (command - 0.02)[:, None])
+    np.testing.assert_allclose(path.signal(axis, Tap.REF), expected, atol=1e-12)
+
+
+@pytest.mark.parametrize("formulation", ["parallel", "series", "appendage"])
+def test_a_coupled_axis_moves_as_its_state_space_model(formulation):
+    """A mode on thx, which a mass couples to thy: what it does shows in thy as it should."""
+    names, mass, damping, stiffness = inertia_matrices(ROBOT)
+    own = [names.index("thx"), names.index("thy")]
+    mass, damping, stiffness = (matrix[np.ix_(own, own)] for matrix in (mass, damping, stiffness))
+    size = 0.2
+    a, b = np.zeros((6, 6)), np.zeros((6, 2))  # [thx, thy, their speeds, z, ż]
+    a[:2, 2:4] = np.eye(2)
+    a[4, 5] = 1.0
+    force = np.hstack([-stiffness, -damping, np.zeros((2, 2))])
+    a[5, 4:] = [-(W**2), -LOSS]
+    c = np.eye(2, 6)
+    if formulation == "appendage":
+        hung = size * ROBOT.axes["thx"].mass
+        pull = np.array([-(W**2), 0.0, -LOSS, 0.0, W**2, LOSS])
+        a[5] = -pull
+        force[0] += hung * pull
+    else:
+        c[0, [0, 4]] = [1.0 - size, size]
+    if formulation == "series":
+        a[5, 0] = W**2
+    a[2:4] = np.linalg.solve(mass, force)
+    b[2:4] = np.linalg.solve(mass, stiffness)
+    if formulation == "parallel":
+        b[5, 0] = W**2
+    name = "mass_ratio" if formulation == "appendage" else "share"
+    signals = {("thx", Tap.CMD): 5e-4 + 1e-5 * WAVE, ("thy", Tap.CMD): 5e-4 + 1e-5 * WAVE[::-1]}
+    signals["thy", Tap.CMD][0] = 5e-4
+    record = moved(ROBOT, "thx", formulation, signals, **MODE, **{name: size})
+    commands = np.column_stack(list(signals.values())) - 5e-4
+    expected = 5e-4 + integrated(a, b, c, commands)
+    for column, axis in enumerate(("thx", "thy")):
+        np.testing.assert_allclose(record.signal(axis, Tap.REF), expected[:, column], atol=1e-13)
+
+
+@pytest.mark.parametrize("formulation", ["parallel", "series"])
+def test_a_static_axis_has_a_mode_between_its_input_and_its_position(formulation):
+    robot = parse_robot(
+        "[robot]\nname='one'\naxes=['p']\n[axis.p]\nkind='piezo'\nunit='m'\nstatic=true\n"
+        "range=[0.0, 4.65e-5]\ngain=1.253e-5\n"
+    )
+    command = 2e-5 + 1e-6 * WAVE
+    path = moved(robot, "p", formulation, {("p", Tap.CMD): command}, **MODE, share=0.3)
+    a = np.array([[0.0, 1.0], [-(W**2), -LOSS]])
+    mode = integrated(a, np.array([[0.0], [W**2]]), np.array([[1.0, 0.0]]), command - 2e-5)
+    expected = 0.7 * command + 0.3 * (2e-5 + mode)
+    np.testing.assert_allclose(path.signal("p", Tap.REF), expected, atol=1e-15)
+
+
+def test_a_static_axis_has_no_mass_for_a_mass_to_hang_on():
+    robot = load_robot("picma")
+    asked = AxisEffect(axis="p", id="flexible_mode", formulation="appendage")
+    with pytest.raises(EffectError, match="static"):
+        Plant.of(replace(robot, effects=(asked,)))
+
+
+@pytest.mark.parametrize("stiffness", [0.0, 4e5])
+def test_an_axis_that_a_force_moves_has_a_mode_driven_by_the_force(stiffness):
+    held = f"stiffness={stiffness}\n" if stiffness else ""
+    robot = parse_robot(
+        "[robot]\nname='one'\naxes=['a']\n[axis.a]\nkind='force'\nunit='m'\nrange=[-0.1, 0.1]\n"
+        f"mass=2.0\ndamping=30.0\ngain=5.0\n{held}"
+    )
+    signals = {("a", Tap.CMD): np.zeros(3000), ("a", Tap.U): 0.1 * WAVE}
+    path = moved(robot, "a", "parallel", signals, **MODE, share=0.2).signal("a", Tap.REF)
+    a, b, c = chain("series", 2.0, 30.0, stiffness, 0.2)
+    a[3, 0] = 0.0
+    b[3, 0] = W**2 / stiffness if stiffness else 1.0 / 2.0
+    c[0, 0] = 0.8 if stiffness else 1.0
+    expected = integrated(a, b, c, 5.0 * signals["a", Tap.U][:, None])
+    np.testing.assert_allclose(path, expected, atol=1e-12)
+
+
+@pytest.mark.parametrize("formulation", ["parallel", "series", "appendage"])
+def test_at_rest_it_adds_nothing(formulation):
+    """From the first sample on, and where a step has settled."""
+    command = np.concatenate([np.full(10, 0.02), np.full(2990, 0.0201)])
+    path = moved(ROBOT, "x", formulation, {("x", Tap.CMD): command}, frequency=170.0)
+    path = path.signal("x", Tap.REF)
+    np.testing.assert_allclose(path[:10], 0.02, atol=1e-15)
+    assert np.ptp(path[-20:]) < 1e-8
+    assert path[-1] == pytest.approx(0.0201, abs=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("formulation", "name"),
+    [("parallel", "share"), ("series", "share"), ("appendage", "mass_ratio")],
+)
+def test_without_share_or_mass_the_axis_is_nominal(formulation, name):
+    signals = {("x", Tap.CMD): 0.02 + 1e-5 * WAVE}
+    one = moved(ROBOT, "x", formulation, signals, **MODE, **{name: 0.0}).signal("x", Tap.REF)
+    none = moved(ROBOT, "x", formulation, signals).signal("x", Tap.REF)
+    np.testing.assert_allclose(one, none, rtol=0, atol=1e-15)
+
+
+def test_several_modes_sit_on_one_axis():
+    """Each by itself: what two add in parallel is nearly what each adds alone."""
+    record = Record.from_signals(TIME_S, {("x", Tap.CMD): 0.02 + 1e-5 * WAVE}, {"x": "m"})
+    modes = [
+        AxisEffect(axis="x", id="flexible_mode", parameters={"frequency": f, "share": 1e-4})
+        for f in (250.0, 700.0)
+    ]
+    nominal, one, two, both = (
+        simulate(ROBOT, used, record).signal("x", Tap.REF)
+        for used in ((), modes[:1], modes[1:], modes)
+    )
+    np.testing.assert_allclose(both - nominal, (one - nominal) + (two - nominal), atol=2e-12)
+    assert np.ptp(both - nominal) > 1e-10
