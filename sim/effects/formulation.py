@@ -174,12 +174,14 @@ class Reading:
     """A step function on the reading of a sensor; ``h`` is the time since it was last called.
 
     ``other`` is the true position. ``random``: ``a`` is a standard normal variate, 0 where
-    chance is left out, and the function is called at samples alone.
+    chance is left out, and the function is called at samples alone. ``digital``: it gets what the
+    sensor's own noise, offset and resolution have passed already, and is called at samples alone.
     """
 
     step: StepFunction
     states: int = 0
     random: bool = False
+    digital: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -81,7 +81,7 @@ SENSOR_OUTLIERS = Effect(
             equation="y = 0 for a while after events of a Poisson process",
             source=_SOURCE,
             parameters=(_RATE, _DURATION),
-            acts=Reading(step=zeros, states=1, random=True),
+            acts=Reading(step=zeros, states=1, random=True, digital=True),
             traits=_TRAITS,
         ),
         Formulation(
@@ -89,7 +89,7 @@ SENSOR_OUTLIERS = Effect(
             equation="y = the last reading for a while after events of a Poisson process",
             source=_SOURCE,
             parameters=(_RATE, _DURATION),
-            acts=Reading(step=held, states=2, random=True),
+            acts=Reading(step=held, states=2, random=True, digital=True),
             traits=_TRAITS,
         ),
     ),

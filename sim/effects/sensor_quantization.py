@@ -35,7 +35,7 @@ SENSOR_QUANTIZATION = Effect(
                 Parameter("step", "Δ", "q", 0.0, 1000.0, 20.0, per="noise"),
                 Parameter("shift", "z, where in a step the zero lies", "", -0.5, 0.5, 0.0),
             ),
-            acts=Reading(step=rounded),
+            acts=Reading(step=rounded, digital=True),
             traits=frozenset({Trait.MEMORYLESS, Trait.RATE_INDEPENDENT, Trait.READING_ONLY}),
         ),
     ),

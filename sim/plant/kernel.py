@@ -148,12 +148,15 @@ def _position(
 
 @numba.njit(cache=True, error_model="numpy")
 def _reading(
-    axis: TableArray, function: TableArray, numbers: FloatArray, memory: FloatArray,
-    seen: FloatArray, i: int, q: float, t: float, row: int, variates: FloatArray,
+    function: TableArray, numbers: FloatArray, memory: FloatArray,
+    seen: FloatArray, begin: int, end: int, y: float, q: float, t: float, row: int,
+    variates: FloatArray,
 ) -> float:  # fmt: skip
-    """Return the reading of axis i; with ``row`` < 0 between samples, where chance is asleep."""
-    y = q
-    for e in range(axis[i].reading, axis[i].end):
+    """Send a reading y of the position q through the functions from ``begin`` to ``end``.
+
+    With ``row`` < 0 between samples, where chance is asleep.
+    """
+    for e in range(begin, end):
         one = function[e]
         z = 0.0
         if one.variate >= 0:
@@ -255,10 +258,16 @@ def _sample(
         q = y = shown[i]
         if own.motion < own.end:
             q = _position(axis, function, numbers, memory, seen, i, shown, t)
-            y = _reading(axis, function, numbers, memory, seen, i, q, t, row, variates)
+            y = _reading(
+                function, numbers, memory, seen, own.reading, own.digits, q, q, t, row, variates
+            )
         y += own.offset
         if variates.shape[0] > 0:
             y = _noisy(axis, i, y, row, variates)
+        if own.digits < own.end:
+            y = _reading(
+                function, numbers, memory, seen, own.digits, own.end, y, q, t, row, variates
+            )
         position[k, i] = q
         reading[k, i] = y
         velocity[k, i] = x[own.rate] if own.rate >= 0 else 0.0
@@ -331,7 +340,8 @@ def _follow(
         if axis[i].inner_position != 0:
             q = _position(axis, function, numbers, memory, seen, i, shown, t)
             if axis[i].inner_reading != 0:
-                _reading(axis, function, numbers, memory, seen, i, q, t, -1, variates)
+                begin, end = axis[i].reading, axis[i].digits
+                _reading(function, numbers, memory, seen, begin, end, q, q, t, -1, variates)
 
 
 @numba.njit(cache=True, error_model="numpy", inline="always")
@@ -446,4 +456,5 @@ def rise_positions(machine: Machine, moving: State, low: FloatArray, u: FloatArr
             for e in range(axis[i].motion, axis[i].end):
                 seen[e] = -_LONG_S
             q = _position(axis, function, numbers, memory, seen, i, shown, 0.0)
-            _reading(axis, function, numbers, memory, seen, i, q, 0.0, 0, none)
+            begin, end = axis[i].reading, axis[i].end
+            _reading(function, numbers, memory, seen, begin, end, q, q, 0.0, 0, none)

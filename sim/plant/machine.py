@@ -16,7 +16,7 @@ from rotemina.sim.robot.model import Robot
 TableArray = NDArray[Any]  # structured: one row for each thing, its columns are named
 
 #: The places in the signal chain at which step functions are called, in its order.
-PHASES = ("electronics", "actuator", "force", "motion", "reading")
+PHASES = ("electronics", "actuator", "force", "motion", "reading", "digits")
 
 
 AXIS = np.dtype(
@@ -208,7 +208,9 @@ def phase_of(attached: Attached) -> str | None:
     acts = attached.formulation.acts
     if isinstance(acts, Drive):
         return "electronics" if attached.effect.stage is Stage.ELECTRONICS else "actuator"
-    for kind, phase in ((Force, "force"), (Motion, "motion"), (Reading, "reading")):
+    if isinstance(acts, Reading):
+        return "digits" if acts.digital else "reading"
+    for kind, phase in ((Force, "force"), (Motion, "motion")):
         if isinstance(acts, kind):
             return phase
     return None

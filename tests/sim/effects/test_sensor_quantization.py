@@ -41,3 +41,19 @@ def test_the_mechanics_does_not_filter_the_steps():
 def test_finer_steps_come_to_none_smoothly():
     errors = [np.abs(np.subtract(*read(step=step))).max() for step in (1e-5, 1e-6, 1e-7, 0.0)]
     np.testing.assert_allclose(errors, [5e-6, 5e-7, 5e-8, 0.0], rtol=0.01)
+
+
+def test_noise_comes_before_the_steps_and_dithers_them():
+    time_s = np.arange(20_000) / 10_000
+    command = np.full(20_000, 5.03e-4)  # 0.15 steps above one of them
+    record = Record.from_signals(time_s, {("thx", Tap.CMD): command}, {"thx": "rad"})
+    effects = [
+        AxisEffect(axis="thx", id="sensor_noise", parameters={"rms": 2e-5}),
+        AxisEffect(axis="thx", id="sensor_quantization", parameters={"step": STEP}),
+    ]
+    for order in (effects, effects[::-1]):
+        answer = simulate(ROBOT, order, record, np.random.default_rng(2))
+        reading = answer.signal("thx", Tap.MEAS)
+        np.testing.assert_allclose(reading / STEP, np.rint(reading / STEP), atol=1e-9)
+        assert reading.mean() == pytest.approx(5.03e-4, abs=1e-6)
+        assert reading.std() == pytest.approx(np.hypot(2e-5, STEP / np.sqrt(12)), rel=0.03)
