@@ -74,7 +74,9 @@ def progressive(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # 
         inside = depth - 0.5 * a * push
         force = p[2] * p[5] * (inside / p[5]) ** p[4]
         push -= (push - force) / (1.0 + 0.5 * a * p[4] * force / inside)
-    push = (push + p[3] * p[0] * other) / (1.0 + p[3] * b)
+    half = 0.5 * h * abs(other)
+    loss = p[3] if depth >= half else p[3] * depth / half  # a mere touch meets no jump
+    push = (push + loss * p[0] * other) / (1.0 + loss * b)
     return -p[0] * max(push, 0.0)
 
 

@@ -6,7 +6,7 @@ import pytest
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.contact import progressive, spring, stop
 from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.file import load_robot, parse_robot
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.simulation.simulation import simulate
 
@@ -144,3 +144,36 @@ def test_plain_python_says_the_same_on_both_sides(formulation):
         assert push <= 0.0
     assert stop(3.0, 0.0, 0.0, 0.0, 0.0, 0.0, [1.0, 2.0, 0.75], []) == 2.25
     assert stop(-3.0, 0.0, 0.0, 0.0, 0.0, 0.0, [-1.0, -2.0, 0.75], []) == -2.25
+
+
+@FORCES
+@pytest.mark.parametrize("speed", [1.0, -1.0])
+def test_a_touch_pushes_as_little_as_it_is_short(formulation, speed):
+    """Spring and damper set in evenly, so that a fit of the place meets no jump."""
+    step = spring if formulation == "spring" else progressive
+    numbers = [1.0, 0.0, 1e4, 50.0, 1.5, 1.0][: 4 if formulation == "spring" else 6]
+    reach = 0.5e-3 if formulation == "spring" else 0.0  # half of the way of a step
+    pushes = [
+        step(depth - reach, speed, 0.0, 1e-3, 5e-7, 1e-3, numbers, [])
+        for depth in (-1e-7, 1e-7, 1e-6, 1e-5)
+    ]
+    assert pushes[0] == 0.0
+    assert abs(pushes[1]) < 0.02
+    assert (np.diff(np.abs(pushes)) >= 0).all()
+    if speed > 0:
+        assert pushes[3] < 0.0
+
+
+@EVERY
+def test_the_place_counts_from_the_low_end(formulation):
+    robot = parse_robot(
+        "[robot]\nname='one'\naxes=['a']\n[axis.a]\nkind='piezo'\nunit='m'\n"
+        "range=[-2.0, -1.0]\ngain=0.1\nnatural_frequency_hz=50.0\ndamping_ratio=0.1\n"
+    )
+    record = Record.from_signals(
+        np.arange(2) * 1e-3, {("a", Tap.CMD): np.full(2, -1.2)}, {"a": "m"}
+    )
+    figures = {"place": 0.5, **strength(formulation, 1.0)}
+    asked = AxisEffect(axis="a", id="contact", formulation=formulation, parameters=figures)
+    rest = simulate(robot, [asked], record).signal("a", Tap.REF)[0]
+    assert -1.5 <= rest < -1.3
