@@ -19,6 +19,7 @@ from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.robot.model import Robot
 
 NOTHING = "Add an effect, and tune it here while the simulator runs."
+LEAST_HEIGHT = 10  # of the fields, which scroll: a notice must not make the window taller
 
 
 class Editor(QWidget):
@@ -61,6 +62,7 @@ class Editor(QWidget):
         self._scroll.setObjectName("panelScroll")
         self._scroll.setFrameShape(QFrame.Shape.NoFrame)
         self._scroll.setWidgetResizable(True)
+        self._scroll.setMinimumHeight(LEAST_HEIGHT)
         self._lay_out()
         self.show_effect(None, -1)
 

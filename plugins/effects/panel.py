@@ -38,6 +38,7 @@ REAL_MACHINE = (
     "Effects belong to the simulator. A real machine has its own: connect to the simulator to "
     "switch and tune any."
 )
+MOST_PAST = 100  # lists that can be brought back
 FILES = "Robot files (*.toml)"
 
 
@@ -53,6 +54,7 @@ class EffectsPanel(Panel):
         self.chain = Chain(workbench.robot)
         self.place = -1
         self._last: tuple[int, str] | None = None  # what was tuned last: place and parameter
+        self._past: list[Chain] = []
         self._make_buttons()
         self.table, self.editor = EffectTable(), Editor(workbench.robot)
         self.status = QLabel()
@@ -79,6 +81,7 @@ class EffectsPanel(Panel):
         self.up = _button("▲", "Let the signal meet this effect earlier within its stage")
         self.down = _button("▼", "Let the signal meet this effect later within its stage")
         self.remove = _button("Remove", "Take this effect away")
+        self.undo = _button("Undo", "Take back the last change of this list")
         self.all_off = _button(
             "All off", "Compare with the nominal machine: no effect acts until this is released"
         )
@@ -89,7 +92,7 @@ class EffectsPanel(Panel):
     def _lay_out(self) -> None:
         buttons = QHBoxLayout()
         buttons.setSpacing(6)
-        for widget in (self.add, self.up, self.down, self.remove, self.all_off):
+        for widget in (self.add, self.up, self.down, self.remove, self.undo, self.all_off):
             buttons.addWidget(widget)
         buttons.addWidget(self.status, 1)
         for widget in (self.left_out, self.load, self.save):
@@ -120,7 +123,8 @@ class EffectsPanel(Panel):
         self.up.clicked.connect(lambda: self._move(-1))
         self.down.clicked.connect(lambda: self._move(+1))
         self.remove.clicked.connect(self._remove)
-        self.all_off.toggled.connect(lambda _: self._use(self.chain))
+        self.undo.clicked.connect(self._undo)
+        self.all_off.toggled.connect(lambda _: self._apply())
         self.load.clicked.connect(self._ask_load)
         self.save.clicked.connect(self._ask_save)
         self.table.chosen.connect(self._choose)
@@ -174,22 +178,26 @@ class EffectsPanel(Panel):
         self._change(replace(self.chain.asked[place], enabled=on))
 
     def _tune(self, name: str, value: float) -> None:
-        self._last = (self.place, name)
-        self._change(with_value(self.chain.effects[self.place], name, value), keep_last=True)
+        self._change(with_value(self.chain.effects[self.place], name, value), tuned=name)
 
     def _refuse(self, name: str, reason: str) -> None:
         one = self.chain.effects[self.place]
         where = f"{label(one.asked.axis)} {one.effect.title}, {spoken(name)}"
         self.workbench.notify(Level.ERROR, f"{where}: {reason}")
 
-    def _change(self, asked: AxisEffect, *, keep_last: bool = False) -> None:
+    def _undo(self) -> None:
+        self.chain, self._last = self._past.pop(), None
+        self.place = min(max(self.place, 0), len(self.chain) - 1)
+        self._apply()
+
+    def _change(self, asked: AxisEffect, *, tuned: str | None = None) -> None:
         try:
             chain = self.chain.changed(self.place, asked)
         except InputError as error:
             self.workbench.notify(Level.ERROR, str(error))
             self._show()
             return
-        self._use(chain, keep_last=keep_last)
+        self._use(chain, tuned)
 
     # --- files ------------------------------------------------------------------------------------
 
@@ -245,17 +253,26 @@ class EffectsPanel(Panel):
 
     # --- what is shown ----------------------------------------------------------------------------
 
-    def _use(self, chain: Chain, *, keep_last: bool = False) -> None:
+    def _use(self, chain: Chain, tuned: str | None = None) -> None:
         """Take effects in hand, show them, and have the simulator do them."""
-        if not keep_last:
-            self._last = None
-        self.chain = chain
+        last = None if tuned is None else (self.place, tuned)
+        if last is None or last != self._last:  # a slider that is dragged is one change
+            self._remember()
+        self.chain, self._last = chain, last
+        self._apply()
+
+    def _remember(self) -> None:
+        self._past = [*self._past[1 - MOST_PAST :], self.chain]
+
+    def _apply(self) -> None:
         self._show()
-        self.live.ask(chain.silent if self.all_off.isChecked() else chain.asked)
+        self.live.ask(self.chain.silent if self.all_off.isChecked() else self.chain.asked)
 
     def _adopt(self, effects: Effects) -> None:
         """Show effects that came from elsewhere."""
-        self.chain = Chain.of(self.workbench.robot, effects)
+        if len(self.chain):
+            self._remember()
+        self.chain, self._last = Chain.of(self.workbench.robot, effects), None
         self.place = min(max(self.place, 0), len(self.chain) - 1)
         self.all_off.blockSignals(True)
         self.all_off.setChecked(False)
@@ -276,6 +293,7 @@ class EffectsPanel(Panel):
         chosen = 0 <= self.place < len(self.chain)
         self.editor.show_effect(self.chain.effects[self.place] if chosen else None, self.place)
         self.remove.setEnabled(chosen)
+        self.undo.setEnabled(bool(self._past))
         for button, step in ((self.up, -1), (self.down, +1)):
             button.setEnabled(chosen and self.chain.neighbour(self.place, step) is not None)
 

@@ -68,7 +68,8 @@ def test_each_axis_is_offered_what_may_sit_on_it():
     assert "hysteresis" not in stepper
     assert "friction" in stepper
     assert "friction" not in piezo
-    assert stepper["flexible_mode"] == ["parallel", "appendage", "series"]
+    modes = effects["flexible_mode"].formulations
+    assert stepper["flexible_mode"] == [formulation.name for formulation in modes]
     assert list(piezo) == [effect_id for effect_id in effects if effect_id in piezo]
 
 

@@ -54,10 +54,12 @@ def loop(session, panel, in_place):
 
 
 def choose(menu, *path):
+    """Return the action at the end of a path; of an effect's formulations the usual one."""
     for name in path[:-1]:
         action = next(a for a in menu.actions() if a.text().strip() == name)
         menu = action.menu()
-    return next(a for a in menu.actions() if a.text().strip() == path[-1])
+    action = next(a for a in menu.actions() if a.text().strip() == path[-1])
+    return action.menu().actions()[0] if action.menu() else action
 
 
 def type_in(qtbot, field, text):
@@ -192,6 +194,27 @@ def test_a_switch_and_remove(qtbot, loop, in_place):
     assert not loop.remove.isEnabled()
     assert loop.editor.fields == {}
     assert "nominal" in loop.status.text()
+
+
+def test_changes_are_taken_back_one_by_one_and_a_dragged_slider_at_once(qtbot, loop, in_place):
+    assert not loop.undo.isEnabled()
+    slider = loop.editor.fields["width"].slider
+    for place in (600, 700, 800):
+        slider.setValue(place)
+    qtbot.mouseClick(loop.remove, Qt.MouseButton.LeftButton)
+    in_place()
+    qtbot.mouseClick(loop.undo, Qt.MouseButton.LeftButton)
+    tuned = {"width": loop.editor.fields["width"].quantity.at(800)}
+    in_place(AxisEffect(axis="thx", id="hysteresis", parameters=tuned))
+    qtbot.mouseClick(loop.undo, Qt.MouseButton.LeftButton)
+    in_place(LOOP)
+    assert loop.editor.fields["width"].edit.text() == "116.355"
+    assert not loop.undo.isEnabled()
+
+
+def test_the_panel_takes_no_more_height_than_the_others(window, panel):
+    heights = {name: other.minimumSizeHint().height() for name, other in window.panels.items()}
+    assert heights["effects"] <= heights["trajectory"]
 
 
 def test_another_formulation_and_another_source(qtbot, session, panel, in_place):
