@@ -374,6 +374,9 @@ def run(
     before = np.full(axis.shape[0], -1, dtype=np.int64)
     static, forces, followed = _kinds(axis)
     t, k = start_s, first - 1
+    if first > 0:  # the sample before was taken in the piece before: its position is shown again
+        _static_inputs(axis, function, numbers, memory, shown, applied[0], inputs, t, now)
+        _outputs(output, state, weight, x, now, shown)
     for s in range(step.shape[0]):
         taking = sample[s] >= 0
         if taking:
@@ -394,7 +397,7 @@ def run(
             continue
         force = forced[k - first + 1] if forced.shape[0] > 0 else no_force
         for part in range(parts[j]):
-            if followed and (part > 0 or not taking):
+            if followed and (part > 0 or (s > 0 and not taking)):
                 _follow(
                     axis, function, numbers, memory, seen, output, state, weight, x, u, shown, t,
                     variates,
@@ -423,6 +426,7 @@ def _kinds(axis: TableArray) -> tuple[bool, bool, bool]:
         static |= axis[i].place < 0
         forces |= axis[i].force < axis[i].motion
         followed |= axis[i].inner_position != 0
+        followed |= axis[i].electronics < axis[i].force  # these know the position
     return static, forces, followed
 
 

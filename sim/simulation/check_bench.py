@@ -39,7 +39,7 @@ _UNTOLD = dict.fromkeys(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Bench:
-    """One formulation of an effect on one axis of a robot whose sensors do not round."""
+    """One formulation of an effect on one axis of a robot whose sensors are perfect."""
 
     robot: Robot
     axis: str
@@ -191,7 +191,7 @@ def benches_of(effect: Effect, robots: Sequence[Robot]) -> list[Bench]:
     benches: list[Bench] = []
     for formulation in effect.formulations:
         taken: set[tuple[str, bool]] = set()
-        for robot in map(_unrounded, robots):
+        for robot in map(_silent, robots):
             for name, axis in robot.axes.items():
                 dynamics = isinstance(formulation.acts, Force | Change)
                 others = [other for other in robot.axes if other != name]
@@ -204,11 +204,10 @@ def benches_of(effect: Effect, robots: Sequence[Robot]) -> list[Bench]:
     return benches
 
 
-def _unrounded(robot: Robot) -> Robot:
-    """Return the robot without effects, and sensors that do not round: sums stay sums."""
+def _silent(robot: Robot) -> Robot:
+    """Return the robot without effects and declared noise or rounding: sums stay sums."""
     axes: Mapping[str, Axis] = {
-        name: replace(axis, sensor=replace(axis.sensor, resolution=0.0)) if axis.sensor else axis
-        for name, axis in robot.axes.items()
+        name: replace(axis, sensor=None) for name, axis in robot.axes.items()
     }
     return replace(robot, axes=axes, effects=())
 
