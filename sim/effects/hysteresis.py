@@ -1,7 +1,13 @@
-"""Hysteresis of a piezo: the way up is not the way down, whatever the pace."""
+"""Hysteresis of a piezo: the way up is not the way down, whatever the pace.
+
+The gain from end to end of the range is kept at 1 (nearly so where the loop is bent, or ℓ is not
+short beside the range), so that hysteresis is apart from a gain error. A run begins as after a
+first rise from the low end, where all operators are at rest.
+"""
 
 import numpy as np
 
+from rotemina.sim.arrays import FloatArray
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import (
     Drive,
@@ -14,6 +20,9 @@ from rotemina.sim.effects.formulation import (
 )
 
 PLAYS = 10
+DEAD_ZONES = 8
+_SUBSTEP = 0.1  # of the length over which the Bouc–Wen loop bends
+_MOST_SUBSTEPS = 1000
 
 
 def play_operators(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
@@ -29,19 +38,109 @@ def play_operators(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def] 
     return p[0] + y
 
 
+def plays_and_dead_zones(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """``y = v₀ z + v Σ max(z − dⱼ, 0)`` of z, the sum of :func:`play_operators`.
+
+    p: as there, then v₀, v and the spacing of the dⱼ.
+    """
+    x -= p[0]
+    z = p[1] * x
+    for i in range(PLAYS):
+        s[i] = max(x - p[2 + i], min(x + p[2 + i], s[i]))
+        z += p[2 + PLAYS + i] * s[i]
+    y = p[2 + 2 * PLAYS] * z
+    for j in range(DEAD_ZONES):
+        y += p[3 + 2 * PLAYS] * max(z - p[4 + 2 * PLAYS] * j, 0.0)
+    return p[0] + y
+
+
+def bouc_wen(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """``y = k x − (W/2) ζ``, ``ℓ dζ = dx − |ζ|ⁿ (β |dx| sign ζ + (1 − β) dx)(1 + δ sign ζ)``.
+
+    Integrated along x by the classical Runge–Kutta rule, in steps that are short beside ℓ.
+
+    p: x₀, k, W/2, ℓ, n, β, δ; s: ζ, x, from the low end.
+    """
+    x -= p[0]
+    way = (x - s[1]) / p[3]
+    if way != 0.0:
+        count = min(np.ceil(abs(way) / _SUBSTEP), _MOST_SUBSTEPS)
+        step, up = way / count, 1.0 if way > 0.0 else -1.0
+        left, zeta = count, s[0]
+        while left > 0.0:
+            total, slope = 0.0, 0.0
+            for k in range(4):
+                at = zeta + step * slope * (0.0 if k == 0 else (1.0 if k == 3 else 0.5))
+                side = 1.0 if at > 0.0 else -1.0
+                pull = abs(at) ** p[4] * (p[5] * side * up + 1.0 - p[5])
+                slope = 1.0 - pull * (1.0 + p[6] * side)
+                total += slope * (2.0 if k == 1 or k == 2 else 1.0)
+            zeta += step * total / 6.0
+            left -= 1.0
+        s[0], s[1] = zeta, x
+    return p[0] + p[1] * x - p[2] * s[0]
+
+
+def _thresholds() -> FloatArray:
+    """Return the plays' thresholds over the range: evenly up to half of it."""
+    return 0.5 * (np.arange(PLAYS) + 0.5) / PLAYS
+
+
+def _played(weights: FloatArray, facts: Facts) -> tuple[float, ...]:
+    """Return the numbers of plays; w₀ such that the gain from end to end is 1.
+
+    There and back a play of threshold r moves by 2 r less than its input.
+    """
+    thresholds = _thresholds()
+    direct = 1.0 - float(np.sum(weights * (1.0 - 2.0 * thresholds)))
+    return (facts.low, direct, *(facts.span * thresholds), *weights)
+
+
 def _spread(values: Values, facts: Facts) -> tuple[float, ...]:
-    """Place thresholds evenly up to half the range; shape the weights to the asked width.
+    """Shape the weights to the asked width.
 
     A loop from end to end is widest where it is half way. A play of threshold r is 2 r wide there
     (r up to half the range), so the weights, growing as ``r^(shape − 1)``, are scaled for
-    ``width = Σ wᵢ 2 rᵢ``. The gain from end to end stays 1.
+    ``width = Σ wᵢ 2 rᵢ``.
     """
-    thresholds = 0.5 * facts.span * (np.arange(PLAYS) + 0.5) / PLAYS
-    weights = (thresholds / facts.span) ** (values["shape"] - 1.0)
-    weights *= values["width"] / float(np.sum(2.0 * thresholds * weights))
-    rise = facts.span * (1.0 - float(weights.sum())) + float(np.sum(2.0 * thresholds * weights))
-    return (facts.low, rise / facts.span, *thresholds, *weights)
+    thresholds = _thresholds()
+    weights = thresholds ** (values["shape"] - 1.0)
+    weights *= values["width"] / facts.span / float(np.sum(2.0 * thresholds * weights))
+    return _played(weights, facts)
 
+
+def _single(values: Values, facts: Facts) -> tuple[float, ...]:
+    return _played(np.array([values[f"weight_{i + 1}"] for i in range(PLAYS)]), facts)
+
+
+def _bent(values: Values, facts: Facts) -> tuple[float, ...]:
+    """Add the dead zones: slopes from ``1 − α/2`` at the low end to ``1 + α/2`` at the high one.
+
+    The first dead zone begins at the low end and counts above it alone.
+    """
+    spacing = 1.0 / DEAD_ZONES
+    more = values["asymmetry"] / (DEAD_ZONES - 1)
+    gained = more * float(np.sum(1.0 - spacing * np.arange(DEAD_ZONES)))
+    return (*_spread(values, facts), 1.0 - gained, more, facts.span * spacing)
+
+
+def _wound(values: Values, facts: Facts) -> tuple[float, ...]:
+    width = values["width"]
+    gain = 1.0 + width / facts.span
+    return (
+        facts.low,
+        gain,
+        0.5 * width,
+        values["reach"],
+        values["sharpness"],
+        values["winding"],
+        values["asymmetry"],
+    )
+
+
+WIDTH = Parameter("width", "of the loop from end to end", "q", 0.0, 0.5, 0.1, per="span")
+SHAPE = Parameter("shape", "1: all plays weigh the same; more: wide ones do", "", 0.5, 4.0, 1.0)
+_TRAITS = frozenset({Trait.RATE_INDEPENDENT, Trait.DISSIPATIVE})
 
 HYSTERESIS = Effect(
     id="hysteresis",
@@ -54,15 +153,63 @@ HYSTERESIS = Effect(
             name="prandtl_ishlinskii",
             equation="y = w₀ x + Σ wᵢ Pᵢ(x), Pᵢ = max(x − rᵢ, min(x + rᵢ, Pᵢ)), i = 1…10",
             source="Kuhnen, European Journal of Control 9 (2003) 407–418",
-            parameters=(
-                Parameter("width", "of the loop from end to end", "q", 0.0, 0.5, 0.1, per="span"),
-                Parameter(
-                    "shape", "1: all plays weigh the same; more: wide ones do", "", 0.5, 4.0, 1.0
-                ),
-            ),
+            parameters=(WIDTH, SHAPE),
             acts=Drive(step=play_operators, states=PLAYS),
             prepare=_spread,
-            traits=frozenset({Trait.RATE_INDEPENDENT, Trait.DISSIPATIVE}),
+            traits=_TRAITS,
+        ),
+        Formulation(
+            name="modified_prandtl_ishlinskii",
+            equation="y = v₀ z + v Σ max(z − dⱼ, 0), j = 0…7; z = w₀ x + Σ wᵢ Pᵢ(x)",
+            source="Kuhnen, European Journal of Control 9 (2003) 407–418: one-sided dead zones "
+            "behind the plays",
+            parameters=(
+                WIDTH,
+                SHAPE,
+                Parameter("asymmetry", "growth of the slope from end to end", "", -1.0, 1.0, 0.2),
+            ),
+            acts=Drive(step=plays_and_dead_zones, states=PLAYS),
+            prepare=_bent,
+            traits=_TRAITS,
+        ),
+        Formulation(
+            name="bouc_wen",
+            equation="y = k x − (W/2) ζ, "
+            "ℓ dζ = dx − |ζ|ⁿ (β |dx| sign ζ + (1 − β) dx)(1 + δ sign ζ)",
+            source="Song and Der Kiureghian, Journal of Engineering Mechanics 132 (2006) 610–618",
+            parameters=(
+                Parameter(
+                    "width", "W, of a loop that is long beside ℓ", "q", 0.0, 0.5, 0.1, per="span"
+                ),
+                Parameter(
+                    "reach", "ℓ, over which the loop bends", "q", 0.03, 2.0, 0.25, per="span"
+                ),
+                Parameter("sharpness", "n", "", 1.0, 6.0, 1.0),
+                Parameter("winding", "β; 1/2: straight after a reversal", "", 0.5, 1.5, 1.0),
+                Parameter("asymmetry", "δ, of the way up against the way down", "", -0.8, 0.8, 0.1),
+            ),
+            acts=Drive(step=bouc_wen, states=2),
+            prepare=_wound,
+            traits=_TRAITS,
+        ),
+        Formulation(
+            name="ten_plays",
+            equation="y = w₀ x + Σ wᵢ Pᵢ(x), every wᵢ by itself, rᵢ = (i − ½)/20 of the range",
+            source="Kuhnen, European Journal of Control 9 (2003) 407–418",
+            parameters=tuple(
+                Parameter(
+                    f"weight_{i}",
+                    f"w{i}, of the play with threshold {(i - 0.5) / 20:g}",
+                    "",
+                    0.0,
+                    0.6,
+                    0.02,
+                )
+                for i in range(1, PLAYS + 1)
+            ),
+            acts=Drive(step=play_operators, states=PLAYS),
+            prepare=_single,
+            traits=_TRAITS,
         ),
     ),
 )
