@@ -39,13 +39,15 @@ def spring(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compi
     middle = p[0] * (x - p[1])
     half = 0.5 * h * p[0] * other
     before, after = middle - half, middle + half
-    push, share = 0.0, 1.0
+    share = 1.0
     if before > 0.0:
-        push = p[2] * middle / (1.0 + 0.5 * p[2] * a)
-        if push < 0.0 or after - a * push <= 0.0:  # it leaves
-            root = np.sqrt(half * half + 0.5 * p[2] * a * before * before)
-            push = 0.5 * p[2] * before * before / (root - half)
-            share = before / (before - after + a * push)
+        push = p[2] * middle + p[3] * p[0] * other
+        push = max(push / (1.0 + 0.5 * p[2] * a + p[3] * b), 0.0)
+        if after - a * push > 0.0:  # it stays
+            return -p[0] * push
+        root = np.sqrt(half * half + 0.5 * p[2] * a * before * before)
+        push = 0.5 * p[2] * before * before / (root - half)
+        share = before / (before - after + a * push)
     elif after > 0.0:  # it comes
         linear = 2.0 * half + p[2] * a * after
         root = np.sqrt(4.0 * half * half - 2.0 * p[2] * a * after * before)
@@ -119,7 +121,7 @@ _PLACE = Parameter(
     "place", "where it is met, from the low end of the range", "q", 0.0, 1.0, 0.7, per="span"
 )
 _STIFFNESS = Parameter(
-    "stiffness", "over the axis' own; negative: met on the way down", "", -100.0, 100.0, 0.5
+    "stiffness", "over the axis' own; negative: met on the way down", "", -30.0, 30.0, 0.5
 )
 _DAMPING = Parameter("damping_ratio", "ζ, of the contact", "", 0.0, 2.0, 0.1)
 _DISSIPATIVE = frozenset({Trait.MEMORYLESS, Trait.DISSIPATIVE})

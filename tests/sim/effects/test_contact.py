@@ -62,7 +62,7 @@ def test_beyond_the_place_it_holds_back(formulation, side):
 
 
 @FORCES
-@pytest.mark.parametrize("stiffness", [0.1, 1.0, 10.0, 100.0, -10.0])
+@pytest.mark.parametrize("stiffness", [0.1, 1.0, 10.0, 30.0, -10.0])
 def test_it_rests_where_the_forces_balance(formulation, stiffness):
     """κ of the stiffness of the axis: what pushes back is ``κ D (δ/D)ⁿ`` of it."""
     place = SPAN["zn"] * (0.8 if stiffness > 0 else 0.2)

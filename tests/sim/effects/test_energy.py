@@ -92,7 +92,7 @@ PASSIVE = {
         "piezo",
         "contact",
         "spring",
-        {"place": 0.4, "stiffness": -100.0, "damping_ratio": 0.2},
+        {"place": 0.4, "stiffness": -30.0, "damping_ratio": 0.2},
         WIDE,
         spring,
     ),
