@@ -118,7 +118,7 @@ def _inner_step(values: Values, facts: Facts) -> float:
 
 
 _PLACE = Parameter(
-    "place", "where it is met, from the low end of the range", "q", 0.0, 1.0, 0.7, per="span"
+    "place", "where it is met, from the low end of the range", "q", 0.01, 0.99, 0.7, per="span"
 )
 _STIFFNESS = Parameter(
     "stiffness", "over the axis' own; negative: met on the way down", "", -30.0, 30.0, 0.5
