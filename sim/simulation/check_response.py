@@ -17,6 +17,8 @@ ROWS = 600
 _EDGES = (0, 1, 2, 3, 7, 8, 60, 333, ROWS)  # between the pieces of a run
 _ROUNDING = 1e-9  # of the range
 _ABSENT = 1e-10  # of the range: finer steps round otherwise
+_SHARES = (1e-3, 1e-6)  # of the presets,
+_LESS = 0.1  # and how much of what the first adds the second may
 _QUIET = 1e-6  # of the range: how far a start at rest may creep
 _FREE = 1e-3  # the same of an axis that nothing holds
 _HINT = 1e-4  # share of the effect below which a leftover is no mere change of the model
@@ -29,7 +31,7 @@ _LONGEST_S = 0.25
 def check_response(bench: Bench) -> Iterator[Check]:
     """Check runs with an effect at its presets, and at its bounds."""
     yield from _at_presets_and_bounds(bench)
-    yield _nothing(bench)
+    yield from _nothing(bench)
     yield from _seeds(bench)
     yield _pieces(bench)
     yield _rest(bench)
@@ -78,18 +80,35 @@ def _said(values: Values) -> str:
     return ", ".join(f"{name} = {value:g}" for name, value in values.items()) or "presets"
 
 
-def _nothing(bench: Bench) -> Check:
-    """Check that zeros, where they are no effect, leave the nominal response."""
+def _nothing(bench: Bench) -> Iterator[Check]:
+    """Check that zeros, where they are no effect, leave the nominal response, and come smoothly."""
     name = "is absent at zero"
     values = bench.nothing()
     if values is None:
-        return left_out(name, "no parameter can be zero")
+        yield left_out(name, "no parameter can be zero")
+        return
     commands = bench.record(waves(ROWS))
     left = np.abs(bench.added(commands, values, seed=SEED)).max() / bench.own.span
     full = np.abs(bench.added(commands, seed=SEED)).max() / bench.own.span
     if left > max(_HINT * full, _ABSENT):
-        return left_out(name, "zeros are no absence of it")
-    return measured(name, float(left), _ABSENT, "it nearly vanishes, but not quite")
+        yield left_out(name, "zeros are no absence of it")
+        return
+    yield measured(name, float(left), _ABSENT, "it nearly vanishes, but not quite")
+    yield _onset(bench, list(values))
+
+
+def _onset(bench: Bench, names: list[str]) -> Check:
+    """Check that a fit finds its way from nothing: a thousandth as much adds far less."""
+    name = "comes from zero smoothly"
+    if bench.own.static:
+        return left_out(name, "a static axis is late by whole samples")
+    commands, presets = bench.record(waves(ROWS)), bench.presets
+    some, less = (
+        float(np.abs(bench.added(commands, {n: share * presets[n] for n in names})).max())
+        for share in _SHARES
+    )
+    span = bench.own.span
+    return measured(name, less / span, _LESS * some / span + _ABSENT, "it is there all at once")
 
 
 def _seeds(bench: Bench) -> Iterator[Check]:

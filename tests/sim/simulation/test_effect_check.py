@@ -62,6 +62,10 @@ def chance(x, other, t, h, a, b, p, s):
     return x + p[0] * 1e-6 * a
 
 
+def sudden(x, other, t, h, a, b, p, s):
+    return x + 1e-6 if p[0] > 0.0 else x
+
+
 def biased(x, other, t, h, a, b, p, s):
     return x + p[0] * 1e-6 * (a + 1.0)
 
@@ -117,6 +121,7 @@ DEEP = effect(Reading(step=deep))
 NAN = effect(Reading(step=divided), parameters=(POSITIVE,))
 FORGETS = effect(Drive(step=counting, states=1), stage=Stage.ACTUATOR)
 RESTLESS = effect(Reading(step=counting, states=1))
+SUDDEN = effect(Reading(step=sudden), parameters=(POSITIVE,))
 IDLE = effect(Reading(step=idle))
 BAD_PRESET = effect(Reading(step=bent), parameters=(Parameter("size", "how much", "", 0, 1, 2),))
 BAD_UNIT = effect(Reading(step=bent), parameters=(Parameter("size", "it", "furlong", 0, 1, 1),))
@@ -146,6 +151,7 @@ FAULTS = [
     ("NAN", "stays finite at presets and bounds"),
     ("FORGETS", "reads without forgetting"),
     ("RESTLESS", "starts at rest"),
+    ("SUDDEN", "comes from zero smoothly"),
     ("IDLE", "does something"),
     ("BAD_PRESET", "formulation is described"),
     ("BAD_UNIT", "formulation is described"),
