@@ -228,6 +228,7 @@ def test_the_rest_is_the_force_of_an_effect():
         half_way = 0.5 * (motion.position[1:, 5] + motion.position[:-1, 5])
         force = -ROBOT.axes["zn"].stiffness * (half_way - 32.5e-6) ** 3 / 32.5e-6**2
         errors.append(np.abs(loads.rest[:-1, 5] - force).max() / np.abs(force).max())
+        assert loads.rest[-1, 5] == loads.rest[-2, 5]
     assert errors[0] < 0.02
     assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.2)
 
@@ -250,6 +251,20 @@ def test_a_delay_of_the_amplifier_shows_in_its_output_and_leaves_no_rest():
     column = ROBOT_AXES.index("thx")
     swing_force = np.ptp(loads.actuation[:, column])
     assert np.abs(loads.rest[:, column]).max() < 1e-3 * swing_force
+
+
+def test_the_delay_of_a_controller_is_the_rest():
+    """What is missing is the input of two samples before in place of the one just given."""
+    robot = load_robot("emps")
+    late = replace(robot.axes["q"].controller, delay_s=2 / 1024)
+    robot = replace(robot, axes={"q": replace(robot.axes["q"], controller=late)})
+    plant, time_s = Plant.of(robot, closed_loop=True), np.arange(512) / 1024
+    command = 0.1 + 0.01 * np.sin(20.0 * time_s[:, None])
+    motion, _ = plant.advance(plant.at_rest(0.0, command[0]), time_s, command)
+    loads = joint_loads(plant, time_s, motion)
+    missing = robot.axes["q"].gain * (motion.inputs[:-2, 0] - motion.inputs[2:, 0])
+    assert np.abs(missing).max() > 0.1
+    assert loads.rest[2:-1, 0] == pytest.approx(missing[:-1], abs=1e-3 * np.abs(missing).max())
 
 
 def test_a_static_axis_moves_by_differences():
