@@ -99,13 +99,14 @@ def _played(weights: FloatArray, facts: Facts) -> tuple[float, ...]:
 def _spread(values: Values, facts: Facts) -> tuple[float, ...]:
     """Shape the weights to the asked width.
 
-    A loop from end to end is widest where it is half way. A play of threshold r is 2 r wide there
-    (r up to half the range), so the weights, growing as ``r^(shape − 1)``, are scaled for
-    ``width = Σ wᵢ 2 rᵢ``.
+    A loop from end to end is widest where it is half way. Over a range S, a play of threshold r is
+    ``min(2 r, S − 2 r)`` wide there, so the weights, growing as ``r^(shape − 1)``, are scaled for
+    ``width = Σ wᵢ min(2 rᵢ, S − 2 rᵢ)``.
     """
     thresholds = _thresholds()
     weights = thresholds ** (values["shape"] - 1.0)
-    weights *= values["width"] / facts.span / float(np.sum(2.0 * thresholds * weights))
+    widths = np.minimum(2.0 * thresholds, 1.0 - 2.0 * thresholds)
+    weights *= values["width"] / facts.span / float(np.sum(weights * widths))
     return _played(weights, facts)
 
 
@@ -203,7 +204,7 @@ HYSTERESIS = Effect(
                     "",
                     0.0,
                     0.6,
-                    0.02,
+                    0.04,
                 )
                 for i in range(1, PLAYS + 1)
             ),

@@ -1,0 +1,51 @@
+"""Transport delay: the phase grows with frequency, the gain stays 1, of any length."""
+
+import numpy as np
+import pytest
+
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.simulation.simulation import simulate
+
+ROBOT = load_robot("rotemina")
+RATE_HZ = 2000.0
+
+
+def answer(command, delay_s=None, tap=Tap.REF):
+    time_s = np.arange(len(command)) / RATE_HZ
+    record = Record.from_signals(time_s, {("thx", Tap.CMD): command}, {"thx": "rad"})
+    effects = []
+    if delay_s is not None:
+        effects = [AxisEffect(axis="thx", id="delay", parameters={"delay": delay_s})]
+    return simulate(ROBOT, effects, record).signal("thx", tap)
+
+
+@pytest.mark.parametrize("frequency_hz", [5.0, 50.0, 150.0])
+@pytest.mark.parametrize("delay_s", [5e-4, 1.37e-3])
+def test_phase_in_proportion_to_frequency_and_gain_one(frequency_hz, delay_s):
+    time_s = np.arange(8000) / RATE_HZ
+    command = 5e-4 + 1e-4 * np.sin(2 * np.pi * frequency_hz * time_s)
+    turning = np.exp(-2j * np.pi * frequency_hz * time_s)[4000:]
+    ratio = np.sum(answer(command, delay_s)[4000:] * turning)
+    ratio /= np.sum(answer(command)[4000:] * turning)
+    assert abs(ratio) == pytest.approx(1.0, abs=2e-3)
+    expected = -2 * np.pi * frequency_hz * delay_s
+    assert np.angle(ratio / np.exp(1j * expected)) == pytest.approx(0.0, abs=5e-3)
+
+
+def test_whole_samples_shift_the_response_and_no_delay_is_nominal():
+    rng = np.random.default_rng(2)
+    command = np.concatenate([np.full(5, 3e-4), rng.uniform(2e-4, 9e-4, 300)])
+    clean = answer(command)
+    np.testing.assert_array_equal(answer(command, 0.0), clean)
+    np.testing.assert_allclose(answer(command, 3 / RATE_HZ)[3:], clean[:-3], atol=1e-15)
+    u = answer(command, 2.5 / RATE_HZ, Tap.U)
+    np.testing.assert_allclose(u[3:], answer(command, None, Tap.U)[:-3], atol=1e-9)
+
+
+def test_parts_of_a_sample_act_in_full_and_evenly():
+    command = np.repeat([2e-4, 6e-4], [5, 20])
+    shares = [answer(command, delay_s)[6] for delay_s in np.linspace(0, 5e-4, 6)]
+    assert np.all(np.diff(shares) < 0)  # later is less far, within one sample
+    assert shares[-1] == pytest.approx(2e-4)
