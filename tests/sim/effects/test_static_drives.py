@@ -121,3 +121,11 @@ def test_a_force_axis_is_bent_over_its_volts():
     force, lag = 0.02 * 20.0 * axis.gain, axis.mass / axis.damping
     exact = force / axis.damping * (time_s - lag * (1 - np.exp(-time_s / lag)))
     np.testing.assert_allclose(gained, exact, atol=1e-12)
+
+
+def test_soft_saturation_is_the_published_curve():
+    margin, softness = 0.2, 0.1
+    u = moved("saturation", "soft", tap=Tap.U, low_margin=margin, high_margin=margin, softness=0.1)
+    v = (RAMP / GAIN - 1.85) / (1.85 - margin)
+    expected = v * (1 + np.abs(v) ** (1 / softness)) ** -softness
+    np.testing.assert_allclose((u - 1.85) / (1.85 - margin), expected, atol=1e-12)
