@@ -17,6 +17,7 @@ from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_record
 
 LONG_MS = 30_000
+BUILT_IN = ["control", "plots", "trajectory", "comparison", "identification", "effects"]
 
 
 def short_trajectory(path, seconds=0.4, height=2e-4):
@@ -37,7 +38,7 @@ def load(qtbot, window, path):
 
 
 def test_all_built_in_panels_are_there_and_nothing_is_broken(window):
-    assert list(window.panels) == ["control", "plots", "trajectory", "comparison"]
+    assert list(window.panels) == BUILT_IN
     assert notices(window) == []
     assert all(panel.isVisibleTo(window) for panel in window.panels.values())
 
@@ -314,7 +315,7 @@ def test_a_bad_panel_is_named_and_left_out(make_robot_window, monkeypatch):
     monkeypatch.setattr(EntryPoint, "load", _load_from_here(EntryPoint.load, here))
     monkeypatch.setattr(registry, "entry_points", lambda group: [*good, *bad])
     window = make_robot_window()
-    assert set(window.panels) == {"control", "plots", "trajectory", "comparison"}
+    assert list(window.panels) == BUILT_IN
     said = " ".join(notices(window))
     for name in ("gone", "wrong", "raising"):
         assert f"'{name}' is left out" in said
