@@ -19,6 +19,7 @@ TICK_S = 2.0**-50  # finest difference of sample times that is told from roundin
 _FEW_LENGTHS = 32
 _SERIES_TERMS = 16  # 0.5¹⁶ / 16! is below 1e-18
 _FEW_TICKS = 4096
+_SAME_TICKS = 2  # times and delays are rounded each by itself
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,17 +63,34 @@ def cut(time_s: FloatArray, first: int, delay_s: tuple[float, ...]) -> Segments:
     if not any(delay_s):
         return _cut_at_samples(ticks[start:], start, first, tick)
     delays = np.rint(np.array(delay_s) / tick).astype(np.int64)
-    edges = [ticks[start:]] + [ticks + delay for delay in np.unique(delays[delays > 0])]
-    breaks = np.unique(np.concatenate(edges))
+    begins = [_onto(ticks + delay, ticks) if delay else ticks for delay in delays]
+    breaks = _ascending(np.concatenate([ticks[start:], *begins]))
     breaks = breaks[(breaks >= 0) & (breaks <= ticks[-1])]
     sample = np.full(len(breaks), -1, dtype=np.int64)
     sample[np.searchsorted(breaks, ticks[first:])] = np.arange(first, len(ticks))
-    applied = np.stack(
-        [np.maximum(np.searchsorted(ticks + d, breaks, side="right") - 1, 0) for d in delays],
-        axis=1,
-    )
+    applied = np.stack([_latest(begin, breaks) for begin in begins], axis=1)
     step, lengths = _distinct(np.append(np.diff(breaks), 0))
     return Segments(sample, applied, step, np.asarray(lengths * tick, dtype=np.float64))
+
+
+def _onto(late: IntArray, ticks: IntArray) -> IntArray:
+    """Return when inputs begin to act; at a sample where only rounding parts them from it."""
+    place = np.minimum(np.searchsorted(ticks, late - _SAME_TICKS), len(ticks) - 1)
+    return np.where(np.abs(ticks[place] - late) <= _SAME_TICKS, ticks[place], late)
+
+
+def _latest(begin: IntArray, breaks: IntArray) -> IntArray:
+    """Return which of the instants ``begin`` (n,) is the latest at each of ``breaks``."""
+    place = np.searchsorted(breaks, begin)
+    within = place[(begin >= 0) & (begin <= breaks[-1])]
+    begun = np.bincount(within, minlength=len(breaks)).cumsum()
+    return np.asarray(np.maximum(begun + np.count_nonzero(begin < 0) - 1, 0), dtype=np.int64)
+
+
+def _ascending(values: IntArray) -> IntArray:
+    """Return the distinct values, sorted; much faster than numpy's ``unique`` of integers."""
+    values = np.sort(values)
+    return np.asarray(values[np.concatenate([[True], np.diff(values) > 0])])
 
 
 def _tick(latest_s: float) -> float:
@@ -102,8 +120,8 @@ def _distinct(lengths: IntArray) -> tuple[IntArray, IntArray]:
     low, last = int(lengths[:-1].min(initial=2**62)), len(lengths) - 1
     away = lengths[:last] - low
     if last == 0 or int(away.max()) > _FEW_TICKS:
-        values, step = np.unique(lengths, return_inverse=True)
-        return step.astype(np.int64), values
+        values = _ascending(lengths)
+        return np.searchsorted(values, lengths).astype(np.int64), values
     seen = np.flatnonzero(np.bincount(away))
     number = np.zeros(seen[-1] + 1, dtype=np.int64)
     number[seen] = np.arange(1, len(seen) + 1)

@@ -86,3 +86,19 @@ def test_effects_join_the_axis_that_they_come_from():
         only=["x"],
     )
     assert set(plant.axes) == {"x", "thx", "thy"}
+
+
+@pytest.mark.parametrize("rate_hz", [200.0, 1000.0, 2000.0, 3000.0])
+@pytest.mark.parametrize("samples", [1, 3, 7])
+def test_a_delay_of_whole_samples_never_comes_a_sample_late(rate_hz, samples):
+    """Times and delays are rounded each by itself; a static axis would show a whole sample."""
+    robot = load_robot("picma")
+    name = next(iter(robot.axes))
+    time_s = np.arange(3000) / rate_hz
+    command = 2e-5 + 1e-5 * np.sin(2 * np.pi * 0.5 * time_s)
+    record = Record.from_signals(time_s, {(name, Tap.CMD): command}, {name: "m"})
+    late = AxisEffect(axis=name, id="delay", parameters={"delay": samples / rate_hz})
+    answer = simulate(robot, [late], record)
+    np.testing.assert_allclose(
+        answer.signal(name, Tap.REF)[samples:], command[:-samples], rtol=1e-12
+    )
