@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from rotemina.sim.effects.formulation import Effect
+
 ROOT = Path(__file__).parents[1]
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
 PROJECT = PYPROJECT["project"]
@@ -61,7 +63,12 @@ def test_package_data_covers_every_file():
     [(group, *item) for group, items in ENTRY_POINTS.items() for item in items.items()],
 )
 def test_entry_points_resolve(group, name, value):
-    assert callable(metadata.EntryPoint(name, value, group).load())
+    loaded = metadata.EntryPoint(name, value, group).load()
+    if group == "rotemina.effects":
+        assert isinstance(loaded, Effect)
+        assert loaded.id == name
+    else:
+        assert callable(loaded)
 
 
 def test_the_version_is_written_once():
