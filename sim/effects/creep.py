@@ -19,15 +19,16 @@ _LONG_S = 1e8  # longer than any run: the way to the start
 _SAME = 1e-9  # relative difference of times that rounding makes
 
 # Places of the memory behind that of the terms.
-_START, _LASTED, _MOVED, _MEAN = TERMS, TERMS + 1, TERMS + 2, 2 * TERMS + 2
-_STATES = 3 * TERMS + 2
+_START, _LASTED, _FASTEST = TERMS, TERMS + 1, TERMS + 2
+_MOVED, _MEAN = TERMS + 3, 2 * TERMS + 3
+_STATES = 3 * TERMS + 3
 
 
 def relaxations(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
     """``y = x + Σ wᵢ (zᵢ − x₀)``, ``τᵢ żᵢ = x − zᵢ``, from rest at x₀.
 
-    p: τᵢ, then wᵢ. s: zᵢ, x₀, then what was worked out for the h before: for each term how far it
-    moves of its way, and its mean.
+    p: τᵢ, then wᵢ. s: zᵢ, x₀, then the h and τ₀ before, and what was worked out for them: for each
+    term how far it moves of its way, and its mean.
     """
     if h > _LONG_S:
         s[_START] = x
@@ -39,8 +40,8 @@ def relaxations(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # 
         for i in range(TERMS):
             y += p[TERMS + i] * (s[i] - s[_START])
         return y
-    if abs(h - s[_LASTED]) > _SAME * h:
-        s[_LASTED] = h
+    if abs(h - s[_LASTED]) > _SAME * h or p[0] != s[_FASTEST]:
+        s[_LASTED], s[_FASTEST] = h, p[0]
         for i in range(TERMS):
             s[_MOVED + i] = -np.expm1(-h / p[i])
             s[_MEAN + i] = 1.0 - s[_MOVED + i] * p[i] / h

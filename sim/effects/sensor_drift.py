@@ -30,22 +30,22 @@ def flicker(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # comp
     """``y = x + Σ wᵢ``, ``ẇᵢ = −pᵢ wᵢ + rᵢ n``, all driven by the same white noise n.
 
     n holds while h lasts, so what is faster than the samples does not fold back among them.
-    p: pᵢ, then rᵢ; s: wᵢ, then h when last called, then how far a step of h lets each fade, and
-    by how much a variate moves it.
+    p: pᵢ, then rᵢ; s: wᵢ, then h and r₀ when last called, then how far a step of h lets each fade,
+    and by how much a variate moves it.
     """
     if h <= 0.0:
         y = x
         for i in range(POLES):
             y += s[i]
         return y
-    if abs(h - s[POLES]) > _SAME * h:
-        s[POLES] = h
+    if abs(h - s[POLES]) > _SAME * h or p[POLES] != s[POLES + 1]:
+        s[POLES], s[POLES + 1] = h, p[POLES]
         for i in range(POLES):
-            s[POLES + 1 + i] = np.exp(-p[i] * h)
-            s[2 * POLES + 1 + i] = -np.expm1(-p[i] * h) * p[POLES + i] / (p[i] * np.sqrt(h))
+            s[POLES + 2 + i] = np.exp(-p[i] * h)
+            s[2 * POLES + 2 + i] = -np.expm1(-p[i] * h) * p[POLES + i] / (p[i] * np.sqrt(h))
     y = x
     for i in range(POLES):
-        s[i] = s[POLES + 1 + i] * s[i] + s[2 * POLES + 1 + i] * a
+        s[i] = s[POLES + 2 + i] * s[i] + s[2 * POLES + 2 + i] * a
         y += s[i]
     return y
 
@@ -96,7 +96,7 @@ SENSOR_DRIFT = Effect(
                     "level", "L, rms per factor e of frequency", "q", 0.0, 1000.0, 2.0, per="noise"
                 ),
             ),
-            acts=Reading(step=flicker, states=3 * POLES + 1, random=True),
+            acts=Reading(step=flicker, states=3 * POLES + 2, random=True),
             prepare=_cascade,
             traits=_TRAITS,
         ),

@@ -30,6 +30,7 @@ _NEAR_CRITICAL = 1e-6  # the least √|1 − ζ²|: in between the two kinds of 
 def first_order(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
     """``T ẏ + y = x``. p: T; s: x and y when last called."""
     if p[0] <= 0.0:
+        s[0] = s[1] = x
         return x
     if h > 0.0:
         behind = p[0] * (x - s[0]) / h
@@ -44,6 +45,7 @@ def second_order(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  #
     The error ``e = y − x + 2ζT ẋ`` along a straight line is that of a free oscillator.
     """
     if p[0] <= 0.0:
+        s[0], s[1], s[2] = x, x, 0.0
         return x
     if h > 0.0:
         pace = h / p[0]

@@ -11,6 +11,9 @@ formulation's ``prepare`` made of its parameters, ``s`` its memory, zeros at fir
 change. ``t`` is the time since the run began, s. What ``h``, ``other``, ``a`` and ``b`` are is
 said by the place in the signal chain (:mod:`rotemina.sim.effects.formulation`).
 
+Memory outlives a change of parameters in mid-run, so figures that are worked out once and kept in
+``s`` must be worked out anew for another ``p``.
+
 All step functions have one machine signature and are called through their address. So one
 compiled plant serves every robot and every effect, a third party's too, with no compilation anew.
 """

@@ -210,24 +210,23 @@ def _join(
 
 def _static(name: str, axis: Axis, parts: Sequence[PlacedPart]) -> Group:
     """Return the group of a static axis: its position is ``gain·u``, and what its parts add."""
-    own = [placed.part for placed in parts if placed.axis == name and placed.port is None]
-    gone = [placed for placed in parts if placed.axis == name and placed.port is not None]
-    n = sum(len(part.a) for part in own) + sum(len(placed.part.a) for placed in gone)
+    own = [placed for placed in parts if placed.axis == name]
+    n = sum(len(placed.part.a) for placed in own)
     gain = 1.0 if isinstance(axis, StepperAxis) else axis.gain
     generator = np.zeros((n + 3, n + 3))
     whole, outputs, first = Output(name, None, np.zeros(n), gain), [], 0
-    for part in own:
-        z = _fill(generator, part, first, n, gain)
-        weights = (1.0 - part.share) * whole.weights
-        weights[z] = part.output
-        whole = whole._replace(weights=weights, through=(1.0 - part.share) * whole.through)
+    for placed in own:
+        part = placed.part
+        leak = np.zeros(n)
+        leak[_fill(generator, part, first, n, gain)] = part.output
+        if placed.port is None:
+            left = 1.0 - part.share
+            whole = whole._replace(
+                weights=left * whole.weights + leak, through=left * whole.through
+            )
+        else:
+            outputs.append(Output(name, placed.port, leak, part.share * gain))
         first += len(part.a)
-    for placed in gone:
-        weights = np.zeros(n)
-        z = _fill(generator, placed.part, first, n, gain)
-        weights[z] = placed.part.output
-        outputs.append(Output(name, placed.port, weights, placed.part.share * gain))
-        first += len(placed.part.a)
     none = np.zeros(1)
     by_force = np.zeros(1, dtype=np.bool_)
     return Group(

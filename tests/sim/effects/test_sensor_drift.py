@@ -55,7 +55,7 @@ def test_flicker_has_the_asked_level_and_slope_at_any_rate(rate_hz):
     p = SENSOR_DRIFT.formulation("flicker").numbers({"level": level}, FACTS)
     rows = 200_000
     variates = np.random.default_rng(11).standard_normal(rows)
-    s = [0.0] * (3 * POLES + 1)
+    s = [0.0] * SENSOR_DRIFT.formulations[1].acts.states
     h = 1.0 / rate_hz
     w = np.array([flicker(0.0, 0.0, 0.0, h, a, 0.0, p, s) for a in variates])
     frequency, density = welch(w, rate_hz, nperseg=20_000)
@@ -76,7 +76,10 @@ def test_the_pole_zero_cascade_falls_as_one_over_f_over_five_decades():
 def test_flicker_is_done_alike_in_steps_of_any_length():
     """Its memory fades by exact exponentials: two steps without chance are one twice as long."""
     p = SENSOR_DRIFT.formulation("flicker").numbers({"level": 1.0}, FACTS)
-    once, twice = [0.0] * (3 * POLES + 1), [0.0] * (3 * POLES + 1)
+    once, twice = (
+        [0.0] * SENSOR_DRIFT.formulations[1].acts.states,
+        [0.0] * SENSOR_DRIFT.formulations[1].acts.states,
+    )
     for s in (once, twice):
         flicker(0.0, 0.0, 0.0, 0.01, 1.0, 0.0, p, s)
     for h in (0.3, 0.3):
