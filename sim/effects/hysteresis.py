@@ -23,6 +23,7 @@ PLAYS = 10
 DEAD_ZONES = 8
 _SUBSTEP = 0.1  # of the length over which the Bouc–Wen loop bends
 _MOST_SUBSTEPS = 1000
+_SHORT = 0.003  # of that length: steps of which the midpoint rule leaves less than 1e-6 of it
 
 
 def play_operators(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
@@ -57,7 +58,8 @@ def plays_and_dead_zones(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped
 def bouc_wen(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
     """``y = k x − (W/2) ζ``, ``ℓ dζ = dx − |ζ|ⁿ (β |dx| sign ζ + (1 − β) dx)(1 + δ sign ζ)``.
 
-    Integrated along x by the classical Runge–Kutta rule, in steps that are short beside ℓ.
+    Integrated along x by the classical Runge–Kutta rule, in steps that are short beside ℓ; where
+    they are very short, by the midpoint rule, which is then as good.
 
     p: x₀, k, W/2, ℓ, n, β, δ; s: ζ, x, from the low end.
     """
@@ -74,6 +76,9 @@ def bouc_wen(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # com
                 side = 1.0 if at > 0.0 else -1.0
                 pull = abs(at) ** p[4] * (p[5] * side * up + 1.0 - p[5])
                 slope = 1.0 - pull * (1.0 + p[6] * side)
+                if k == 1 and abs(step) < _SHORT:
+                    total = 6.0 * slope
+                    break
                 total += slope * (2.0 if k == 1 or k == 2 else 1.0)
             zeta += step * total / 6.0
             left -= 1.0

@@ -7,6 +7,7 @@ one done at once.
 
 from collections.abc import Mapping
 
+import numba
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray, IntArray
@@ -52,24 +53,20 @@ def _at(when: FloatArray, time_s: FloatArray, path: FloatArray) -> FloatArray:
     last = np.where(when > time_s, last, np.arange(len(time_s)))
     rows = np.minimum(last + 1, ROWS)
     first = np.clip(after - _BEHIND, 0, last + 1 - rows)
-    value = np.empty(len(when))
-    for count in np.unique(rows):
-        own = rows == count
-        near = first[own, None] + np.arange(count)
-        value[own] = _polynomial(when[own], time_s, path, near)
-    return value
+    return _polynomials(when, time_s, np.ascontiguousarray(path), first, rows)
 
 
-def _polynomial(
-    when: FloatArray, time_s: FloatArray, path: FloatArray, near: IntArray
+@numba.njit(cache=True, error_model="numpy")
+def _polynomials(
+    when: FloatArray, time_s: FloatArray, path: FloatArray, first: IntArray, rows: IntArray
 ) -> FloatArray:
-    """Return the polynomials through the rows ``near`` (m, k) at ``when`` (m,): Lagrange's."""
-    nodes = time_s[near]
+    """Return at ``when`` (n,) Lagrange's polynomials through ``rows`` samples from ``first``."""
     value = np.zeros(len(when))
-    for i in range(near.shape[1]):
-        weight = np.ones(len(when))
-        for j in range(near.shape[1]):
-            if j != i:
-                weight *= (when - nodes[:, j]) / (nodes[:, i] - nodes[:, j])
-        value += weight * path[near[:, i]]
+    for k in range(len(when)):
+        for i in range(first[k], first[k] + rows[k]):
+            weight = 1.0
+            for j in range(first[k], first[k] + rows[k]):
+                if j != i:
+                    weight *= (when[k] - time_s[j]) / (time_s[i] - time_s[j])
+            value[k] += weight * path[i]
     return value

@@ -175,12 +175,19 @@ def one_effect(asked):
         {(asked.axis, Tap.CMD): command[:, column]},
         {asked.axis: ROBOT.axes[asked.axis].unit},
     )
-    plant = Plant.of(replace(ROBOT, effects=(asked,)), only=[asked.axis])
+    names = {asked.axis, asked.from_axis}
+    alone = replace(
+        ROBOT,
+        axes={name: axis for name, axis in ROBOT.axes.items() if name in names},
+        couplings=(),
+        stages={},
+    )
+    plant = Plant.of(replace(alone, effects=(asked,)))
     seconds = []
-    simulate(ROBOT, [asked], commands)
+    simulate(alone, [asked], commands)
     for _ in range(TURNS):
         begin = time.perf_counter()
-        simulate(ROBOT, [asked], commands)
+        simulate(alone, [asked], commands)
         seconds.append(time.perf_counter() - begin)
     inner = plant.assembly.inner_step_s < 0.999 / RATE_HZ
     return 1e3 * median(seconds), inner, f"{asked.id}/{asked.formulation}"
