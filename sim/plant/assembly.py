@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rotemina.sim.arrays import FloatArray
+from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.effects.attachment import Attached, attached_effects
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.effects.formulation import Change, Force, Late, Motion, Part, Skew
@@ -51,10 +51,14 @@ class Assembly:
     inner_step_s: float
 
     @property
-    def electronics(self) -> bool:
-        """Whether an effect stands between an input and what the amplifier puts out."""
-        late = any(isinstance(one.formulation.acts, Late) for one in self.effects)
-        return late or any(phase_of(one) == "electronics" for one in self.functions)
+    def electronics(self) -> BoolArray:
+        """Whether an effect stands between each input and what its amplifier puts out, (axes,)."""
+        changed = {
+            one.asked.axis
+            for one in self.effects
+            if isinstance(one.formulation.acts, Late) or phase_of(one) == "electronics"
+        }
+        return np.array([name in changed for name in self.robot.axes], dtype=np.bool_)
 
     @property
     def random(self) -> int:

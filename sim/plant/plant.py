@@ -227,18 +227,19 @@ class Plant:
             state.perturbation, clock_s[history:], history, command, add, perturbation, chance
         )
         given = given._replace(time_s=clock_s)
-        electronics = self.assembly.electronics and behind is Behind.COMMAND
-        effort = np.empty_like(stack.inputs) if electronics else stack.inputs
+        electronics = self.assembly.electronics & (behind is Behind.COMMAND)
+        effort = np.empty_like(stack.inputs[: len(stack.inputs) if electronics.any() else 0])
         moved = kernel.State(state.x.copy(), state.memory.copy(), state.seen.copy())
         kernel.run(
             self._machine(behind),
-            self._steps(stack.time_s, history),
+            self._steps(stack.time_s, history, behind),
             given,
-            stack.taken(effort if electronics else effort[:0]),
+            stack.taken(effort),
             moved,
             float(clock_s[max(history - 1, 0)]),
         )
         self._check(stack)
+        effort = np.where(electronics, effort, stack.inputs) if len(effort) else stack.inputs
         reading = on_skewed_clocks(
             self.assembly.skews,
             stack.position,
@@ -281,9 +282,9 @@ class Plant:
             drawn,
         )
 
-    def _steps(self, time_s: FloatArray, first: int) -> kernel.Steps:
+    def _steps(self, time_s: FloatArray, first: int, behind: Behind) -> kernel.Steps:
         return steps_through(
-            cut(time_s, first, tuple(sorted(set(self._delays())))),
+            cut(time_s, first, tuple(sorted(set(self._delays(behind))))),
             self.assembly.all_groups,
             inner_step_s=self.assembly.inner_step_s,
             with_holds=bool(self.effects),
@@ -293,7 +294,7 @@ class Plant:
         """Return the tables with the loops entered."""
         machine = self.assembly.machine
         axis = machine.axis.copy()
-        delays = self._delays()
+        delays = self._delays(behind)
         distinct = sorted(set(delays))
         axis["late"] = [distinct.index(delay) for delay in delays]
         for row, loop in zip(axis, self.loops, strict=True):
@@ -305,10 +306,11 @@ class Plant:
                 row["loop"] = kernel.STATE_VELOCITY if by_state else kernel.BACKWARD_VELOCITY
         return machine._replace(axis=axis)
 
-    def _delays(self) -> tuple[float, ...]:
-        """Return the delay of each axis' input, s."""
+    def _delays(self, behind: Behind = Behind.COMMAND) -> tuple[float, ...]:
+        """Return the delay of each axis' input, s; what is late, is so before the amplifier."""
+        late = self.assembly.delays_s
         return tuple(
-            (loop.delay_s if loop else 0.0) + self.assembly.delays_s[i]
+            loop.delay_s + late[i] if loop else late[i] * (behind is Behind.COMMAND)
             for i, loop in enumerate(self.loops)
         )
 

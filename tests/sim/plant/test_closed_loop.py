@@ -11,6 +11,7 @@ from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import AxisEffect, CascadeController
 
 EMPS = load_robot("emps")
 
@@ -86,6 +87,24 @@ def test_a_loop_in_pieces_is_the_loop_at_once(delay_s):
         motion, state = plant.advance(state, time_s[piece], command[piece])
         parts.append(motion.inputs)
     np.testing.assert_allclose(np.concatenate(parts), whole.inputs, atol=1e-7)
+
+
+def test_electronics_of_one_axis_leave_the_output_of_another_as_its_controller_gave_it():
+    robot = load_robot("rotemina")
+    loop = CascadeController(kind="cascade", kp=20.0, kv=100.0, limit=10.0, delay_s=2e-3)
+    axes = {**robot.axes, "thx": replace(robot.axes["thx"], controller=loop)}
+    bare = replace(robot, axes=axes)
+    late = replace(bare, effects=(AxisEffect(axis="zn", id="delay"),))
+    time_s = np.arange(200) * 1e-3
+    command = np.tile([sum(axis.range) / 2 for axis in axes.values()], (200, 1))
+    command[50:, list(axes).index("thx")] *= 1.1
+    efforts = []
+    for one in (bare, late):
+        plant = Plant.of(one, closed_loop=True)
+        motion, _ = plant.advance(plant.at_rest(0.0, command[0]), time_s, command)
+        efforts.append(motion.inputs[:, list(axes).index("thx")])
+    assert np.ptp(efforts[0]) > 0.0
+    np.testing.assert_array_equal(efforts[1], efforts[0])
 
 
 def test_a_force_axis_open_loop_needs_its_voltage():

@@ -11,7 +11,8 @@ from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.plant.sampling import step_matrices
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot, parse_robot
-from rotemina.sim.robot.model import CascadeController
+from rotemina.sim.robot.model import AxisEffect, CascadeController
+from rotemina.sim.simulation.simulation import simulate
 
 ROBOT, EMPS = load_robot("rotemina"), load_robot("emps")
 
@@ -61,6 +62,18 @@ def test_the_part_behind_u_is_driven_by_the_measured_u_with_its_loop_open():
     )
     with pytest.raises(PlantError, match=r"'q'.*needs a q\.u column"):
         nominal_response(EMPS, bare, drive=Tap.U)
+
+
+def test_what_delays_the_amplifier_does_not_delay_its_measured_output():
+    axis = ROBOT.axes["thx"]
+    time_s = np.arange(400) / 2000.0
+    command = axis.range[0] + axis.span * (0.5 + 0.1 * np.sin(2 * np.pi * 20.0 * time_s))
+    late = AxisEffect(axis="thx", id="delay", parameters={"delay": 3 / 2000.0})
+    commands = Record.from_signals(time_s, {("thx", Tap.CMD): command}, {"thx": "rad"})
+    record = simulate(ROBOT, (late,), commands)
+    answer = nominal_response(replace(ROBOT, effects=(late,)), record, drive=Tap.U)
+    exact = record.signal("thx", Tap.REF)
+    np.testing.assert_allclose(answer.signal("thx", Tap.REF), exact, rtol=0, atol=1e-12)
 
 
 def test_a_weakly_damped_periodic_run_is_steady_from_its_first_row():
