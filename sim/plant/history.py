@@ -86,7 +86,7 @@ def _settle(plant: Plant, lead: Run, run: Run) -> PlantState:
     """Run periods until they repeat.
 
     Some effects, creep among them, never quite do: what they still change is then allowed to be
-    small instead of nothing. Effects count time from the end of the last period.
+    small instead of nothing. Effects count time from the first row of the run.
     """
     state = plant.at_rest(lead.time_s[0], run.command[0])
     enough = _SETTLED_EFFECTS if plant.effects else _SETTLED
@@ -96,7 +96,8 @@ def _settle(plant: Plant, lead: Run, run: Run) -> PlantState:
         )
         size = np.ptp(motion.position, axis=0) + np.ptp(motion.velocity, axis=0)
         change = _change(plant, state, after)
-        after = replace(after, elapsed_s=0.0, seen=after.seen - after.elapsed_s)
+        elapsed_s = float(lead.time_s[-1] - run.time_s[0])
+        after = replace(after, elapsed_s=elapsed_s, seen=after.seen + (elapsed_s - after.elapsed_s))
         last = plant.effects and period == _MOST_PERIODS - 1
         if (change <= (_NEARLY_SETTLED if last else enough) * size).all():
             return after

@@ -460,5 +460,7 @@ def rise_positions(machine: Machine, moving: State, low: FloatArray, u: FloatArr
             for e in range(axis[i].motion, axis[i].end):
                 seen[e] = -_LONG_S
             q = _position(axis, function, numbers, memory, seen, i, shown, 0.0)
-            begin, end = axis[i].reading, axis[i].end
-            _reading(function, numbers, memory, seen, begin, end, q, q, 0.0, 0, none)
+            begin, digits, end = axis[i].reading, axis[i].digits, axis[i].end
+            y = _reading(function, numbers, memory, seen, begin, digits, q, q, 0.0, 0, none)
+            y += axis[i].offset
+            _reading(function, numbers, memory, seen, digits, end, y, q, 0.0, 0, none)

@@ -5,6 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rotemina.sim.effects import attachment
+from rotemina.sim.effects.formulation import Effect, Formulation, Reading, Stage
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
@@ -78,6 +80,54 @@ def test_a_periodic_run_with_effects_begins_in_its_steady_state():
     steady = nominal_response(robot, sine("zn", metadata={"history": "periodic"}))
     first, second = np.split(steady.signal("zn", Tap.REF), 2)
     np.testing.assert_allclose(first, second, atol=1e-6 * ROBOT.axes["zn"].span)
+
+
+def test_effects_count_time_from_the_first_row_of_a_periodic_run():
+    """A tone as fast as the samples reads the same at each of them, if it begins with them."""
+    tone = AxisEffect(axis="zn", id="vibration", parameters={"frequency": 500.0, "sine": 1e-7})
+    commands = sine("zn", metadata={"history": "periodic"})
+    still, shaken = (
+        nominal_response(replace(ROBOT, effects=effects), commands).signal("zn", Tap.REF)
+        for effects in ((), (tone,))
+    )
+    expected = 1e-7 * np.sin(2 * np.pi * 500.0 * commands.time_s)
+    np.testing.assert_allclose(shaken - still, expected, atol=1e-9)
+
+
+def latched(x, other, t, h, a, b, p, s):
+    """Show what it showed first."""
+    if t > 0.0:
+        return s[0]
+    s[0] = x
+    return x
+
+
+def test_what_is_digital_begins_with_what_the_sensor_reads_offset_included(monkeypatch):
+    effect = Effect(
+        id="latch",
+        title="Latch",
+        summary="Shows what it showed first.",
+        stage=Stage.SENSOR,
+        kinds=frozenset({"piezo"}),
+        formulations=(
+            Formulation(
+                name="only",
+                equation="y = y₀",
+                source="none",
+                parameters=(),
+                acts=Reading(step=latched, states=1, digital=True),
+            ),
+        ),
+    )
+    monkeypatch.setattr(attachment, "effect_named", lambda _: effect)
+    axes = {**ROBOT.axes, "zn": replace(ROBOT.axes["zn"], offset=3e-6)}
+    robot = replace(ROBOT, axes=axes, effects=(AxisEffect(axis="zn", id="latch"),))
+    plant = Plant.of(robot, only=["zn"])
+    command = np.full((3, len(plant.axes)), sum(ROBOT.axes["zn"].range) / 2)
+    column = plant.axes.index("zn")
+    state = plant.at_rest(0.0, command[0])
+    motion, _ = plant.advance(state, np.array([1.0, 2.0, 3.0]), command)
+    assert motion.reading[:, column] == pytest.approx(command[0, column] + 3e-6, rel=1e-12)
 
 
 def test_effects_join_the_axis_that_they_come_from():
