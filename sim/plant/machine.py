@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.effects.attachment import Attached
+from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.effects.formulation import Drive, Force, Motion, Reading, Stage
-from rotemina.sim.effects.step import StepFunction, address_of
+from rotemina.sim.effects.step import address_of
 from rotemina.sim.plant.group import Group, Output, asked_position
 from rotemina.sim.robot.model import Robot
 
@@ -108,9 +109,9 @@ def machine_of(
     group, member = _group_table(robot, groups, axis)
     output, state, weight = _output_table(robot, groups, group)
     order = [one.attached for *_, one in ranked]
-    numbers = [one.formulation.numbers(one.values, one.facts) for one in order]
+    numbers = [_numbers(one) for one in order]
     function = np.zeros(len(ranked), dtype=FUNCTION)
-    function["address"] = [address_of(_step(one)) for one in order]
+    function["address"] = [_address(one) for one in order]
     function["numbers_at"] = np.cumsum([0] + [len(own) for own in numbers])[:-1]
     function["memory_at"] = np.cumsum([0] + [states_of(one) for one in order])[:-1]
     function["other"] = [one.other for *_, one in ranked]
@@ -232,10 +233,33 @@ class _Ranked(NamedTuple):
     placed: Placed
 
 
-def _step(attached: Attached) -> StepFunction:
+def _numbers(attached: Attached) -> FloatArray:
+    try:
+        numbers = attached.formulation.numbers(attached.values, attached.facts)
+    except EffectError:
+        raise
+    except Exception as error:  # a plugin may raise anything
+        raise _unusable(
+            attached, "the numbers of its step function cannot be made", error
+        ) from error
+    return numbers
+
+
+def _address(attached: Attached) -> int:
     acts = attached.formulation.acts
     assert isinstance(acts, Drive | Force | Motion | Reading)
-    return acts.step
+    try:
+        return address_of(acts.step)
+    except Exception as error:  # the compiler, too, on what is no step function
+        raise _unusable(attached, "its step function cannot be compiled", error) from error
+
+
+def _unusable(attached: Attached, what: str, error: Exception) -> EffectError:
+    reason = next((line for line in str(error).splitlines() if line.strip()), "")
+    return EffectError(
+        f"axis.{attached.asked.axis}.effect {attached.asked.id}: formulation "
+        f"{attached.formulation.name!r}: {what}: {type(error).__name__}: {reason}"
+    )
 
 
 def states_of(attached: Attached) -> int:

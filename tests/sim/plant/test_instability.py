@@ -1,4 +1,4 @@
-"""Effects that let a motion grow: refused beforehand where it can be told, else with the time."""
+"""Effects that cannot be simulated: refused beforehand where it can be told, else with the time."""
 
 from dataclasses import replace
 
@@ -31,6 +31,11 @@ RATE = Parameter("rate", "of growth", "", 0.0, 1e6, 10.0)
 def push(x, other, t, h, a, b, p, s):
     """A force along the speed: the axis is driven on."""
     return p[0] * other
+
+
+def uncompilable(x, other, t, h, a, b, p, s):
+    """What plain Python takes, and compiled code does not."""
+    return x + len({"a": x}) * object()
 
 
 def growing(values, _facts):
@@ -87,3 +92,22 @@ def test_a_weak_push_against_damping_is_simulated(with_effect):
     robot = with_effect(Force(step=push), rate=100.0)
     record = simulate(robot, None, swing())
     assert np.abs(record.signal("x", Tap.REF) - record.signal("x", Tap.CMD)).max() < 1e-4
+
+
+def test_a_step_function_that_cannot_be_compiled_is_named_with_the_reason(with_effect):
+    robot = with_effect(Force(step=uncompilable))
+    with pytest.raises(
+        EffectError,
+        match=r"axis\.x\.effect push: formulation 'push': .*cannot be compiled: \w+Error",
+    ):
+        Plant.of(robot)
+
+
+def test_numbers_that_cannot_be_made_are_told_with_the_reason(monkeypatch):
+    effect = third_party(Force(step=push))
+    broken = replace(effect.formulations[0], prepare=lambda values, _facts: (1.0 / values["none"],))
+    effect = replace(effect, formulations=(broken,))
+    monkeypatch.setattr(attachment, "effect_named", lambda _id: effect)
+    robot = replace(ROBOT, effects=(AxisEffect(axis="x", id="push"),))
+    with pytest.raises(EffectError, match=r"axis\.x\.effect push: .*cannot be made: KeyError"):
+        Plant.of(robot)
