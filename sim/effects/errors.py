@@ -5,3 +5,7 @@ from rotemina.sim.errors import InputError
 
 class EffectError(InputError):
     """An effect that cannot sit where it is asked to, or one of its parameters out of bounds."""
+
+
+class BrokenEffectError(EffectError):
+    """An effect whose own code fails: its step function does not compile, its numbers are none."""

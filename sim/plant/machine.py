@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.effects.attachment import Attached
-from rotemina.sim.effects.errors import EffectError
+from rotemina.sim.effects.errors import BrokenEffectError, EffectError
 from rotemina.sim.effects.formulation import Drive, Force, Motion, Reading, Stage
 from rotemina.sim.effects.step import address_of
 from rotemina.sim.plant.group import Group, Output, asked_position
@@ -239,9 +239,7 @@ def _numbers(attached: Attached) -> FloatArray:
     except EffectError:
         raise
     except Exception as error:  # a plugin may raise anything
-        raise _unusable(
-            attached, "the numbers of its step function cannot be made", error
-        ) from error
+        raise _broken(attached, "the numbers of its step function cannot be made", error) from error
     return numbers
 
 
@@ -251,12 +249,12 @@ def _address(attached: Attached) -> int:
     try:
         return address_of(acts.step)
     except Exception as error:  # the compiler, too, on what is no step function
-        raise _unusable(attached, "its step function cannot be compiled", error) from error
+        raise _broken(attached, "its step function cannot be compiled", error) from error
 
 
-def _unusable(attached: Attached, what: str, error: Exception) -> EffectError:
+def _broken(attached: Attached, what: str, error: Exception) -> BrokenEffectError:
     reason = next((line for line in str(error).splitlines() if line.strip()), "")
-    return EffectError(
+    return BrokenEffectError(
         f"axis.{attached.asked.axis}.effect {attached.asked.id}: formulation "
         f"{attached.formulation.name!r}: {what}: {type(error).__name__}: {reason}"
     )

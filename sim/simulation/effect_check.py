@@ -9,7 +9,7 @@ same in pieces, and a declared trait that is not true are found.
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
-from rotemina.sim.effects.errors import EffectError
+from rotemina.sim.effects.errors import BrokenEffectError, EffectError
 from rotemina.sim.effects.formulation import Effect
 from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.errors import InputError
@@ -98,6 +98,8 @@ def _guarded(bench: Bench, clock: Callable[[], float] | None) -> Iterator[Check]
 def _on(bench: Bench, clock: Callable[[], float] | None) -> Iterator[Check]:
     try:
         Plant.of(replace(bench.robot, effects=(bench.asked(),)))
+    except BrokenEffectError:
+        raise
     except EffectError as error:
         yield left_out("sits here", str(error))
         return

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rotemina.sim.effects import attachment
-from rotemina.sim.effects.errors import EffectError
+from rotemina.sim.effects.errors import BrokenEffectError, EffectError
 from rotemina.sim.effects.formulation import (
     EVERY_KIND,
     Effect,
@@ -97,7 +97,7 @@ def test_a_weak_push_against_damping_is_simulated(with_effect):
 def test_a_step_function_that_cannot_be_compiled_is_named_with_the_reason(with_effect):
     robot = with_effect(Force(step=uncompilable))
     with pytest.raises(
-        EffectError,
+        BrokenEffectError,
         match=r"axis\.x\.effect push: formulation 'push': .*cannot be compiled: \w+Error",
     ):
         Plant.of(robot)
@@ -109,5 +109,7 @@ def test_numbers_that_cannot_be_made_are_told_with_the_reason(monkeypatch):
     effect = replace(effect, formulations=(broken,))
     monkeypatch.setattr(attachment, "effect_named", lambda _id: effect)
     robot = replace(ROBOT, effects=(AxisEffect(axis="x", id="push"),))
-    with pytest.raises(EffectError, match=r"axis\.x\.effect push: .*cannot be made: KeyError"):
+    with pytest.raises(
+        BrokenEffectError, match=r"axis\.x\.effect push: .*cannot be made: KeyError"
+    ):
         Plant.of(robot)
