@@ -21,12 +21,13 @@ def rest(
     inputs: FloatArray,
     command: FloatArray,
     loops: tuple[CascadeController | None, ...],
+    gained: FloatArray,
 ) -> Rest:
     """Return the rest of one group; all arrays (m,).
 
     A free axis, and any that a force moves, is at its command. For the others
-    ``C q = E u + F`` with the given input, or with a controller's ``u = clip(kv kp (cmd − q))``:
-    axes whose controller saturates are found one after the other.
+    ``C q = E u + F`` with the given input, or ``C q = E (u + gained) + F`` with a controller's
+    ``u = clip(kv kp (cmd − q))``: axes whose controller saturates are found one after the other.
     """
     at_command = group.moved_by_force | (np.diag(group.stiffness) == 0.0)
     slope = np.array([loop.kp * loop.kv if loop else 0.0 for loop in loops])
@@ -35,7 +36,8 @@ def rest(
     held = np.where(looped, 0.0, inputs)
     following = looped.copy()
     for _ in range(group.size + 1):
-        position = _solve(group, at_command, held, np.where(following, slope, 0.0), command)
+        reached = held + np.where(looped, gained, 0.0)
+        position = _solve(group, at_command, reached, np.where(following, slope, 0.0), command)
         effort = slope * (command - position)
         beyond = following & ~at_command & (np.abs(effort) > limit)
         if not beyond.any():

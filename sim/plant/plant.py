@@ -23,6 +23,9 @@ from rotemina.sim.plant.state import Behind, Motion, PlantState, Stack
 from rotemina.sim.plant.steps import steps_through
 from rotemina.sim.robot.model import Axis, CascadeController, PiezoAxis, Robot, StepperAxis
 
+_TRIES = 50  # of the input with which a controller holds an axis
+_HELD = 1e-12  # relative change of that input which is none
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Plant:
@@ -87,16 +90,34 @@ class Plant:
         """
         inputs = self.open_loop_inputs(command[None])[0]
         risen, reached = self._risen(inputs)
-        position = self._static_position(reached[None])[0]
-        for group in self.groups:
-            index = self._index(group)
-            loops = tuple(self.loops[i] for i in index)
-            position[index], settled = rest(group, reached[index], command[index], loops)
-            looped = [loop is not None for loop in loops]
-            inputs[index[looped]] = settled[looped]
+        position, held = self._rest(inputs, reached, command)
+        for _ in range(_TRIES):  # a controller holds the axis against what effects make of its u
+            if not self.effects or np.allclose(held, inputs, rtol=_HELD, atol=0.0):
+                break
+            inputs = held
+            risen, reached = self._risen(inputs)
+            position, held = self._rest(inputs, reached, command)
+        inputs = held
         still = np.zeros(len(self.axes))
         state = self._placed(time_s, inputs, position, still, risen, reached)
         return self._led_in(state, reached, command) if self.assembly.leads_in else state
+
+    def _rest(
+        self, inputs: FloatArray, reached: FloatArray, command: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return positions (axes,) at rest, and the inputs with those that controllers give there.
+
+        ``inputs`` become ``reached`` by effects, and those of controllers change alike.
+        """
+        position, held = self._static_position(reached[None])[0], inputs.copy()
+        for group in self.groups:
+            index = self._index(group)
+            loops = tuple(self.loops[i] for i in index)
+            gained = (reached - inputs)[index]
+            position[index], settled = rest(group, reached[index], command[index], loops, gained)
+            looped = [loop is not None for loop in loops]
+            held[index[looped]] = settled[looped]
+        return position, held
 
     def at(
         self, time_s: float, inputs: FloatArray, position: FloatArray, velocity: FloatArray

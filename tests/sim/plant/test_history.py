@@ -47,6 +47,36 @@ def test_a_piezo_under_a_controller_starts_where_the_controller_holds_it(limit, 
     assert bool(asked > limit) is saturated
 
 
+@pytest.mark.parametrize("limit", [150.0, 5.0])
+@pytest.mark.parametrize(
+    "effect",
+    [
+        {"id": "gain_error"},
+        {"id": "hysteresis"},
+        {"id": "static_nonlinearity"},
+        {"id": "quantization"},
+        {"id": "amplifier_lag"},
+        {"id": "flexible_mode", "formulation": "parallel"},
+    ],
+    ids=lambda effect: effect["id"],
+)
+def test_a_controller_holds_an_axis_against_its_effects_from_the_first_row(effect, limit):
+    loop = CascadeController(kind="cascade", kp=40.0, kv=60.0, limit=limit)
+    axis = replace(ROBOT.axes["thx"], controller=loop, voltage_range=None)
+    robot = replace(
+        ROBOT,
+        axes={**ROBOT.axes, "thx": axis},
+        effects=(AxisEffect(axis="thx", **effect),),
+    )
+    command = axis.range[0] + 0.7 * axis.span
+    answer = held(robot, "thx", command, count=200)
+    position, effort = answer.signal("thx", Tap.REF), answer.signal("thx", Tap.U)
+    assert np.ptp(position) < 1e-9 * axis.span
+    asked = 40.0 * 60.0 * (command - position[0])
+    if effect["id"] != "quantization":  # whose steps show in the output of its amplifier
+        assert effort[0] == pytest.approx(min(asked, limit), rel=1e-9)
+
+
 def test_the_part_behind_u_is_driven_by_the_measured_u_with_its_loop_open():
     voltage = np.full(2000, 1.0)
     time_s = np.arange(2000) * 1e-3
