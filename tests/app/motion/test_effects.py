@@ -1,11 +1,14 @@
 """Effects of a simulated machine, switched through the session."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.state import CommandRefused
 from rotemina.drivers.driver import Driver
+from rotemina.sim.effects import attachment
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.robot.model import AxisEffect
 
@@ -49,6 +52,38 @@ def test_effects_are_set_while_the_machine_moves_and_plays_on(stepped):
     state = stepped.until_idle()
     assert stepped.told(CommandRefused) == []
     np.testing.assert_allclose(state.measured["x"], 0.03, atol=1e-6)
+
+
+def test_a_stop_that_comes_while_effects_are_put_in_place_halts_the_machine(stepped, monkeypatch):
+    start = stepped.session.snapshot().measured["x"]
+    stepped.session.go_to({"x": start + 5e-3})
+    stepped.step(0.05)
+    put = stepped.driver._set_effects
+
+    def put_slowly(effects):
+        stepped.session.stop()
+        put(effects)
+
+    monkeypatch.setattr(stepped.driver, "_set_effects", put_slowly)
+    stepped.session.set_effects([WIDE])
+    state = stepped.until_idle()
+    assert stepped.session.effects == (WIDE,)
+    assert 0.0 < state.measured["x"] - start < 4e-3
+
+
+def test_an_effect_whose_code_fails_is_refused_and_the_machine_goes_on(stepped, monkeypatch):
+    whole = attachment.effect_named("hysteresis")
+    broken = replace(whole.formulations[0], prepare=lambda values, _facts: 1.0 / 0.0)
+    monkeypatch.setattr(
+        attachment, "effect_named", lambda _: replace(whole, formulations=(broken,))
+    )
+    stepped.session.set_effects([WIDE])
+    stepped.step()
+    (refused,) = stepped.told(CommandRefused)
+    assert "axis.thx.effect hysteresis" in refused.message
+    assert "ZeroDivisionError" in refused.message
+    assert stepped.session.effects == ()
+    assert stepped.session.snapshot().locked is None
 
 
 def test_a_real_machine_has_effects_of_its_own(stepped, monkeypatch):
