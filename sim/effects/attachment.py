@@ -159,9 +159,14 @@ def _check_value(
     low, high = parameter.bounds(facts)
     slack = _SLACK * max((abs(end) for end in (low, high) if isfinite(end)), default=0.0)
     if not isfinite(value) or not low - slack <= value <= high + slack:
-        raise EffectError(f"{where}.{name} = {value:g}: {_between(parameter, low, high, facts)}")
+        raise EffectError(f"{where}.{name} = {_beyond(parameter, value, facts)}")
 
 
-def _between(parameter: Parameter, low: float, high: float, facts: Facts) -> str:
-    unit = parameter.unit_on(facts)
-    return f"must be between {low:g} and {high:g} {unit}".rstrip()
+def _beyond(parameter: Parameter, value: float, facts: Facts) -> str:
+    """Tell of a value out of bounds, with all digits where few would make it seem within them."""
+    numbers = (value, *parameter.bounds(facts))
+    short = [f"{number:g}" for number in numbers]
+    if short[0] in short[1:]:
+        short = [f"{number:.17g}" for number in numbers]
+    told, low, high = short
+    return f"{told}: must be between {low} and {high} {parameter.unit_on(facts)}".rstrip()

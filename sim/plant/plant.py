@@ -229,14 +229,15 @@ class Plant:
         behind : Behind
             What the inputs have passed already: effects before it are left out.
         perturbation : Perturbation, optional
-            Q of Eq. (1), n rows.
+            Q of Eq. (1), n rows; for every piece of a run that is shaken.
         chance : Chance, optional
             Noise, rounding and random effects; without it the plant is what a model can know.
 
         Raises
         ------
         PlantError
-            If the response leaves what a float can hold, with axis and time.
+            If the response leaves what a float can hold, with axis and time, or a perturbation does
+            not fit or ends without a row of zeros.
         """
         # A sample at the state's own time replaces it; later ones find it as their history.
         history = len(state.time_s) if time_s[0] > state.time_s[-1] else 0
@@ -286,6 +287,11 @@ class Plant:
     ) -> kernel.Given:
         axes, rows = len(self.axes), len(clock_s)
         force, kick = np.zeros((0, axes)), np.zeros((0, 0))
+        if perturbation is None and shaken.any():
+            raise PlantError(
+                "perturbation: none is given, and Q of the row before still acts; give one for "
+                "every piece of a run, with zeros where nothing shakes"
+            )
         if perturbation is not None:
             perturbation.check(rows, self.axes)
             force = perturbation.forces(shaken)

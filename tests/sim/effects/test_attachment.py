@@ -1,5 +1,6 @@
 """Effects on the axes of a robot: what a robot file may say of them, and what is refused."""
 
+import re
 from dataclasses import replace
 
 import pytest
@@ -52,6 +53,17 @@ id = "backlash"
         ("q", "backlash", True),
     ]
     assert [one.asked.id for one in attached_effects(robot)] == ["hysteresis", "backlash"]
+
+
+def test_a_value_just_beyond_a_bound_is_told_from_it():
+    width = 0.5 * ROBOT.axes["thx"].span * (1.0 + 1e-8)
+    asked = AxisEffect(axis="thx", id="hysteresis", parameters={"width": width})
+    with pytest.raises(EffectError) as refused:
+        Attached.of(ROBOT, asked)
+    told, high = re.search(
+        r"width = (\S+): must be between 0 and (\S+) ", str(refused.value)
+    ).groups()
+    assert float(told) == width > float(high)
 
 
 def test_parameters_left_out_have_their_preset_in_terms_of_the_axis():

@@ -206,6 +206,22 @@ def test_one_that_does_not_fit_the_run_is_refused(shape, message):
         respond(Plant.of(parse_robot(TWO)), np.arange(5) / 1000, perturbation)
 
 
+def test_a_run_that_is_shaken_does_not_silently_end_to_be():
+    plant, time_s = Plant.of(parse_robot(TWO)), np.arange(10) / 1000
+    command = np.zeros((5, 2))
+    shaken = np.ones((5, 2))
+    _, state = plant.advance(
+        plant.at_rest(0.0, command[0]), time_s[:5], command, perturbation=Perturbation(shaken, A, B)
+    )
+    with pytest.raises(PlantError, match="none is given, and Q of the row before still acts"):
+        plant.advance(state, time_s[5:], command)
+    shaken[-1] = 0.0
+    _, state = plant.advance(
+        plant.at_rest(0.0, command[0]), time_s[:5], command, perturbation=Perturbation(shaken, A, B)
+    )
+    plant.advance(state, time_s[5:], command)
+
+
 def test_it_cannot_be_changed_afterwards():
     given = np.ones((5, 2))
     perturbation = Perturbation(given, A, B)
