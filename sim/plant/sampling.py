@@ -5,6 +5,7 @@ matrix exponential of the augmented system over each interval, uniform or not. V
 "Computing integrals involving the matrix exponential", IEEE TAC 23 (1978).
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -61,9 +62,15 @@ def cut(time_s: FloatArray, first: int, delay_s: tuple[float, ...]) -> Segments:
             f"apart, rounding there is {tick:.3g} s; count time from the start of the record"
         )
     if not any(delay_s):
-        return _cut_at_samples(ticks[start:], start, first, tick)
+        return _cut_at_samples(ticks, [np.arange(len(ticks))], start, first, tick)
     delays = np.rint(np.array(delay_s) / tick).astype(np.int64)
-    begins = [_onto(ticks + delay, ticks) if delay else ticks for delay in delays]
+    rows = [_rows(ticks + delay, ticks) if delay else np.arange(len(ticks)) for delay in delays]
+    begins = [
+        np.where(row >= 0, ticks[row], ticks + delay)
+        for row, delay in zip(rows, delays, strict=True)
+    ]
+    if all((begin[row < 0] > ticks[-1]).all() for row, begin in zip(rows, begins, strict=True)):
+        return _cut_at_samples(ticks, rows, start, first, tick)
     breaks = _ascending(np.concatenate([ticks[start:], *begins]))
     breaks = breaks[(breaks >= 0) & (breaks <= ticks[-1])]
     sample = np.full(len(breaks), -1, dtype=np.int64)
@@ -73,10 +80,10 @@ def cut(time_s: FloatArray, first: int, delay_s: tuple[float, ...]) -> Segments:
     return Segments(sample, applied, step, np.asarray(lengths * tick, dtype=np.float64))
 
 
-def _onto(late: IntArray, ticks: IntArray) -> IntArray:
-    """Return when inputs begin to act; at a sample where only rounding parts them from it."""
+def _rows(late: IntArray, ticks: IntArray) -> IntArray:
+    """Return at which sample each input begins to act, rounding aside; -1 where at none."""
     place = np.minimum(np.searchsorted(ticks, late - _SAME_TICKS), len(ticks) - 1)
-    return np.where(np.abs(ticks[place] - late) <= _SAME_TICKS, ticks[place], late)
+    return np.where(np.abs(ticks[place] - late) <= _SAME_TICKS, place, -1)
 
 
 def _latest(begin: IntArray, breaks: IntArray) -> IntArray:
@@ -102,14 +109,17 @@ def _tick(latest_s: float) -> float:
     return max(TICK_S, 2.0 ** float(np.ceil(np.log2(rounding)))) if rounding > 0 else TICK_S
 
 
-def _cut_at_samples(ticks: IntArray, start: int, first: int, tick: float) -> Segments:
-    """Cut where no input is late: every segment begins with a sample, whose input acts at once."""
-    applied = np.arange(start, start + len(ticks))
-    sample = applied.copy()
+def _cut_at_samples(
+    ticks: IntArray, rows: Sequence[IntArray], start: int, first: int, tick: float
+) -> Segments:
+    """Cut where every input begins to act with a sample, that of ``rows`` (n,) for each delay."""
+    sample = np.arange(start, len(ticks))
     if first > start:
         sample[0] = -1
-    step, lengths = _distinct(np.append(np.diff(ticks), 0))
-    return Segments(sample, applied[:, None], step, np.asarray(lengths * tick, dtype=np.float64))
+    begun = [np.bincount(row[row >= 0], minlength=len(ticks)).cumsum() - 1 for row in rows]
+    applied = np.stack([np.maximum(row[start:], 0) for row in begun], axis=1)
+    step, lengths = _distinct(np.append(np.diff(ticks[start:]), 0))
+    return Segments(sample, applied, step, np.asarray(lengths * tick, dtype=np.float64))
 
 
 def _distinct(lengths: IntArray) -> tuple[IntArray, IntArray]:

@@ -69,7 +69,7 @@ def _holds(segments: Segments) -> FloatArray:
     end = float(begin[-1] + lengths[-1])
     hold = np.empty(segments.applied.shape)
     for column, applied in enumerate(segments.applied.T):
-        changes = np.flatnonzero(np.diff(applied)) + 1
+        changes = np.diff(applied, prepend=applied[:1]) != 0
         until = np.append(begin[changes], end)
-        hold[:, column] = until[np.searchsorted(changes, np.arange(len(applied)), "right")] - begin
+        hold[:, column] = until[np.cumsum(changes)] - begin
     return hold
