@@ -23,6 +23,7 @@ from rotemina.sim.effects import attachment
 from rotemina.sim.effects.formulation import EVERY_KIND
 from rotemina.sim.effects.registry import all_effects, effect_named
 from rotemina.sim.plant.plant import Plant
+from rotemina.sim.plant.state import Behind
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -94,7 +95,7 @@ def c_reference(plant, start, time_s, command, folder):
     run = ctypes.CDLL(str(library)).run
     run.restype = None
     machine = plant.assembly.machine
-    steps = plant._steps(time_s, 0)
+    steps = plant._steps(time_s, 0, Behind.COMMAND)
     longest = int(np.argmax(steps.length_s))
     order = [machine.function[c].tolist() for c in ("numbers_at", "memory_at")]
     matrices = [
