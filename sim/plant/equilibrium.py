@@ -30,6 +30,10 @@ def rest(
     ``u = clip(kv kp (cmd − q))``: axes whose controller saturates are found one after the other.
     """
     at_command = group.moved_by_force | (np.diag(group.stiffness) == 0.0)
+    if not any(loops) and not at_command.any():
+        load = group.input_gain * inputs + group.force
+        position = np.asarray(np.linalg.solve(group.stiffness, load), dtype=np.float64)
+        return Rest(position, inputs)
     slope = np.array([loop.kp * loop.kv if loop else 0.0 for loop in loops])
     limit = np.array([loop.limit if loop else np.inf for loop in loops])
     looped = slope > 0.0

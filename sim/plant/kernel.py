@@ -229,6 +229,15 @@ def _linear(
         at, own = at + 3, own + 2
         fresh[first + 1] = into[at] * drive + into[at + 1] + within[own] * q + within[own + 1] * v
         n = 0
+    elif n == 4 and m == 2 and force.shape[0] == 0:  # and two coupled ones
+        q1, q2, v1, v2 = x[first], x[first + 1], x[first + 2], x[first + 3]
+        drive, other = u[member[begin]], u[member[begin + 1]]
+        for row in range(4):
+            total = into[at] * drive + into[at + 1] * other + into[at + 2]
+            total += within[own] * q1 + within[own + 1] * q2
+            fresh[first + row] = total + within[own + 2] * v1 + within[own + 3] * v2
+            at, own = at + 5, own + 4
+        n = 0
     for row in range(n):
         # Inputs first: they do not wait for the step before, so the processor can run ahead.
         place = at + row * (2 * m + 1)
@@ -253,6 +262,7 @@ def _sample(
 ) -> None:  # fmt: skip
     """Take sample k of every axis and close the loops."""
     t, row = time_s[k], k - first
+    places, speeds, readings = position[k], velocity[k], reading[k]
     for i in range(axis.shape[0]):
         own = axis[i]
         q = y = shown[i]
@@ -268,11 +278,11 @@ def _sample(
             y = _reading(
                 function, numbers, memory, seen, own.digits, own.end, y, q, t, row, variates
             )
-        position[k, i] = q
-        reading[k, i] = y
-        velocity[k, i] = x[own.rate] if own.rate >= 0 else 0.0
+        places[i] = q
+        readings[i] = y
+        speed = x[own.rate] if own.rate >= 0 else 0.0
+        speeds[i] = speed
         if own.loop != NO_LOOP:
-            speed = velocity[k, i]
             if own.loop == BACKWARD_VELOCITY and k > 0:
                 speed = (y - reading[k - 1, i]) / (time_s[k] - time_s[k - 1])
             extra = add[row, i] if add.shape[0] > 0 else 0.0
@@ -315,9 +325,10 @@ def _held_inputs(
     h: float, before: IntArray, u: FloatArray,
 ) -> None:  # fmt: skip
     """Fill in the inputs that act for the next ``h`` seconds."""
+    at_once = applied[s, 0]
     for i in range(axis.shape[0]):
         own = axis[i]
-        a = applied[s, own.late]
+        a = at_once if own.late == 0 else applied[s, own.late]
         if own.electronics == own.force:
             u[i] = inputs[a, i]
         elif own.inner_input != 0:

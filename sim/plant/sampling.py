@@ -5,7 +5,6 @@ matrix exponential of the augmented system over each interval, uniform or not. V
 "Computing integrals involving the matrix exponential", IEEE TAC 23 (1978).
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -62,7 +61,7 @@ def cut(time_s: FloatArray, first: int, delay_s: tuple[float, ...]) -> Segments:
             f"apart, rounding there is {tick:.3g} s; count time from the start of the record"
         )
     if not any(delay_s):
-        return _cut_at_samples(ticks, [np.arange(len(ticks))], start, first, tick)
+        return _cut_at_samples(ticks, np.arange(start, len(ticks))[:, None], start, first, tick)
     delays = np.rint(np.array(delay_s) / tick).astype(np.int64)
     rows = [_rows(ticks + delay, ticks) if delay else np.arange(len(ticks)) for delay in delays]
     begins = [
@@ -70,7 +69,9 @@ def cut(time_s: FloatArray, first: int, delay_s: tuple[float, ...]) -> Segments:
         for row, delay in zip(rows, delays, strict=True)
     ]
     if all((begin[row < 0] > ticks[-1]).all() for row, begin in zip(rows, begins, strict=True)):
-        return _cut_at_samples(ticks, rows, start, first, tick)
+        begun = [np.bincount(row[row >= 0], minlength=len(ticks)).cumsum() - 1 for row in rows]
+        applied = np.stack([np.maximum(row[start:], 0) for row in begun], axis=1)
+        return _cut_at_samples(ticks, applied, start, first, tick)
     breaks = _ascending(np.concatenate([ticks[start:], *begins]))
     breaks = breaks[(breaks >= 0) & (breaks <= ticks[-1])]
     sample = np.full(len(breaks), -1, dtype=np.int64)
@@ -110,14 +111,12 @@ def _tick(latest_s: float) -> float:
 
 
 def _cut_at_samples(
-    ticks: IntArray, rows: Sequence[IntArray], start: int, first: int, tick: float
+    ticks: IntArray, applied: IntArray, start: int, first: int, tick: float
 ) -> Segments:
-    """Cut where every input begins to act with a sample, that of ``rows`` (n,) for each delay."""
+    """Cut where every input begins to act with a sample; ``applied`` as in :class:`Segments`."""
     sample = np.arange(start, len(ticks))
     if first > start:
         sample[0] = -1
-    begun = [np.bincount(row[row >= 0], minlength=len(ticks)).cumsum() - 1 for row in rows]
-    applied = np.stack([np.maximum(row[start:], 0) for row in begun], axis=1)
     step, lengths = _distinct(np.append(np.diff(ticks[start:]), 0))
     return Segments(sample, applied, step, np.asarray(lengths * tick, dtype=np.float64))
 

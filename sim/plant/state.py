@@ -66,12 +66,12 @@ class Stack(NamedTuple):
 
     @classmethod
     def of(cls, state: PlantState, history: int, time_s: FloatArray, inputs: FloatArray) -> Self:
-        """Make room for the rows to come behind those of the history."""
+        """Make room for the rows to come behind those of the history; take ``inputs`` over."""
         old = slice(0, history)
         return cls(
             history,
-            np.concatenate([state.time_s[old], time_s]),
-            np.concatenate([state.inputs[old], inputs]),
+            np.concatenate([state.time_s[old], time_s]) if history else time_s,
+            np.concatenate([state.inputs[old], inputs]) if history else inputs,
             _extended(state.position[old], len(time_s)),
             _extended(state.velocity[old], len(time_s)),
             _extended(state.reading[old], len(time_s)),
