@@ -14,6 +14,7 @@ from rotemina.app.cli.options import add_columns, add_robot, robot_of
 from rotemina.sim.effects.attachment import Attached, attached_effects
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.errors import InputError
+from rotemina.sim.plant.assembly import assemble
 from rotemina.sim.plant.loads import RunningLoads
 from rotemina.sim.records.pieces import read_pieces
 from rotemina.sim.records.reading import read_record
@@ -75,10 +76,20 @@ def run(options: argparse.Namespace) -> int:
             table = loads_table(options.loads, simulation.plant, units)
             run_.write_loads(files.enter_context(table))
         write_pieces(run_.records(chain([first], commands)), options.output)
-    for warning in run_.outside.warnings():
+    for warning in chain(_idle(robot, simulation), run_.outside.warnings()):
         print(f"rotemina: {options.commands}: {warning}", file=sys.stderr)
     print(f"{options.output}: {run_.rows} rows, {run_.duration_s:.6g} s")
     return 0
+
+
+def _idle(robot: Robot, simulation: Simulation) -> Iterator[str]:
+    """Say which effects have no part, because their axis has none."""
+    for asked in robot.effects:
+        if asked.enabled and asked.axis not in simulation.axes:
+            yield (
+                f"effect {asked.id} on {asked.axis} has no part: the commands neither name that "
+                "axis nor one that is joined to it"
+            )
 
 
 def _check_files(options: argparse.Namespace) -> None:
@@ -130,7 +141,8 @@ def _metadata(options: argparse.Namespace, robot: Robot, commands: Record) -> di
         "robot": " ".join(robot.name.split()),
         "seed": "none" if options.no_noise else str(options.seed),
     }
-    for number, one in enumerate(attached_effects(robot), start=1):
+    acting = assemble(robot, commands.axes).effects
+    for number, one in enumerate(acting, start=1):
         said[f"effect {number}"] = _described(one)
     return kept | {f"{_PREFIX}{key}": value for key, value in said.items()}
 

@@ -43,8 +43,11 @@ class Attached:
         EffectError
             With axis, effect, parameter, value and bound.
         """
-        effect = effect_named(asked.id)
         where = f"axis.{asked.axis}.effect {asked.id}"
+        try:
+            effect = effect_named(asked.id)
+        except EffectError as error:
+            raise EffectError(f"{where}: {error}") from error
         axis = robot.axes.get(asked.axis)
         if axis is None:
             raise EffectError(f"{where}: the robot has no such axis; it has {list(robot.axes)}")

@@ -4,6 +4,7 @@ The built-in ones register as a third party's do. Each is loaded when it is firs
 robot without effects loads none.
 """
 
+from difflib import get_close_matches
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
 
@@ -43,10 +44,13 @@ def effect_named(effect_id: str) -> Effect:
     """
     point = _points().get(effect_id)
     if point is None:
-        raise EffectError(f"there is no effect {effect_id!r}; there are {', '.join(_points())}")
+        near = get_close_matches(effect_id, _points(), n=1)
+        meant = f"did you mean {near[0]!r}? " if near else ""
+        known = ", ".join(sorted(_points()))
+        raise EffectError(f"there is no effect {effect_id!r}; {meant}there are {known}")
     try:
         effect = point.load()
-    except Exception as error:  # a plugin may raise anything
+    except (Exception, SystemExit) as error:  # a plugin may raise anything, and must end nothing
         raise EffectError(
             f"effect {effect_id!r} ({point.value}) cannot be imported: "
             f"{type(error).__name__}: {error}"
@@ -55,6 +59,8 @@ def effect_named(effect_id: str) -> Effect:
         raise EffectError(f"effect {effect_id!r} ({point.value}) is no Effect")
     if effect.id != effect_id:
         raise EffectError(f"effect {effect_id!r} ({point.value}) calls itself {effect.id!r}")
+    if not effect.formulations:
+        raise EffectError(f"effect {effect_id!r} ({point.value}) has no formulation")
     return effect
 
 
@@ -67,6 +73,10 @@ def all_effects() -> tuple[dict[str, Effect], dict[str, str]]:
             found[effect_id] = effect_named(effect_id)
         except EffectError as error:
             broken[effect_id] = str(error)
+    for point in entry_points(group=GROUP):
+        taken = _points().get(point.name)
+        if taken is not None and point.value != taken.value:
+            broken[f"{point.name} ({point.value})"] = "another effect already has this id"
     order = list(Stage)
     ranked = sorted(found.values(), key=lambda effect: (order.index(effect.stage), effect.id))
     return {effect.id: effect for effect in ranked}, broken

@@ -14,6 +14,7 @@ from rotemina.sim.records.record import Record, Tap
 _FIRST_ROWS = 8  # rows from which position and velocity at the start are taken
 _SURE = 3.0  # standard errors from which a first velocity is told from noise
 _SETTLED = 1e-11  # change from period to period, over the motion, that counts as steady
+_ROUNDING = 1e-9  # of a range: an axis that stands still, or is but shaken by rounding, has settled
 _SETTLED_EFFECTS = 1e-7  # the same for a plant with effects
 _NEARLY_SETTLED = 1e-3  # and what is still enough after the last period
 _MOST_PERIODS = 60
@@ -90,6 +91,7 @@ def _settle(plant: Plant, lead: Run, run: Run) -> PlantState:
     """
     state = plant.at_rest(lead.time_s[0], run.command[0])
     enough = _SETTLED_EFFECTS if plant.effects else _SETTLED
+    rounding = np.array([_ROUNDING * axis.span for axis in plant.robot.axes.values()])
     for period in range(_MOST_PERIODS):
         motion, after = plant.advance(
             state, lead.time_s, lead.command, add=lead.add, inputs=lead.inputs
@@ -99,7 +101,7 @@ def _settle(plant: Plant, lead: Run, run: Run) -> PlantState:
         elapsed_s = float(lead.time_s[-1] - run.time_s[0])
         after = replace(after, elapsed_s=elapsed_s, seen=after.seen + (elapsed_s - after.elapsed_s))
         last = plant.effects and period == _MOST_PERIODS - 1
-        if (change <= (_NEARLY_SETTLED if last else enough) * size).all():
+        if (change <= (_NEARLY_SETTLED if last else enough) * size + rounding).all():
             return after
         state = replace(after, time_s=after.time_s + (lead.time_s[0] - run.time_s[0]))
     raise PlantError(

@@ -98,6 +98,39 @@ def test_an_effect_that_cannot_be_loaded_is_named_and_left_out(only):
     assert "calls itself 'delay'" in broken["alias"]
 
 
+def test_an_effect_that_ends_the_program_or_has_no_formulation_is_left_out(
+    tmp_path, monkeypatch, only
+):
+    (tmp_path / "leaving_effect.py").write_text("raise SystemExit(7)")
+    (tmp_path / "bare_effect.py").write_text(
+        "from dataclasses import replace\n"
+        "from rotemina.sim.effects.delay import DELAY\n"
+        "BARE = replace(DELAY, id='bare', formulations=())\n"
+    )
+    monkeypatch.syspath_prepend(str(tmp_path))
+    only(("leaving", "leaving_effect:ANY"), ("bare", "bare_effect:BARE"))
+    found, broken = all_effects()
+    assert found == {}
+    assert "SystemExit" in broken["leaving"]
+    assert "no formulation" in broken["bare"]
+
+
+def test_an_effect_whose_id_is_taken_is_told(monkeypatch):
+    installed = [*registry.entry_points(group=registry.GROUP)]
+    theirs = EntryPoint("delay", "a_package.delay:DELAY", registry.GROUP)
+    monkeypatch.setattr(registry, "entry_points", lambda group: [theirs, *installed])
+    registry._points.cache_clear()
+    try:
+        assert "already has this id" in all_effects()[1]["delay (a_package.delay:DELAY)"]
+    finally:
+        registry._points.cache_clear()
+
+
+def test_a_slip_of_an_id_is_guessed():
+    with pytest.raises(EffectError, match="did you mean 'hysteresis'"):
+        effect_named("histeresis")
+
+
 def test_an_unknown_effect_is_refused_with_the_known_ones():
     with pytest.raises(EffectError, match=r"'ether_wind'.*backlash"):
         effect_named("ether_wind")

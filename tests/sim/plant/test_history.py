@@ -208,3 +208,17 @@ def test_uneven_steps_are_as_exact_as_single_ones():
             scale = np.abs(exact).max(axis=1, keepdims=True)
             own = np.concatenate([states[index], inputs[index]], axis=1)
             assert (np.abs(own - exact) / scale).max() < 1e-12
+
+
+@pytest.mark.parametrize("rest_m", [0.0220, 0.0240, 0.0275])
+def test_an_axis_that_stands_still_does_not_keep_a_run_from_its_steady_state(rest_m):
+    """What rounding does to a standing axis is no motion that has yet to settle."""
+    robot = replace(load_robot("rotemina"), effects=(AxisEffect(axis="thx", id="hysteresis"),))
+    time_s = np.arange(1000) / 1000.0
+    signals = {
+        ("thx", Tap.CMD): 6e-4 + 2e-4 * np.sin(2 * np.pi * 3.0 * time_s),
+        ("x", Tap.CMD): np.full(1000, rest_m),
+    }
+    record = Record.from_signals(time_s, signals, {"thx": "rad", "x": "m"}, {"history": "periodic"})
+    answer = nominal_response(robot, record).signal("thx", Tap.REF)
+    assert np.ptp(answer) > 3e-4
