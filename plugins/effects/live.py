@@ -102,9 +102,14 @@ class LiveEffects(QObject):
             self.replaced.emit(now)
 
     def _was_done(self, state: SessionState) -> bool:
-        """Whether the worker took the command and has done whole cycles since."""
+        """Whether the worker took the command and has done whole cycles since.
+
+        Cycles are told by the device's time, which stands still in a fault.
+        """
         if state.queued:
             return False
+        if state.fault is not None:
+            return bool(self._told) or self._clock.elapsed() >= LONG_MS
         if state.device_time_s not in self._cycles:
             self._cycles.append(state.device_time_s)
         return len(self._cycles) > _CYCLES

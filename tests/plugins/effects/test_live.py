@@ -1,6 +1,6 @@
 """Effects on their way to a session that takes its time, forgets, or refuses."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import pytest
 from PySide6.QtCore import QObject
@@ -119,6 +119,17 @@ def test_what_the_worker_refuses_is_not_sent_again(qtbot, live, session):
     cycles(live, 1.0, 2.0, 3.0)
     assert (live.standing, live.reason) == (Standing.REFUSED, "unstable")
     assert session.asked == [FIRST]
+
+
+def test_a_refusal_in_a_fault_ends_the_waiting_though_device_time_stands_still(
+    qtbot, live, session
+):
+    send(qtbot, live, session, FIRST)
+    session.tell(CommandRefused("width = 1"))
+    live.refresh(replace(state(1.0), fault="it diverged"))
+    assert live.standing is Standing.REFUSED
+    send(qtbot, live, session, SECOND)
+    assert session.asked == [FIRST, SECOND]
 
 
 def test_what_the_session_refuses_at_once_is_told(qtbot, live, session):
