@@ -116,6 +116,8 @@ def _report_lines(report: Report, *, verbose: bool) -> Iterable[str]:
     passed = sum(check.passed is True for check in report.checks)
     failed = len(report.failures)
     verdict = "passed" if report.passed else "FAILED"
+    if report.passed and not report.simulated:
+        verdict = "NOT TRIED: it fits no axis of this robot"
     counts = f"{passed} checks passed" + (f", {failed} failed" if failed else "")
     yield f"{report.effect_id:24}{verdict}  {counts}"
     for check in report.checks if verbose else report.failures:

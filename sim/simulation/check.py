@@ -43,6 +43,11 @@ class Report:
         return not self.failures and any(check.passed for check in self.checks)
 
     @property
+    def simulated(self) -> bool:
+        """Whether any formulation found an axis to be simulated on."""
+        return any(check.place and check.passed is not None for check in self.checks)
+
+    @property
     def failures(self) -> tuple[Check, ...]:
         """The checks that failed."""
         return tuple(check for check in self.checks if check.passed is False)

@@ -120,3 +120,11 @@ def test_bad_input_is_one_line_and_status_2(arguments, capsys):
     assert captured.out == ""
     assert len(captured.err.splitlines()) == 1
     assert arguments[-1] in captured.err
+
+
+def test_what_fits_no_axis_is_not_said_to_have_passed(capsys):
+    assert main(["effect", "check", "hysteresis", "--robot", "emps"]) == 0
+    said = capsys.readouterr().out
+    assert "NOT TRIED: it fits no axis" in said
+    assert main(["effect", "check", "delay", "--robot", "emps"]) == 0
+    assert "NOT TRIED" not in capsys.readouterr().out
