@@ -41,6 +41,11 @@ def late(x, other, t, h, a, b, p, s):
     return s[0]
 
 
+def wild(x, other, t, h, a, b, p, s):
+    for i in range(100000):
+        s[i] = x
+    return x
+
 def far(x, other, t, h, a, b, p, s):
     s[1] = x
     return x + p[0] * s[1]
@@ -116,6 +121,7 @@ NOT_RANDOM = effect(Reading(step=bent, random=True), Trait.RANDOM)
 UNSAID_CHANCE = effect(Reading(step=chance, random=True))
 BIASED = effect(Reading(step=biased, random=True), Trait.RANDOM)
 IMPURE = effect(Reading(step=dice))
+WILD = effect(Reading(step=wild, states=1))
 OVERRUN = effect(Reading(step=far, states=1))
 DEEP = effect(Reading(step=deep))
 NAN = effect(Reading(step=divided), parameters=(POSITIVE,))
@@ -148,6 +154,7 @@ FAULTS = [
     ("OVERRUN", "leaves other memory alone"),
     ("OVERRUN", "stays within its memory"),
     ("DEEP", "stays within its memory"),
+    ("WILD", "stays within its memory"),
     ("NAN", "stays finite at presets and bounds"),
     ("FORGETS", "reads without forgetting"),
     ("RESTLESS", "starts at rest"),
