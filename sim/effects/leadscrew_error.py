@@ -1,8 +1,5 @@
 """Error of the lead screw: the table runs ahead and behind once a turn."""
 
-import numpy as np
-
-from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import (
     Effect,
     Formulation,
@@ -10,32 +7,8 @@ from rotemina.sim.effects.formulation import (
     Parameter,
     Stage,
     Trait,
-    Values,
 )
-
-
-def periodic(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
-    """Add two harmonics of the position.
-
-    p: 2π/period, middle of the range, then sine and cosine amplitude of each. Of the second
-    harmonic, ``sin 2α = 2 sin α cos α`` and ``cos 2α = 1 − 2 sin² α``.
-    """
-    angle = p[0] * (x - p[1])
-    sine, cosine = np.sin(angle), np.cos(angle)
-    second = 2.0 * p[4] * sine * cosine + p[5] * (1.0 - 2.0 * sine * sine)
-    return x + p[2] * sine + p[3] * cosine + second
-
-
-def _numbers(values: Values, facts: Facts) -> tuple[float, ...]:
-    """Count from the middle of the range: there a slightly wrong period does least harm."""
-    return (
-        2.0 * np.pi / values["period"],
-        0.5 * (facts.low + facts.high),
-        values["sine"],
-        values["cosine"],
-        values["sine_2"],
-        values["cosine_2"],
-    )
+from rotemina.sim.effects.harmonics import from_mid_range, two_harmonics
 
 
 def _amplitude(name: str, meaning: str, typical: float) -> Parameter:
@@ -60,8 +33,8 @@ LEADSCREW_ERROR = Effect(
                 _amplitude("sine_2", "s₂, twice a period", 0.0),
                 _amplitude("cosine_2", "c₂, twice a period", 0.0),
             ),
-            acts=Motion(step=periodic),
-            prepare=_numbers,
+            acts=Motion(step=two_harmonics),
+            prepare=from_mid_range,
             traits=frozenset({Trait.MEMORYLESS, Trait.RATE_INDEPENDENT}),
         ),
     ),

@@ -1,8 +1,5 @@
 """Microsteps of unequal length: an error that repeats every four full steps of the command."""
 
-import numpy as np
-
-from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import (
     Drive,
     Effect,
@@ -10,32 +7,8 @@ from rotemina.sim.effects.formulation import (
     Parameter,
     Stage,
     Trait,
-    Values,
 )
-
-
-def periodic(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
-    """Add two harmonics of the commanded position.
-
-    p: 2π/period, middle of the range, then sine and cosine amplitude of each. Of the second
-    harmonic, ``sin 2α = 2 sin α cos α`` and ``cos 2α = 1 − 2 sin² α``.
-    """
-    angle = p[0] * (x - p[1])
-    sine, cosine = np.sin(angle), np.cos(angle)
-    second = 2.0 * p[4] * sine * cosine + p[5] * (1.0 - 2.0 * sine * sine)
-    return x + p[2] * sine + p[3] * cosine + second
-
-
-def _numbers(values: Values, facts: Facts) -> tuple[float, ...]:
-    """Count from the middle of the range: there a slightly wrong period does least harm."""
-    return (
-        2.0 * np.pi / values["period"],
-        0.5 * (facts.low + facts.high),
-        values["sine"],
-        values["cosine"],
-        values["sine_2"],
-        values["cosine_2"],
-    )
+from rotemina.sim.effects.harmonics import from_mid_range, two_harmonics
 
 
 def _amplitude(name: str, meaning: str, typical: float) -> Parameter:
@@ -61,8 +34,8 @@ MICROSTEP_ERROR = Effect(
                 _amplitude("sine_2", "s₂, twice a period", 0.02),
                 _amplitude("cosine_2", "c₂, twice a period", 0.0),
             ),
-            acts=Drive(step=periodic),
-            prepare=_numbers,
+            acts=Drive(step=two_harmonics),
+            prepare=from_mid_range,
             traits=frozenset({Trait.MEMORYLESS, Trait.RATE_INDEPENDENT}),
         ),
     ),

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rotemina.sim.effects.attachment import Attached
-from rotemina.sim.effects.leadscrew_error import periodic
+from rotemina.sim.effects.harmonics import two_harmonics
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -76,5 +76,5 @@ def test_plain_python_says_the_same_as_compiled():
     attached = Attached.of(ROBOT, effect)
     numbers = list(attached.formulation.numbers(attached.values, attached.facts))
     q, error = added(np.linspace(0.01, 0.013, 500), sine_2=1e-6)
-    plain = [periodic(x, 0.0, 0.0, 0.0, 0.0, 0.0, numbers, []) - x for x in q]
+    plain = [two_harmonics(x, 0.0, 0.0, 0.0, 0.0, 0.0, numbers, []) - x for x in q]
     np.testing.assert_allclose(plain, error, atol=1e-16)
