@@ -1,0 +1,217 @@
+"""What a diagnosis says: where the gap lies, which effects cause it, how far it shrinks.
+
+These are facts alone. :mod:`~rotemina.sim.gap.document` writes them down as JSON.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from rotemina.sim.gap.where import Place
+from rotemina.sim.records.record import Tap
+from rotemina.sim.robot.model import AxisEffect, Robot
+
+UNKNOWN = "unknown"  # in place of an effect's id, for a gap that no effect explains
+
+Interval = tuple[float, float]
+
+
+class Verdict(StrEnum):
+    """What can be said of an axis, or of a robot."""
+
+    NONE = "none"
+    EXPLAINED = "explained"
+    UNKNOWN = "unknown"
+    INSUFFICIENT = "insufficient_excitation"
+
+
+@dataclass(frozen=True, slots=True)
+class FittedParameter:
+    """One number of a cause.
+
+    ``value`` and ``interval`` (95 %, None where the data do not bound it) in ``unit``, SI;
+    ``at_bound`` is "low" or "high" where the fit ended at the parameter's bound.
+    """
+
+    name: str
+    value: float
+    unit: str
+    interval: Interval | None = None
+    at_bound: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Cause:
+    """An effect that the model lacks, or :data:`UNKNOWN`.
+
+    Attributes
+    ----------
+    axis, effect, formulation, stage, tap, from_axis
+        ``formulation`` and ``stage`` are None for :data:`UNKNOWN`. The tap is where the effect
+        shows first, of those that were measured.
+    probability : float
+    ambiguous_with : tuple of str
+        Other effects of the same axis that the data cannot tell from it, likeliest first.
+    gap_before, gap_after : float
+        Rms at the tap, SI, on data that the fit did not see, with all other causes in: without and
+        with this one.
+    closed : float, optional
+        ``1 − (after² − floor²)/(before² − floor²)``, within 0 and 1; None where there is no gap
+        to close.
+    closed_interval : tuple of float, optional
+    parameters : tuple of FittedParameter
+    """
+
+    axis: str
+    effect: str
+    formulation: str | None
+    stage: str | None
+    tap: Tap
+    from_axis: str | None
+    probability: float
+    ambiguous_with: tuple[str, ...]
+    gap_before: float
+    gap_after: float
+    closed: float | None
+    closed_interval: Interval | None
+    parameters: tuple[FittedParameter, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class ShrinkageStep:
+    """What is left at a tap once this effect and those before it are in, and its Shapley share."""
+
+    effect: str
+    axis: str
+    rms: float
+    shapley: float
+
+
+@dataclass(frozen=True, slots=True)
+class Shrinkage:
+    """How far the gap of an axis at a tap shrinks; all rms, SI, on data that no fit saw.
+
+    Attributes
+    ----------
+    axis, tap
+    raw, retuned, corrected : float
+        With the model as it was, with its own parameters fitted, with all causes in.
+    floor, ceiling : float
+        What noise leaves, and what a black-box model leaves (None where none could be made).
+    closed : float, optional
+    closed_interval : tuple of float, optional
+    steps : tuple of ShrinkageStep
+    """
+
+    axis: str
+    tap: Tap
+    raw: float
+    retuned: float
+    corrected: float
+    floor: float
+    ceiling: float | None
+    closed: float | None
+    closed_interval: Interval | None
+    steps: tuple[ShrinkageStep, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Ranked:
+    """An effect that was tried in place of the leading cause, likeliest first.
+
+    ``held_out_rms`` is in floors, on data that its fit did not see, with its interval.
+    """
+
+    effect: str
+    formulation: str | None
+    from_axis: str | None
+    probability: float
+    held_out_rms: float
+    held_out_interval: Interval
+
+
+@dataclass(frozen=True, slots=True)
+class Untestable:
+    """An effect that the records cannot speak of, and why."""
+
+    effect: str
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class AxisDiagnosis:
+    """Everything said of one axis."""
+
+    axis: str
+    verdict: Verdict
+    places: tuple[Place, ...]
+    causes: tuple[Cause, ...] = ()
+    shrinkage: tuple[Shrinkage, ...] = ()
+    ranking: tuple[Ranked, ...] = ()
+    untestable: tuple[Untestable, ...] = ()
+    remarks: tuple[str, ...] = ()  # whole sentences: on what a remainder depends, what was masked
+    fitted: tuple[AxisEffect, ...] = ()  # what corrects the model, re-tuned parameters included
+
+
+@dataclass(frozen=True, slots=True)
+class Experiment:
+    """An excitation that would tell rivals apart.
+
+    Attributes
+    ----------
+    axis : str
+    splits : tuple of str
+        The rivals' ids.
+    why : str
+        One sentence.
+    time_s : tuple of float
+    commands : mapping axis -> tuple of float
+        SI, of the same length as ``time_s``.
+    predictions : mapping effect -> tuple of float
+        What each rival says of the axis' reading, SI.
+    """
+
+    axis: str
+    splits: tuple[str, ...]
+    why: str
+    time_s: tuple[float, ...]
+    commands: Mapping[str, tuple[float, ...]]
+    predictions: Mapping[str, tuple[float, ...]]
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnosis:
+    """The whole answer.
+
+    ``robot`` is the model that was examined, without what the diagnosis adds to it.
+    """
+
+    robot: Robot
+    axes: Mapping[str, AxisDiagnosis]
+    experiments: tuple[Experiment, ...] = field(default=())
+    seed: int = 0
+
+    @property
+    def verdict(self) -> Verdict:
+        """The verdict on the robot: explained only if no axis is open."""
+        verdicts = {one.verdict for one in self.axes.values()}
+        for verdict in (Verdict.UNKNOWN, Verdict.INSUFFICIENT, Verdict.EXPLAINED):
+            if verdict in verdicts:
+                return verdict
+        return Verdict.NONE
+
+    @property
+    def places(self) -> tuple[Place, ...]:
+        """Axes and taps whose gap is above the floor beyond doubt, largest first."""
+        found = [place for one in self.axes.values() for place in one.places if place.significant]
+        return tuple(sorted(found, key=lambda place: -place.excess))
+
+    @property
+    def causes(self) -> tuple[Cause, ...]:
+        """All causes, in the order of what each closes, in floors of its tap."""
+        return tuple(cause for one in self.axes.values() for cause in one.causes)
+
+    @property
+    def fitted(self) -> tuple[AxisEffect, ...]:
+        """The effects that make the model the corrected one."""
+        return tuple(effect for one in self.axes.values() for effect in one.fitted)
