@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from rotemina.app.cli.options import add_columns, add_robot, robot_of
-from rotemina.sim.effects.attachment import Attached, attached_effects
+from rotemina.sim.effects.attachment import attached_effects
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.errors import InputError
 from rotemina.sim.plant.assembly import assemble
@@ -143,14 +143,8 @@ def _metadata(options: argparse.Namespace, robot: Robot, commands: Record) -> di
     }
     acting = assemble(robot, commands.axes).effects
     for number, one in enumerate(acting, start=1):
-        said[f"effect {number}"] = _described(one)
+        said[f"effect {number}"] = str(one)
     return kept | {f"{_PREFIX}{key}": value for key, value in said.items()}
-
-
-def _described(one: Attached) -> str:
-    source = f" from {one.asked.from_axis}" if one.asked.from_axis is not None else ""
-    values = "".join(f"; {name} = {value!r}" for name, value in one.values.items())
-    return f"{one.asked.id} on {one.asked.axis}{source}; {one.formulation.name}{values}"
 
 
 def _units(robot: Robot, commands: Record) -> dict[str, str]:

@@ -68,6 +68,11 @@ class Attached:
             for p in self.formulation.parameters
         }
 
+    def __str__(self) -> str:
+        source = f" from {self.asked.from_axis}" if self.asked.from_axis is not None else ""
+        values = "".join(f"; {name} = {value!r}" for name, value in self.values.items())
+        return f"{self.asked.id} on {self.asked.axis}{source}; {self.formulation.name}{values}"
+
 
 def attached_effects(robot: Robot) -> tuple[Attached, ...]:
     """Return the enabled effects of a robot, in its order.

@@ -3,7 +3,6 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy.signal import welch
 
 from rotemina.sim.arrays import FloatArray
 
@@ -30,6 +29,8 @@ def spectrum(time_s: FloatArray, gap: FloatArray) -> Spectrum | None:
 
     The floor is taken as white.
     """
+    from scipy.signal import welch  # takes its time to import
+
     intervals = np.diff(time_s)
     if len(intervals) < 8 * _SEGMENTS or np.ptp(intervals) > _EVEN * float(intervals.mean()):
         return None

@@ -1,0 +1,106 @@
+"""``rotemina gap``: the diagnosis of the gap between model and machine, and what follows from it.
+
+``diagnose`` finds causes, ``predict`` asks the corrected model, ``twin`` writes it as a robot file.
+"""
+
+import argparse
+from pathlib import Path
+
+from rotemina.app.cli import gap_diagnose
+from rotemina.app.cli.options import add_columns
+from rotemina.sim.errors import InputError
+from rotemina.sim.gap.prediction import predict
+from rotemina.sim.gap.reading import read_document
+from rotemina.sim.gap.twin import twin_text, write_twin
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.records.writing import write_record
+
+
+def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Add the subcommand with its own subcommands."""
+    parser = commands.add_parser(
+        "gap",
+        help="diagnose the gap between model and machine, predict, correct the model",
+        description="Diagnose the gap between the model and records of the real machine.",
+    )
+    parser.set_defaults(run=_nothing)
+    verbs = parser.add_subparsers(title="subcommands", metavar="")
+    gap_diagnose.add_parser(verbs)
+    _add_predict(verbs)
+    _add_twin(verbs)
+
+
+def _nothing(_options: argparse.Namespace) -> int:
+    raise InputError("gap: name what to do: diagnose, predict or twin (--help tells more)")
+
+
+def _add_predict(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    parser = verbs.add_parser(
+        "predict",
+        help="the corrected model's answer to new commands",
+        description="Drive the corrected model of a diagnosis by the commands of a trajectory or "
+        "record, and write the record that it expects: without noise, rounding and chance.",
+    )
+    parser.add_argument("document", type=Path, metavar="OUT.json", help="of 'gap diagnose --json'")
+    parser.add_argument("commands", type=Path, metavar="COMMANDS", help="a trajectory or record")
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="RECORD",
+        help="where the record goes (default: COMMANDS-predicted.csv in this folder)",
+    )
+    add_columns(parser)
+    parser.set_defaults(run=run_predict)
+
+
+def _add_twin(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    parser = verbs.add_parser(
+        "twin",
+        help="write a robot file with the fitted effects",
+        description="Write the robot that was diagnosed with the fitted effects behind those that "
+        "it had, as a robot file that --robot of every command takes.",
+    )
+    parser.add_argument("document", type=Path, metavar="OUT.json", help="of 'gap diagnose --json'")
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="ROBOT")
+    parser.add_argument(
+        "--robot",
+        dest="base",
+        metavar="NAME_OR_FILE",
+        help="keep the text of this robot file, comments too; it must be the robot that was "
+        "diagnosed (default: the shipped robot, if it is the same, else a new text)",
+    )
+    parser.set_defaults(run=run_twin)
+
+
+def run_predict(options: argparse.Namespace) -> int:
+    """Predict and write the record."""
+    document = read_document(options.document)
+    robot = document.corrected
+    commands = read_record(options.commands, columns=options.columns, robot=robot)
+    output = options.output or _free_name(options.commands)
+    for source in (options.document, options.commands):
+        if output.exists() and output.samefile(source):
+            raise InputError(f"{output}: it is named twice; give each file a name of its own")
+    record = predict(robot, commands)
+    write_record(record, output)
+    print(f"{output}: {len(record.time_s)} rows, {record.duration_s:.6g} s")
+    return 0
+
+
+def run_twin(options: argparse.Namespace) -> int:
+    """Write the robot file."""
+    document = read_document(options.document)
+    write_twin(twin_text(document.robot, document.effects, options.base), options.output)
+    named = ", ".join(f"{effect.id} on {effect.axis}" for effect in document.effects)
+    print(f"{options.output}: {document.robot.name} with {named or 'no further effects'}")
+    return 0
+
+
+def _free_name(commands: Path) -> Path:
+    """Name the record after the commands; what is there already is not overwritten unasked."""
+    stem = commands.name.removesuffix(".gz").rsplit(".", 1)[0]
+    output = Path(f"{stem}-predicted.csv")
+    if output.exists():
+        raise InputError(f"{output}: it exists already; name the record by -o")
+    return output

@@ -1,0 +1,124 @@
+"""``rotemina gap diagnose``: where the gap lies, which effects cause it, how far it shrinks."""
+
+import argparse
+import sys
+from collections.abc import Iterable, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from rotemina.app.cli.options import add_columns, add_robot, robot_of
+from rotemina.app.cli.progress import ProgressLine
+from rotemina.app.cli.workers import add_workers, workers
+from rotemina.app.files import json_text
+from rotemina.sim.errors import InputError
+from rotemina.sim.gap.diagnosis import Diagnosis
+from rotemina.sim.gap.document import as_json
+from rotemina.sim.gap.suggestion import Suggestion, may_be_suggested, suggestion
+from rotemina.sim.gap.summary import summary
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.records.record import Record
+from rotemina.sim.records.writing import write_record
+from rotemina.sim.robot.model import Robot
+from rotemina.sim.whole_files import replaced
+
+
+def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Add the subcommand."""
+    parser = verbs.add_parser(
+        "diagnose",
+        help="say where model and machine part, which effects cause it, how far it shrinks",
+        description="Compare the model with records of the real machine, name the effects that "
+        "the model lacks, and prove it on data that the fit never saw. Several records of one "
+        "robot are diagnosed together; they may differ in rate, length, axes and taps.",
+    )
+    parser.add_argument("records", type=Path, nargs="+", metavar="RECORD")
+    add_robot(parser)
+    add_columns(parser)
+    parser.add_argument(
+        "--json",
+        metavar="OUT",
+        help="write the diagnosis as JSON, with suggested experiments beside it ('-' prints it)",
+    )
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of chance (default: 0)")
+    add_workers(parser)
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Diagnose, print a summary, and write what was asked for."""
+    if options.seed < 0:
+        raise InputError(f"--seed {options.seed}: must be 0 or more")
+    document = Path(options.json) if options.json not in (None, "-") else None
+    _check_files(options, document)
+    robot = robot_of(options)
+    records = [read_record(path, columns=options.columns, robot=robot) for path in options.records]
+    with workers(options.jobs, options.cluster) as jobs, ProgressLine(sys.stderr) as listener:
+        diagnosis = diagnose(robot, records, seed=options.seed, jobs=jobs, listener=listener)
+    suggestions = [] if document is None else _suggestions(diagnosis, records, document)
+    text = json_text(as_json(diagnosis, [each.names for each in suggestions]))
+    # All files appear together or none: a failure at one leaves the others' places alone.
+    with ExitStack() as files:
+        if document is not None:
+            files.enter_context(replaced(document)).write(text.encode("utf-8"))
+        for each in suggestions:
+            for name, record in each.records.items():
+                file = files.enter_context(replaced(document.with_name(name)))
+                file.write(_file_of(record))
+    print(text if options.json == "-" else summary(diagnosis))
+    if options.json == "-" and diagnosis.experiments:
+        print(
+            "rotemina: suggested experiments are written beside a JSON file; name one by --json",
+            file=sys.stderr,
+        )
+    return 0
+
+
+def _suggestions(
+    diagnosis: Diagnosis, records: Iterable[Record], document: Path
+) -> list[Suggestion]:
+    units = {name: unit for record in records for name, unit in record.units.items()}
+    units |= {name: unit for name in diagnosis.robot.axes if (unit := diagnosis.robot.unit(name))}
+    return [
+        suggestion(one, number, document.stem, units)
+        for number, one in enumerate(diagnosis.experiments, start=1)
+    ]
+
+
+def _file_of(record: Record) -> bytes:
+    """Return the bytes of a record file."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "record.csv"
+        write_record(record, path)
+        return path.read_bytes()
+
+
+def _check_files(options: argparse.Namespace, document: Path | None) -> None:
+    """Refuse an output that would take the place of an input or of another output."""
+    sources = [*options.records, *([Path(options.robot)] if Path(options.robot).is_file() else [])]
+    if document is None:
+        return
+    for source in sources:
+        if _is_same(document, source):
+            raise InputError(f"{document}: it is named twice; give each file a name of its own")
+        beside = _is_same(document.parent, source.parent)
+        if beside and may_be_suggested(source.name, document.stem):
+            raise InputError(
+                f"{source}: a suggested experiment of {document} would take its place; "
+                "name another file by --json"
+            )
+
+
+def _is_same(one: Path, other: Path) -> bool:
+    if one.absolute() == other.absolute():
+        return True
+    return one.exists() and other.exists() and one.samefile(other)
+
+
+def diagnose(
+    robot: Robot, records: Sequence[Record], *, seed: int, jobs: int, listener: ProgressLine
+) -> Diagnosis:
+    """Load the diagnosis, which takes its time, and run it."""
+    from rotemina.sim.gap import method
+
+    return method.diagnose(robot, records, seed=seed, jobs=jobs, listener=listener)

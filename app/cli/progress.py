@@ -1,0 +1,74 @@
+"""Progress of long work on stderr: one line that is rewritten, or a line every few seconds."""
+
+import shutil
+import time
+from collections.abc import Callable
+from types import TracebackType
+from typing import Self, TextIO
+
+from rotemina.sim.gap.progress import Progress
+
+_BETWEEN_REWRITES_S = 0.1
+_BETWEEN_LINES_S = 5.0
+_FIRST_GUESS_S = 1.0  # before which nothing is said of the time left
+_FIRST_GUESS_SHARE = 0.02
+_TO_LINE_END = "\x1b[K"
+
+
+class ProgressLine:
+    """A listener that tells stage, axis, candidate and the time left.
+
+    On a terminal it rewrites one line and ends it when its context ends; elsewhere it writes a
+    line every few seconds, so that a log stays short.
+    """
+
+    def __init__(self, stream: TextIO, clock: Callable[[], float] = time.monotonic) -> None:
+        self._stream = stream
+        self._clock = clock
+        self._terminal = stream.isatty()
+        self._begin_s = clock()
+        self._last_s = self._begin_s
+        self._open = False
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if self._open:
+            print(file=self._stream, flush=True)
+            self._open = False
+
+    def __call__(self, progress: Progress) -> None:
+        """Tell how far it has come, unless that was just done."""
+        now_s = self._clock()
+        pause_s = _BETWEEN_REWRITES_S if self._terminal else _BETWEEN_LINES_S
+        begun = self._open or not self._terminal
+        if begun and now_s - self._last_s < pause_s:
+            return
+        self._last_s = now_s
+        text = self._text(progress, now_s - self._begin_s)
+        if self._terminal:
+            width = shutil.get_terminal_size().columns
+            print(f"\r{text[: width - 1]}{_TO_LINE_END}", end="", file=self._stream, flush=True)
+            self._open = True
+        else:
+            print(text, file=self._stream, flush=True)
+
+    def _text(self, progress: Progress, elapsed_s: float) -> str:
+        what = " ".join(part for part in (progress.axis, progress.candidate) if part)
+        text = f"{progress.stage} {what}".rstrip() + f", {100.0 * progress.share:.0f} %"
+        if elapsed_s >= _FIRST_GUESS_S and progress.share >= _FIRST_GUESS_SHARE:
+            left_s = elapsed_s * (1.0 / progress.share - 1.0)
+            text += f", about {_duration(left_s)} left"
+        return text
+
+
+def _duration(seconds: float) -> str:
+    if seconds < 90.0:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60.0:.0f} min" if seconds < 5400.0 else f"{seconds / 3600.0:.1f} h"

@@ -1,0 +1,58 @@
+"""Where parallel work runs: on this machine's cores, or on a Dask cluster."""
+
+import argparse
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from rotemina.sim.errors import InputError
+
+_CONNECTING_S = 10
+
+
+def add_workers(parser: argparse.ArgumentParser) -> None:
+    """Add ``--jobs`` and ``--cluster``."""
+    parser.add_argument(
+        "--jobs",
+        type=int,
+        metavar="N",
+        help="how many processes work at once (default: one for each usable core)",
+    )
+    parser.add_argument(
+        "--cluster",
+        metavar="ADDRESS",
+        help="let a Dask cluster work, such as tcp://host:8786 (needs the extra 'dask')",
+    )
+
+
+@contextmanager
+def workers(jobs: int | None, cluster: str | None) -> Iterator[int]:
+    """Make ready for parallel work and tell how many jobs to ask joblib for.
+
+    Raises
+    ------
+    InputError
+        If ``jobs`` is not positive, or the cluster cannot be used.
+    """
+    if jobs is not None and jobs < 1:
+        raise InputError(f"--jobs {jobs}: must be 1 or more")
+    import joblib  # takes its time to import
+
+    if cluster is None:
+        yield jobs or joblib.cpu_count()
+        return
+    try:
+        from distributed import Client
+    except ImportError as error:
+        raise InputError(
+            f"--cluster {cluster}: Dask is not installed; install it by "
+            "pip install 'rotemina[dask]', here and on the cluster's machines"
+        ) from error
+    try:
+        client = Client(cluster, timeout=_CONNECTING_S)
+    except (OSError, ValueError) as error:
+        raise InputError(
+            f"--cluster {cluster}: it cannot be reached ({error}); name the address of a running "
+            "Dask scheduler"
+        ) from error
+    with client, joblib.parallel_config(backend="dask"):
+        yield jobs or max(sum(client.ncores().values()), 1)

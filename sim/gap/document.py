@@ -1,0 +1,221 @@
+"""A diagnosis as a JSON document, ``rotemina-diagnosis 1``.
+
+SI units, null for what is no finite number. ``model`` holds the robot as the text of a robot file
+and the fitted effects, so that who reads it needs no other file.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import isfinite
+from typing import Any
+
+from rotemina.sim.effects.attachment import Attached
+from rotemina.sim.gap.diagnosis import (
+    AxisDiagnosis,
+    Cause,
+    Diagnosis,
+    Experiment,
+    Interval,
+    Ranked,
+    Shrinkage,
+)
+from rotemina.sim.gap.where import Place
+from rotemina.sim.records.record import Tap
+from rotemina.sim.robot.writing import robot_text
+
+FORMAT = "rotemina-diagnosis 1"
+
+Json = dict[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class ExperimentFiles:
+    """Names of the files of one suggested experiment: its commands, and what rivals predict."""
+
+    commands: str
+    predictions: Mapping[str, str]
+
+
+def as_json(diagnosis: Diagnosis, files: Sequence[ExperimentFiles] = ()) -> Json:
+    """Return the JSON object of a diagnosis.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+    files : sequence of ExperimentFiles
+        One for each suggested experiment; without, their ``commands`` are null.
+
+    Raises
+    ------
+    RobotFileError, EffectError
+        If the robot or an effect cannot be written down.
+    """
+    axes = diagnosis.axes
+    named: Sequence[ExperimentFiles | None] = files or [None] * len(diagnosis.experiments)
+    suggested = zip(diagnosis.experiments, named, strict=True)
+    return {
+        "format": FORMAT,
+        "verdict": str(diagnosis.verdict),
+        "axes": {name: str(one.verdict) for name, one in axes.items()},
+        "where": _where(diagnosis.places),
+        "causes": [_cause(cause) for cause in ordered_causes(diagnosis)],
+        "shrinkage": [_shrinkage(each) for one in axes.values() for each in one.shrinkage],
+        "candidates": {name: _candidates(one) for name, one in axes.items()},
+        "next_experiments": [_experiment(one, names) for one, names in suggested],
+        "model": _model(diagnosis),
+        "untestable": {
+            name: [{"effect": each.effect, "reason": each.reason} for each in one.untestable]
+            for name, one in axes.items()
+        },
+        "remarks": {name: list(one.remarks) for name, one in axes.items()},
+        "seed": diagnosis.seed,
+    }
+
+
+def ordered_causes(diagnosis: Diagnosis) -> tuple[Cause, ...]:
+    """Return all causes in the order of what each closes, in floors of its tap squared."""
+
+    def closes(cause: Cause) -> float:
+        floor = floor_at(diagnosis.axes[cause.axis], cause.tap)
+        gain = cause.gap_before**2 - cause.gap_after**2
+        return gain / floor**2 if floor and isfinite(gain) else 0.0
+
+    return tuple(sorted(diagnosis.causes, key=lambda cause: -closes(cause)))
+
+
+def floor_at(axis: AxisDiagnosis, tap: Tap | None = None) -> float | None:
+    """Return the noise floor of an axis at a tap, SI, by default at its last; None if unknown."""
+    found = [place.noise_floor for place in axis.places if tap in (None, place.tap)]
+    return found[-1] if found else None
+
+
+def shares(places: Sequence[Place]) -> list[tuple[float, Interval]]:
+    """Return the share of each place in the gap above the floors of all, with its interval.
+
+    The shares sum to 1. An end of an interval is what the share would be with the excess of this
+    place at that end of its own interval, and those of the others as they are.
+    """
+    total = sum(place.excess for place in places)
+    found = []
+    for place in places:
+        others = total - place.excess
+        low, high = (end / (end + others) for end in place.excess_interval)
+        found.append((place.excess / total, (low, high)))
+    return found
+
+
+def _where(places: Sequence[Place]) -> list[Json]:
+    return [
+        {
+            "axis": place.axis,
+            "tap": str(place.tap),
+            "stage": str(place.stage),
+            "gap_rms": _number(place.gap_rms),
+            "noise_floor": _number(place.noise_floor),
+            "share": _number(share),
+            "share_interval": _interval(interval),
+            "worst_band_hz": _interval(place.worst_band_hz),
+            "worst_regime": str(place.worst_regime) if place.worst_regime is not None else None,
+            "excess": _number(place.excess),
+            "excess_interval": _interval(place.excess_interval),
+            "by_regime": {str(regime): _number(x) for regime, x in place.by_regime.items()},
+        }
+        for place, (share, interval) in zip(places, shares(places), strict=True)
+    ]
+
+
+def _cause(cause: Cause) -> Json:
+    return {
+        "axis": cause.axis,
+        "effect": cause.effect,
+        "stage": cause.stage,
+        "tap": str(cause.tap),
+        "from_axis": cause.from_axis,
+        "probability": _number(cause.probability),
+        "ambiguous_with": list(cause.ambiguous_with),
+        "gap_before": _number(cause.gap_before),
+        "gap_after": _number(cause.gap_after),
+        "closed": _number(cause.closed),
+        "closed_interval": _interval(cause.closed_interval),
+        "parameters": {one.name: _number(one.value) for one in cause.parameters},
+        "units": {one.name: one.unit for one in cause.parameters},
+        "formulation": cause.formulation,
+        "parameter_intervals": {one.name: _interval(one.interval) for one in cause.parameters},
+        "at_bound": {one.name: one.at_bound for one in cause.parameters if one.at_bound},
+    }
+
+
+def _shrinkage(shrinkage: Shrinkage) -> Json:
+    steps = [
+        {
+            "effect": step.effect,
+            "rms": _number(step.rms),
+            "shapley": _number(step.shapley),
+            "axis": step.axis,
+        }
+        for step in shrinkage.steps
+    ]
+    return {
+        "axis": shrinkage.axis,
+        "tap": str(shrinkage.tap),
+        **{
+            name: _number(getattr(shrinkage, name))
+            for name in ("raw", "retuned", "corrected", "floor", "ceiling", "closed")
+        },
+        "closed_interval": _interval(shrinkage.closed_interval),
+        "steps": steps,
+    }
+
+
+def _candidates(axis: AxisDiagnosis) -> list[Json]:
+    floor = floor_at(axis)
+
+    def in_si(one: Ranked) -> Json:
+        low, high = one.held_out_interval
+        return {
+            "effect": one.effect,
+            "probability": _number(one.probability),
+            "held_out_rms": _number(one.held_out_rms * floor) if floor else None,
+            "held_out_interval": _interval((low * floor, high * floor)) if floor else None,
+            "from_axis": one.from_axis,
+            "formulation": one.formulation,
+        }
+
+    return [in_si(one) for one in axis.ranking]
+
+
+def _experiment(experiment: Experiment, files: ExperimentFiles | None) -> Json:
+    return {
+        "axis": experiment.axis,
+        "splits": list(experiment.splits),
+        "why": experiment.why,
+        "commands": files.commands if files is not None else None,
+        "predictions": dict(files.predictions) if files is not None else {},
+    }
+
+
+def _model(diagnosis: Diagnosis) -> Json:
+    for effect in diagnosis.fitted:
+        Attached.of(diagnosis.robot, effect)
+    return {
+        "robot": robot_text(diagnosis.robot),
+        "effects": [
+            {
+                "axis": effect.axis,
+                "effect": effect.id,
+                "formulation": effect.formulation,
+                "from_axis": effect.from_axis,
+                "parameters": {name: float(x) for name, x in effect.parameters.items()},
+            }
+            for effect in diagnosis.fitted
+            if effect.enabled
+        ],
+    }
+
+
+def _number(value: float | None) -> float | None:
+    return float(value) if value is not None and isfinite(value) else None
+
+
+def _interval(interval: Interval | None) -> list[float | None] | None:
+    return None if interval is None else [_number(end) for end in interval]
