@@ -76,3 +76,148 @@ def make_robot_window(qtbot, settings, tmp_path):
 def window(make_robot_window):
     """The operator's window on the simulated RoTeMiNa, connected and idle."""
     return make_robot_window()
+
+
+@pytest.fixture
+def made_diagnosis():
+    """A diagnosis made by hand: hysteresis on thx, something unknown on y, nothing on zn."""
+    import numpy as np
+
+    from rotemina.sim.effects.formulation import Stage
+    from rotemina.sim.gap.diagnosis import (
+        AxisDiagnosis,
+        Cause,
+        Diagnosis,
+        Experiment,
+        FittedParameter,
+        Ranked,
+        Shrinkage,
+        ShrinkageStep,
+        Untestable,
+        Verdict,
+    )
+    from rotemina.sim.gap.regimes import Regime
+    from rotemina.sim.gap.where import Place
+    from rotemina.sim.records.record import Tap
+    from rotemina.sim.robot.file import load_robot
+    from rotemina.sim.robot.model import AxisEffect
+
+    def place(axis, tap, stage, floor, excess, spread):
+        return Place(
+            axis=axis,
+            tap=tap,
+            stage=stage,
+            gap_rms=floor * (1.0 + excess) ** 0.5,
+            noise_floor=floor,
+            excess=excess,
+            excess_interval=(excess - spread, excess + spread),
+            worst_band_hz=(0.5, 4.0),
+            worst_regime=Regime.REVERSAL,
+            by_regime={Regime.REVERSAL: 2.0 * excess, Regime.REST: 0.5 * excess},
+        )
+
+    width = FittedParameter("width", 1.1e-4, "rad", (1.0e-4, 1.2e-4))
+    shape = FittedParameter("shape", 4.0, "", None, "high")
+    loop = Cause(
+        axis="thx",
+        effect="hysteresis",
+        formulation="prandtl_ishlinskii",
+        stage=Stage.ACTUATOR,
+        tap=Tap.REF,
+        from_axis=None,
+        probability=0.98,
+        ambiguous_with=("creep",),
+        gap_before=4.1e-5,
+        gap_after=6.0e-7,
+        closed=0.985,
+        closed_interval=(0.97, 0.99),
+        parameters=(width, shape),
+    )
+    strange = Cause(
+        axis="y",
+        effect="unknown",
+        formulation=None,
+        stage=None,
+        tap=Tap.MEAS,
+        from_axis=None,
+        probability=0.9,
+        ambiguous_with=(),
+        gap_before=8.0e-8,
+        gap_after=float("nan"),
+        closed=None,
+        closed_interval=None,
+    )
+    thx = AxisDiagnosis(
+        axis="thx",
+        verdict=Verdict.EXPLAINED,
+        places=(
+            place("thx", Tap.REF, Stage.ACTUATOR, 1.0e-7, 200.0, 20.0),
+            place("thx", Tap.MEAS, Stage.SENSOR, 4.0e-7, 100.0, 10.0),
+        ),
+        causes=(loop,),
+        shrinkage=(
+            Shrinkage(
+                axis="thx",
+                tap=Tap.MEAS,
+                raw=4.1e-5,
+                retuned=3.9e-5,
+                corrected=6.0e-7,
+                floor=4.0e-7,
+                ceiling=None,
+                closed=0.985,
+                closed_interval=(0.97, 0.99),
+                steps=(ShrinkageStep("hysteresis", "thx", 6.0e-7, 0.98),),
+            ),
+        ),
+        ranking=(
+            Ranked("hysteresis", "prandtl_ishlinskii", None, 0.98, 1.5, (1.4, 1.6)),
+            Ranked("creep", "logarithmic", None, 0.02, 30.0, (25.0, float("inf"))),
+        ),
+        untestable=(
+            Untestable("contact", "the axis stayed in mid-range"),
+            Untestable("saturation", "the axis stayed in mid-range"),
+        ),
+        remarks=("What is left depends on time.",),
+        fitted=(
+            AxisEffect(axis="thx", id="gain_error", parameters={"error": 0.012345678901234567}),
+            AxisEffect(
+                axis="thx",
+                id="hysteresis",
+                formulation="prandtl_ishlinskii",
+                parameters={"width": 1.1e-4, "shape": 4.0},
+            ),
+            AxisEffect(
+                axis="thx",
+                id="cross_coupling",
+                formulation="static",
+                from_axis="zn",
+                parameters={"k": 0.1 + 0.2},
+            ),
+        ),
+    )
+    y = AxisDiagnosis(
+        axis="y",
+        verdict=Verdict.UNKNOWN,
+        places=(place("y", Tap.MEAS, Stage.ACTUATOR, 2.0e-8, 15.0, 5.0),),
+        causes=(strange,),
+    )
+    zn = AxisDiagnosis(
+        axis="zn",
+        verdict=Verdict.NONE,
+        places=(place("zn", Tap.MEAS, Stage.ACTUATOR, 1.2e-8, 0.01, 0.05),),
+    )
+    time_s = np.arange(500) / 1000.0
+    command = 5.8e-4 + 1e-4 * np.sin(2.0 * np.pi * 2.0 * time_s) ** 2
+    split = Experiment(
+        axis="thx",
+        splits=("hysteresis", "creep"),
+        why="A step and a long rest: creep goes on, hysteresis does not.",
+        time_s=tuple(time_s.tolist()),
+        commands={"thx": tuple(command.tolist())},
+        predictions={
+            "hysteresis": tuple((0.95 * command).tolist()),
+            "creep": tuple((0.97 * command).tolist()),
+        },
+    )
+    axes = {"y": y, "thx": thx, "zn": zn}
+    return Diagnosis(load_robot("rotemina"), axes, experiments=(split,), seed=3)

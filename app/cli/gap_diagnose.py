@@ -57,6 +57,7 @@ def run(options: argparse.Namespace) -> int:
         diagnosis = diagnose(robot, records, seed=options.seed, jobs=jobs, listener=listener)
     suggestions = [] if document is None else _suggestions(diagnosis, records, document)
     text = json_text(as_json(diagnosis, [each.names for each in suggestions]))
+    told = text if options.json == "-" else summary(diagnosis)
     # All files appear together or none: a failure at one leaves the others' places alone.
     with ExitStack() as files:
         if document is not None:
@@ -65,7 +66,7 @@ def run(options: argparse.Namespace) -> int:
             for name, record in each.records.items():
                 file = files.enter_context(replaced(document.with_name(name)))
                 file.write(_file_of(record))
-    print(text if options.json == "-" else summary(diagnosis))
+    print(told)
     if options.json == "-" and diagnosis.experiments:
         print(
             "rotemina: suggested experiments are written beside a JSON file; name one by --json",

@@ -1,6 +1,7 @@
 """A diagnosis in words: what a terminal shows."""
 
 from collections.abc import Iterator
+from math import isfinite
 
 from rotemina.sim.gap.diagnosis import (
     UNKNOWN,
@@ -14,7 +15,7 @@ from rotemina.sim.gap.diagnosis import (
 )
 from rotemina.sim.gap.document import ordered_causes, shares
 from rotemina.sim.records.record import VOLTAGE_TAPS, Tap
-from rotemina.sim.trajectory.wording import readable
+from rotemina.sim.units import drawing_unit, symbol, to_unit
 
 _VERDICTS = {
     Verdict.NONE: "no gap: the model explains the records up to their noise",
@@ -85,10 +86,11 @@ def _cause(diagnosis: Diagnosis, cause: Cause) -> Iterator[str]:
     line = f"  {cause.axis}: {name}{source}{stage}, probability {cause.probability:.2f}"
     if cause.closed is not None:
         line += f"; closes {_percent(cause.closed, cause.closed_interval)}"
-    before, after = (
-        _size(diagnosis, cause.axis, cause.tap, rms) for rms in (cause.gap_before, cause.gap_after)
-    )
-    yield f"{line}; rms {before} without it, {after} with it"
+    line += f"; rms {_size(diagnosis, cause.axis, cause.tap, cause.gap_before)}"
+    if isfinite(cause.gap_after):
+        after = _size(diagnosis, cause.axis, cause.tap, cause.gap_after)
+        line += f" without it, {after} with it"
+    yield line
     if cause.ambiguous_with:
         yield f"    cannot be told from: {', '.join(cause.ambiguous_with)}"
     yield from (f"    {_parameter(one)}" for one in cause.parameters)
@@ -138,5 +140,10 @@ def _percent(share: float, interval: Interval | None) -> str:
 
 
 def _size(diagnosis: Diagnosis, axis: str, tap: Tap, rms: float) -> str:
-    unit = "V" if tap in VOLTAGE_TAPS else diagnosis.robot.unit(axis) or ""
-    return readable(rms, unit).rstrip()
+    if not isfinite(rms):
+        return "not known"
+    si_unit = "V" if tap in VOLTAGE_TAPS else diagnosis.robot.unit(axis)
+    if si_unit is None:
+        return f"{rms:.4g} (SI)"
+    unit = drawing_unit(si_unit, rms)
+    return f"{to_unit(rms, unit):.4g} {symbol(unit)}"

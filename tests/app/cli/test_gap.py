@@ -1,0 +1,301 @@
+"""``rotemina gap`` as its users meet it; the diagnosis itself is made by hand here."""
+
+import io
+import json
+import sys
+import types
+from dataclasses import replace
+from importlib import resources
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rotemina.app.cli import gap_diagnose
+from rotemina.app.cli.main import main
+from rotemina.app.cli.progress import ProgressLine
+from rotemina.sim.gap.errors import GapError
+from rotemina.sim.gap.progress import Progress
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records.writing import write_record
+from rotemina.sim.robot.file import SHIPPED, load_robot
+from rotemina.sim.simulation.simulation import simulate
+from rotemina.sim.trajectory.dry_run import dry_run
+
+ROBOT = load_robot("rotemina")
+
+
+@pytest.fixture(autouse=True)
+def in_tmp(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def asked(monkeypatch, made_diagnosis):
+    """What the diagnosis was asked for, while it answers with one made by hand."""
+    calls = []
+
+    def diagnose(robot, records, *, seed, jobs, listener):
+        calls.append(types.SimpleNamespace(robot=robot, records=records, seed=seed, jobs=jobs))
+        listener(Progress("where", "thx", None, 0.5))
+        return made_diagnosis
+
+    monkeypatch.setattr(gap_diagnose, "diagnose", diagnose)
+    return calls
+
+
+def write_measured(name="r.csv", seconds=1.0, rate_hz=1000.0, axes=("thx",), seed=0):
+    time_s = np.arange(round(seconds * rate_hz)) / rate_hz
+    turn = 0.5 - 0.2 * np.cos(2.0 * np.pi * 3.0 * time_s)
+    signals = {(axis, Tap.CMD): min(ROBOT.axes[axis].span, 1e-3) * turn for axis in axes}
+    commands = Record.from_signals(time_s, signals, {axis: ROBOT.unit(axis) for axis in axes})
+    write_record(simulate(ROBOT, (), commands, np.random.default_rng(seed)), name)
+
+
+def files():
+    return sorted(path.name for path in Path().iterdir())
+
+
+def test_diagnose_reads_all_records_and_prints_a_summary(asked, capsys):
+    write_measured("a.csv")
+    write_measured("b.csv.gz", rate_hz=500.0, axes=("thx", "zn"), seed=1)
+    assert main(["gap", "diagnose", "a.csv", "b.csv.gz", "--seed", "7", "--jobs", "2"]) == 0
+    [call] = asked
+    assert (call.robot, call.seed, call.jobs) == (ROBOT, 7, 2)
+    assert [record.axes for record in call.records] == [("thx",), ("thx", "zn")]
+    said = capsys.readouterr().out
+    for words in (
+        "RoTeMiNa: there is a gap that no known effect explains",
+        "  thx: explained\n    What is left depends on time.",
+        "  thx.ref: 63.5 % (61 to 65.7) of it; rms 1.418 µrad, noise floor 0.1 µrad;",
+        "most between 0.5 and 4 Hz, largest in: reversal",
+        "  thx: hysteresis (actuator), probability 0.98; closes 98.5 % (97 to 99);",
+        "rms 41 µrad without it, 0.6 µrad with it",
+        "    cannot be told from: creep",
+        "    width = 0.00011 rad (0.0001 to 0.00012)",
+        "    shape = 4, at its high bound",
+        "  y: an unknown effect, probability 0.90;",
+        "  thx: contact, saturation: the axis stayed in mid-range",
+        "  experiment 1, on thx: A step and a long rest",
+    ):
+        assert words in said
+    assert files() == ["a.csv", "b.csv.gz"]
+
+
+def test_jobs_are_by_default_the_usable_cores(asked):
+    import joblib
+
+    write_measured()
+    assert main(["gap", "diagnose", "r.csv"]) == 0
+    assert asked[0].jobs == joblib.cpu_count()
+
+
+def test_a_document_has_playable_experiments_beside_it(asked, capsys):
+    write_measured()
+    Path("to").mkdir()
+    assert main(["gap", "diagnose", "r.csv", "--json", "to/out.json"]) == 0
+    assert capsys.readouterr().out.startswith("RoTeMiNa: ")
+    form = json.loads(Path("to/out.json").read_text("utf-8"))
+    assert form["format"] == "rotemina-diagnosis 1"
+    [experiment] = form["next_experiments"]
+    assert experiment["commands"] == "out_experiment_1.csv"
+    assert sorted(path.name for path in Path("to").iterdir()) == [
+        "out.json",
+        "out_experiment_1.csv",
+        "out_experiment_1_if_creep.csv",
+        "out_experiment_1_if_hysteresis.csv",
+    ]
+    trajectory = read_record("to/out_experiment_1.csv", robot=ROBOT)
+    assert [str(column) for column in trajectory.columns] == ["thx.cmd"]
+    assert trajectory.metadata["splits"] == "hysteresis, creep on thx"
+    assert dry_run(ROBOT, trajectory).allowed
+    rival = read_record("to/" + experiment["predictions"]["creep"])
+    assert rival.signal("thx", Tap.MEAS) == pytest.approx(0.97 * rival.signal("thx", Tap.CMD))
+
+
+def test_json_on_stdout_is_json_alone(asked, capsys):
+    write_measured()
+    assert main(["gap", "diagnose", "r.csv", "--json", "-"]) == 0
+    said = capsys.readouterr()
+    form = json.loads(said.out)
+    assert form["next_experiments"][0]["commands"] is None
+    assert "suggested experiments are written beside a JSON file" in said.err
+    assert files() == ["r.csv"]
+
+
+def refuse(*_, **__):
+    raise GapError("axis 'thx': no record holds a measured channel of it")
+
+
+def interrupt(*_, **__):
+    raise KeyboardInterrupt
+
+
+def test_what_cannot_be_diagnosed_is_one_clear_line_and_no_file(asked, monkeypatch, capsys):
+    write_measured()
+    monkeypatch.setattr(gap_diagnose, "diagnose", refuse)
+    assert main(["gap", "diagnose", "r.csv", "--json", "out.json"]) == 2
+    assert capsys.readouterr().err == (
+        "rotemina: axis 'thx': no record holds a measured channel of it\n"
+    )
+    assert files() == ["r.csv"]
+
+
+def test_an_interrupt_leaves_no_file_and_status_130(monkeypatch, capsys):
+    write_measured()
+    monkeypatch.setattr(gap_diagnose, "diagnose", interrupt)
+    assert main(["gap", "diagnose", "r.csv", "--json", "out.json"]) == 130
+    assert capsys.readouterr().err == "rotemina: interrupted\n"
+    assert files() == ["r.csv"]
+
+
+def test_files_appear_together_or_none(asked, monkeypatch):
+    write_measured()
+    monkeypatch.setattr(gap_diagnose, "_file_of", interrupt)
+    assert main(["gap", "diagnose", "r.csv", "--json", "out.json"]) == 130
+    assert files() == ["r.csv"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ("diagnose none.csv", "none.csv"),
+        ("diagnose r.csv --robot nobody", "nobody: no such robot"),
+        ("diagnose r.csv --robot picma", "robot 'PICMA P-885.91' has no axis 'thx'"),
+        ("diagnose r.csv --seed -1", "--seed -1: must be 0 or more"),
+        ("diagnose r.csv --jobs 0", "--jobs 0: must be 1 or more"),
+        ("diagnose r.csv --json ./r.csv", "r.csv: it is named twice"),
+        ("diagnose r.csv --robot own.toml --json own.toml", "own.toml: it is named twice"),
+        ("diagnose r.csv --json no/such/out.json", "no/such/out.json: it cannot be written"),
+        ("diagnose o_experiment_1.csv --json o.json", "a suggested experiment of o.json would"),
+        ("predict none.json r.csv", "none.json: it cannot be read"),
+        ("predict r.csv r.csv", "r.csv:1: not valid JSON"),
+        ("twin none.json -o t.toml", "none.json: it cannot be read"),
+        ("", "name what to do: diagnose, predict"),
+    ],
+)
+def test_a_bad_request_is_one_clear_line_and_status_2(asked, arguments, message, capsys):
+    write_measured()
+    write_measured("o_experiment_1.csv")
+    shipped = resources.files(SHIPPED).joinpath("rotemina.toml").read_text("utf-8")
+    Path("own.toml").write_text(shipped, "utf-8")
+    before = files()
+    assert main(["gap", *arguments.split()]) == 2
+    error = capsys.readouterr().err.splitlines()[-1]
+    assert error.startswith("rotemina: ")
+    assert message in error
+    assert files() == before
+
+
+@pytest.fixture
+def document(asked):
+    write_measured()
+    assert main(["gap", "diagnose", "r.csv", "--json", "out.json"]) == 0
+    return "out.json"
+
+
+def test_predict_needs_no_other_file(document, made_diagnosis, capsys):
+    commands = Record.from_signals(
+        np.arange(800) / 1000.0,
+        {("thx", Tap.CMD): 6e-4 + 1e-4 * np.sin(np.arange(800) / 50.0)},
+        {"thx": "rad"},
+    )
+    write_record(commands, "c.csv", units={"thx": "urad"})
+    Path("r.csv").unlink()
+    capsys.readouterr()
+    assert main(["gap", "predict", document, "c.csv"]) == 0
+    assert capsys.readouterr().out == "c-predicted.csv: 800 rows, 0.799 s\n"
+    found = read_record("c-predicted.csv", robot=ROBOT)
+    corrected = replace(ROBOT, effects=made_diagnosis.fitted)
+    expected = simulate(corrected, None, read_record("c.csv"))
+    assert np.array_equal(found.values, expected.values)
+    assert main(["gap", "predict", document, "c.csv"]) == 2
+    assert "c-predicted.csv: it exists already" in capsys.readouterr().err
+    assert main(["gap", "predict", document, "c.csv", "-o", "c.csv"]) == 2
+    assert "c.csv: it is named twice" in capsys.readouterr().err
+
+
+def test_predict_refuses_commands_of_another_robot(document, capsys):
+    Path("c.csv").write_text("t [s],w [mm]\n0,1\n1,2\n")
+    assert main(["gap", "predict", document, "c.csv"]) == 2
+    assert "robot 'RoTeMiNa' has no axis 'w'" in capsys.readouterr().err
+
+
+def test_a_twin_is_a_robot_file_that_every_command_takes(document, made_diagnosis, capsys):
+    capsys.readouterr()
+    assert main(["gap", "twin", document, "-o", "twin.toml"]) == 0
+    assert capsys.readouterr().out == (
+        "twin.toml: RoTeMiNa with gain_error on thx, hysteresis on thx, cross_coupling on thx\n"
+    )
+    assert load_robot("twin.toml").effects == made_diagnosis.fitted
+    assert "# [paper] 240 arcsec" in Path("twin.toml").read_text("utf-8")
+    assert main(["simulate", "r.csv", "--robot", "twin.toml", "--no-noise", "-o", "s.csv"]) == 0
+    assert main(["gap", "predict", document, "r.csv", "-o", "p.csv"]) == 0
+    assert np.array_equal(read_record("s.csv").values, read_record("p.csv").values)
+    assert main(["gap", "twin", document, "-o", "twin.toml"]) == 2
+    assert "twin.toml: it exists already" in capsys.readouterr().err
+    assert main(["gap", "twin", document, "-o", "t.toml", "--robot", "picma"]) == 2
+    assert "picma: it describes another robot" in capsys.readouterr().err
+    assert not Path("t.toml").exists()
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def tell(stream, steps):
+    """Let a line tell of ``steps`` (time, share), and return what it wrote."""
+    times = iter([0.0, *(time_s for time_s, _ in steps)])
+    with ProgressLine(stream, clock=lambda: next(times)) as line:
+        for _, share in steps:
+            line(Progress("fitting", "thx", "creep", share))
+    return stream.getvalue()
+
+
+def test_a_terminal_sees_one_line_that_is_rewritten():
+    said = tell(Terminal(), [(0.01, 0.0), (0.02, 0.1), (4.0, 0.2), (4.05, 0.3)])
+    assert said == (
+        "\rfitting thx creep, 0 %\x1b[K\rfitting thx creep, 20 %, about 16 s left\x1b[K\n"
+    )
+
+
+def test_a_log_sees_a_line_every_few_seconds():
+    steps = [(0.1 * number, number / 200.0) for number in range(1, 120)]
+    assert tell(io.StringIO(), steps).splitlines() == [
+        "fitting thx creep, 25 %, about 15 s left",
+        "fitting thx creep, 50 %, about 10 s left",
+    ]
+
+
+def fail_after_a_step(stream):
+    with ProgressLine(stream) as line:
+        line(Progress("where", None, None, 0.0))
+        raise GapError("no")
+
+
+def test_a_line_that_was_begun_is_ended_before_an_error():
+    stream = Terminal()
+    with pytest.raises(GapError):
+        fail_after_a_step(stream)
+    assert stream.getvalue() == "\rwhere, 0 %\x1b[K\n"
+
+
+def test_a_cluster_needs_its_extra(monkeypatch, capsys, asked):
+    write_measured()
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    assert main(["gap", "diagnose", "r.csv", "--cluster", "tcp://host:8786"]) == 2
+    assert "pip install 'rotemina[dask]'" in capsys.readouterr().err
+
+
+def test_a_cluster_that_does_not_answer_is_said(monkeypatch, capsys, asked):
+    def client(address, timeout):
+        raise OSError(f"timed out trying to connect to {address}")
+
+    write_measured()
+    monkeypatch.setitem(sys.modules, "distributed", types.SimpleNamespace(Client=client))
+    assert main(["gap", "diagnose", "r.csv", "--cluster", "tcp://host:8786"]) == 2
+    assert "--cluster tcp://host:8786: it cannot be reached" in capsys.readouterr().err
+    assert not asked
