@@ -1,0 +1,1 @@
+"""A diagnosis as one page that a browser shows without a network."""

@@ -1,0 +1,203 @@
+"""Drawings of signals: the gap over time and over the command, and in frequency."""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from markupsafe import Markup
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
+from rotemina.sim.decimation import envelope
+from rotemina.sim.gap.report.charts import plain_logarithm
+from rotemina.sim.gap.report.pictures import Role, legend, picture
+from rotemina.sim.gap.report.quantities import Scale
+from rotemina.sim.gap.report.traces import Trace
+from rotemina.sim.identification.errors import TimeGridError
+from rotemina.sim.identification.frequency_response import FrequencyResponse
+from rotemina.sim.identification.signals import Signals, uniform_rate
+from rotemina.sim.identification.transfer_function import ComplexArray
+from rotemina.sim.identification.welch import welch_response
+
+_WIDTH = 12.0
+_ROW = 2.1
+_CELLS = 300  # in each direction, in which a path is drawn
+PATH_POINTS = 4  # of a path in a plane, for each bucket of a curve over time
+POINTS = 2 * 2 + 5 * PATH_POINTS  # of one record, for each bucket: two curves and five paths
+_SEGMENTS = 6  # of a record, for its frequency response
+_LONGEST = 8192
+_EXCITED = 1e-3  # of the largest input amplitude, from which a line is drawn
+_COHERENT = 0.5  # share of the output that must answer the command, for a line to be drawn
+_ANSWERS = (("real", Role.REAL, 1.8), ("model", Role.RAW, 1.0), ("corrected", Role.CORRECTED, 1.0))
+
+
+def signals(traces: Sequence[Trace], buckets: int) -> Markup:
+    """Draw records of one axis at one tap: gap over time, loop, and gap over command.
+
+    Each curve over time has ``buckets``, and each record ``POINTS`` points for each of them.
+    """
+    first = traces[0]
+    answer = Scale.of(first.unit, max(float(np.abs(trace.real).max()) for trace in traces))
+    gap = Scale.of(first.unit, max(float(np.abs(trace.before).max()) for trace in traces))
+    command = _command_scale(traces)
+
+    def draw(figure: Figure) -> None:
+        grid = figure.subplots(len(traces), 3, squeeze=False, width_ratios=(2.0, 1.0, 1.0))
+        for (time, loop, left), trace in zip(grid, traces, strict=True):
+            _draw_gap(time, trace, gap, buckets)
+            _draw_loop(loop, trace, command, answer, PATH_POINTS * buckets)
+            _draw_left(left, trace, command, gap, PATH_POINTS * buckets)
+            time.set_ylabel(f"gap [{gap.symbol}]")
+            time.set_title(f"record {trace.number + 1}")
+            loop.set_ylabel(f"{trace.tap} [{answer.symbol}]")
+            left.set_ylabel(f"gap [{gap.symbol}]")
+        grid[-1][0].set_xlabel("time [s]")
+        for axes in grid[-1][1:]:
+            axes.set_xlabel(f"command [{command.symbol}]")
+        legend(figure, grid[0][1])
+
+    numbers = ", ".join(str(trace.number + 1) for trace in traces)
+    about = (
+        "Gap before and after over time, reading over command and gap over command, "
+        f"of the records {numbers} at {first.tap}"
+    )
+    return picture(_WIDTH, 0.7 + _ROW * len(traces), draw, about)
+
+
+def frequency_response(traces: Sequence[Trace]) -> Markup:
+    """Draw the response from command to a tap: real, model and corrected model.
+
+    Records of the rate that has most data are averaged together.
+
+    Raises
+    ------
+    IdentificationError
+        If no record is sampled evenly and moves enough.
+    """
+    together = _of_one_rate(traces)
+    shortest = min(len(trace.real) for trace in together)
+    segment = min(2 * shortest // (_SEGMENTS + 1), _LONGEST)
+    found = welch_response(*map(_signals, together), segment=segment, excited_above=_EXCITED)
+    sure = found.coherence[:, 0] >= _COHERENT
+    ratio = "" if together[0].unit != "V" else f" [V/{together[0].record.units[together[0].axis]}]"
+
+    def draw(figure: Figure) -> None:
+        size, phase = figure.subplots(2, 1, sharex=True, height_ratios=(3.0, 2.0))
+        _draw_response(size, found, sure, np.abs)
+        _draw_response(phase, found, sure, _degrees)
+        _draw_uncertainty(size, found, sure)
+        plain_logarithm(size, "x")
+        plain_logarithm(size, "y")
+        size.set_ylabel(f"|{together[0].tap}/command|{ratio}")
+        phase.set_ylabel("phase [°]")
+        phase.set_xlabel("frequency [Hz]")
+        legend(figure, size)
+
+    about = f"Frequency response from command to {together[0].tap}: real, model, corrected model"
+    return picture(_WIDTH, 4.4, draw, about)
+
+
+def _draw_gap(axes: Axes, trace: Trace, gap: Scale, buckets: int) -> None:
+    floor = trace.floor * gap.per_si
+    axes.axhspan(-floor, floor, color=Role.FLOOR, alpha=0.25, linewidth=0.0)
+    for values, role in ((trace.before, Role.RAW), (trace.after, Role.CORRECTED)):
+        axes.plot(*envelope(trace.time_s, gap(values), buckets), color=role, linewidth=0.8)
+    axes.margins(x=0.0)
+
+
+def _draw_loop(axes: Axes, trace: Trace, command: Scale, answer: Scale, most: int) -> None:
+    followed = (trace.real, trace.raw, trace.corrected)
+    for values, (name, role, width) in zip(followed, _ANSWERS, strict=True):
+        across, up = path(command(trace.command), answer(values), most)
+        axes.plot(across, up, color=role, linewidth=width, label=name)
+
+
+def _draw_left(axes: Axes, trace: Trace, command: Scale, gap: Scale, most: int) -> None:
+    for values, role in ((trace.before, Role.RAW), (trace.after, Role.CORRECTED)):
+        axes.plot(*path(command(trace.command), gap(values), most), color=role, linewidth=0.7)
+
+
+def _draw_response(
+    axes: Axes,
+    found: FrequencyResponse,
+    sure: BoolArray,
+    of: Callable[[ComplexArray], FloatArray],
+) -> None:
+    for column, (name, role, width) in enumerate(_ANSWERS):
+        values = of(found.response[sure, column, 0])
+        line = _torn(found.frequency_hz[sure], values)
+        axes.plot(*line, ".-", color=role, linewidth=width, markersize=3.0, label=name)
+
+
+def _draw_uncertainty(axes: Axes, found: FrequencyResponse, sure: BoolArray) -> None:
+    """Draw the band that holds the real response with 95 %."""
+    middle = found.magnitude[sure, 0, 0]
+    radius = found.confidence_radius()[sure, 0, 0]
+    frequency_hz, low = _torn(found.frequency_hz[sure], np.maximum(middle - radius, 0.1 * middle))
+    _, high = _torn(found.frequency_hz[sure], middle + radius)
+    axes.fill_between(frequency_hz, low, high, color=Role.REAL, alpha=0.2, linewidth=0.0)
+
+
+def _torn(frequency_hz: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return a curve (n,) that ends where lines are missing, and begins anew behind them."""
+    steps = np.diff(frequency_hz)
+    if not len(steps):
+        return frequency_hz, values
+    torn = np.flatnonzero(steps > 1.5 * float(steps.min())) + 1
+    return np.insert(frequency_hz, torn, np.nan), np.insert(values, torn, np.nan)
+
+
+def path(across: FloatArray, up: FloatArray, most: int) -> tuple[FloatArray, FloatArray]:
+    """Thin a path in a plane, both (n,), to where it comes from one small cell into another.
+
+    Of these, ``most`` points at most are left, and the last.
+    """
+    cells = [_cells(across), _cells(up)]
+    kept = np.zeros(len(across), dtype=np.bool_)
+    kept[[0, -1]] = True
+    for cell in cells:
+        kept[1:] |= np.diff(cell) != 0
+    rows = np.flatnonzero(kept)
+    rows = np.append(rows[:-1][:: max(-(-len(rows) // most), 1)], rows[-1])
+    return across[rows], up[rows]
+
+
+def _cells(values: FloatArray) -> IntArray:
+    low, span = float(values.min()), float(np.ptp(values))
+    return np.asarray((values - low) / (span or 1.0) * _CELLS, dtype=np.int64)
+
+
+def _command_scale(traces: Sequence[Trace]) -> Scale:
+    unit = traces[0].record.units[traces[0].axis]
+    return Scale.of(unit, max(float(np.abs(trace.command).max()) for trace in traces))
+
+
+def _degrees(response: ComplexArray) -> FloatArray:
+    return np.degrees(np.unwrap(np.angle(response)))
+
+
+def _of_one_rate(traces: Sequence[Trace]) -> list[Trace]:
+    by_rate: dict[str, list[Trace]] = {}
+    for trace in traces:
+        try:
+            rate_hz = uniform_rate(trace.record.time_s)
+        except TimeGridError as error:
+            uneven = error
+            continue
+        by_rate.setdefault(f"{rate_hz:.4g}", []).append(trace)
+    if not by_rate:
+        raise uneven
+    return max(by_rate.values(), key=lambda group: sum(len(trace.real) for trace in group))
+
+
+def _signals(trace: Trace) -> Signals:
+    answers = (("real", trace.real), ("model", trace.raw), ("corrected", trace.corrected))
+    return Signals(
+        uniform_rate(trace.record.time_s),
+        trace.command[:, None],
+        np.column_stack([values for _, values in answers]),
+        ("command",),
+        tuple(name for name, _ in answers),
+        (trace.record.units[trace.axis],),
+        (trace.unit,) * len(answers),
+    )

@@ -1,0 +1,102 @@
+"""What was measured beside what the models answer, worked out anew from the effects found."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.gap.diagnosis import Diagnosis
+from rotemina.sim.gap.errors import GapError
+from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.records.record import Record, Tap
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Trace:
+    """One record at one tap of one axis; signals (n,), SI.
+
+    Attributes
+    ----------
+    number : int
+        Of the record among those that were diagnosed, from 0.
+    record : Record
+    axis, tap
+    real, raw, corrected : (n,)
+        What was measured; the answers of the model as it was and with what was found. The mean
+        distance of an answer from what was measured is taken out: an offset is a nuisance.
+    floor : float
+        Rms of what no model can explain.
+    """
+
+    number: int
+    record: Record
+    axis: str
+    tap: Tap
+    real: FloatArray
+    raw: FloatArray
+    corrected: FloatArray
+    floor: float
+
+    @property
+    def time_s(self) -> FloatArray:
+        """From the first row on, (n,)."""
+        return np.asarray(self.record.time_s - self.record.time_s[0])
+
+    @property
+    def command(self) -> FloatArray:
+        """The axis' command (n,), SI."""
+        return self.record.signal(self.axis, Tap.CMD)
+
+    @property
+    def unit(self) -> str:
+        """SI unit of the signals."""
+        return "V" if self.tap is Tap.U else self.record.units[self.axis]
+
+    @property
+    def before(self) -> FloatArray:
+        """The gap (n,) of the model as it was."""
+        return self.real - self.raw
+
+    @property
+    def after(self) -> FloatArray:
+        """The gap (n,) of the corrected model."""
+        return self.real - self.corrected
+
+
+def traces(diagnosis: Diagnosis, axis: str, records: Sequence[Record]) -> tuple[Trace, ...]:
+    """Return every record and tap that speaks of an axis, records in their order.
+
+    Raises
+    ------
+    PlantError, EffectError
+        If a record does not fit the robot, or the corrected model cannot be simulated.
+    """
+    found: list[Trace] = []
+    for number, record in enumerate(records):
+        try:
+            evidence = Evidence.of(diagnosis.robot, axis, [record])
+        except GapError:
+            continue  # this record does not measure the axis
+        (observation,) = evidence.observations
+        (raw,) = evidence.response()
+        (corrected,) = evidence.response(diagnosis.fitted) if diagnosis.fitted else (raw,)
+        for tap, real in observation.real.items():
+            found.append(
+                Trace(
+                    number,
+                    record,
+                    axis,
+                    tap,
+                    real,
+                    _beside(real, raw[tap]),
+                    _beside(real, corrected[tap]),
+                    observation.floor[tap],
+                )
+            )
+    return tuple(found)
+
+
+def _beside(real: FloatArray, answer: FloatArray) -> FloatArray:
+    """Return an answer moved to the mean of what was measured."""
+    return np.asarray(answer + (real - answer).mean())
