@@ -97,23 +97,33 @@ def frequency_response(traces: Sequence[Trace]) -> Markup:
     return picture(_WIDTH, 4.4, draw, about)
 
 
+def _answers(trace: Trace) -> list[tuple[FloatArray, tuple[str, Role, float]]]:
+    """Return what was measured and what the models answer, without a correction that is none."""
+    signals = (trace.real, trace.raw, *((trace.corrected,) if trace.changed else ()))
+    return list(zip(signals, _ANSWERS, strict=False))
+
+
+def _gaps(trace: Trace) -> list[tuple[FloatArray, Role]]:
+    after = [(trace.after, Role.CORRECTED)] if trace.changed else []
+    return [(trace.before, Role.RAW), *after]
+
+
 def _draw_gap(axes: Axes, trace: Trace, gap: Scale, buckets: int) -> None:
     floor = trace.floor * gap.per_si
     axes.axhspan(-floor, floor, color=Role.FLOOR, alpha=0.25, linewidth=0.0)
-    for values, role in ((trace.before, Role.RAW), (trace.after, Role.CORRECTED)):
+    for values, role in _gaps(trace):
         axes.plot(*envelope(trace.time_s, gap(values), buckets), color=role, linewidth=0.8)
     axes.margins(x=0.0)
 
 
 def _draw_loop(axes: Axes, trace: Trace, command: Scale, answer: Scale, most: int) -> None:
-    followed = (trace.real, trace.raw, trace.corrected)
-    for values, (name, role, width) in zip(followed, _ANSWERS, strict=True):
+    for values, (name, role, width) in _answers(trace):
         across, up = path(command(trace.command), answer(values), most)
         axes.plot(across, up, color=role, linewidth=width, label=name)
 
 
 def _draw_left(axes: Axes, trace: Trace, command: Scale, gap: Scale, most: int) -> None:
-    for values, role in ((trace.before, Role.RAW), (trace.after, Role.CORRECTED)):
+    for values, role in _gaps(trace):
         axes.plot(*path(command(trace.command), gap(values), most), color=role, linewidth=0.7)
 
 
@@ -123,7 +133,7 @@ def _draw_response(
     sure: BoolArray,
     of: Callable[[ComplexArray], FloatArray],
 ) -> None:
-    for column, (name, role, width) in enumerate(_ANSWERS):
+    for column, (name, role, width) in enumerate(_ANSWERS[: found.response.shape[1]]):
         values = of(found.response[sure, column, 0])
         line = _torn(found.frequency_hz[sure], values)
         axes.plot(*line, ".-", color=role, linewidth=width, markersize=3.0, label=name)
@@ -191,13 +201,13 @@ def _of_one_rate(traces: Sequence[Trace]) -> list[Trace]:
 
 
 def _signals(trace: Trace) -> Signals:
-    answers = (("real", trace.real), ("model", trace.raw), ("corrected", trace.corrected))
+    answers = _answers(trace)
     return Signals(
         uniform_rate(trace.record.time_s),
         trace.command[:, None],
         np.column_stack([values for _, values in answers]),
         ("command",),
-        tuple(name for name, _ in answers),
+        tuple(name for _, (name, _, _) in answers),
         (trace.record.units[trace.axis],),
         (trace.unit,) * len(answers),
     )

@@ -54,6 +54,11 @@ class Trace:
         return "V" if self.tap is Tap.U else self.record.units[self.axis]
 
     @property
+    def changed(self) -> bool:
+        """Whether anything was found that corrects the model."""
+        return self.corrected is not self.raw
+
+    @property
     def before(self) -> FloatArray:
         """The gap (n,) of the model as it was."""
         return self.real - self.raw
@@ -82,18 +87,10 @@ def traces(diagnosis: Diagnosis, axis: str, records: Sequence[Record]) -> tuple[
         (raw,) = evidence.response()
         (corrected,) = evidence.response(diagnosis.fitted) if diagnosis.fitted else (raw,)
         for tap, real in observation.real.items():
-            found.append(
-                Trace(
-                    number,
-                    record,
-                    axis,
-                    tap,
-                    real,
-                    _beside(real, raw[tap]),
-                    _beside(real, corrected[tap]),
-                    observation.floor[tap],
-                )
-            )
+            before = _beside(real, raw[tap])
+            after = _beside(real, corrected[tap]) if diagnosis.fitted else before
+            floor = observation.floor[tap]
+            found.append(Trace(number, record, axis, tap, real, before, after, floor))
     return tuple(found)
 
 
