@@ -205,7 +205,7 @@ def _signals(trace: Trace) -> Signals:
     return Signals(
         uniform_rate(trace.record.time_s),
         trace.command[:, None],
-        np.column_stack([values for _, values in answers]),
+        np.column_stack([values for values, _ in answers]),
         ("command",),
         tuple(name for _, (name, _, _) in answers),
         (trace.record.units[trace.axis],),
