@@ -12,8 +12,10 @@ from rotemina.app.cli.progress import ProgressLine
 from rotemina.app.cli.workers import add_workers, workers
 from rotemina.app.files import json_text
 from rotemina.sim.errors import InputError
+from rotemina.sim.gap.caution import Caution
 from rotemina.sim.gap.diagnosis import Diagnosis
 from rotemina.sim.gap.document import as_json
+from rotemina.sim.gap.intake import check
 from rotemina.sim.gap.suggestion import Suggestion, may_be_suggested, suggestion
 from rotemina.sim.gap.summary import summary
 from rotemina.sim.records.reading import read_record
@@ -53,6 +55,7 @@ def run(options: argparse.Namespace) -> int:
     _check_files(options, document)
     robot = robot_of(options)
     records = [read_record(path, columns=options.columns, robot=robot) for path in options.records]
+    _tell(check(robot, records, list(map(str, options.records))), options.records)
     with workers(options.jobs, options.cluster) as jobs, ProgressLine(sys.stderr) as listener:
         diagnosis = diagnose(robot, records, seed=options.seed, jobs=jobs, listener=listener)
     suggestions = [] if document is None else _suggestions(diagnosis, records, document)
@@ -73,6 +76,17 @@ def run(options: argparse.Namespace) -> int:
             file=sys.stderr,
         )
     return 0
+
+
+def _tell(cautions: Sequence[Caution], files: Sequence[Path]) -> None:
+    """Print cautions on stderr; one that several axes share is told once."""
+    axes: dict[tuple[int | None, str], list[str]] = {}
+    for one in cautions:
+        axes.setdefault((one.record, one.text), []).extend([one.axis] if one.axis else [])
+    for (record, text), concerned in axes.items():
+        file = f"{files[record]}: " if record is not None else ""
+        axis = f"{', '.join(concerned)}: " if concerned else ""
+        print(f"rotemina: {file}{axis}{text}", file=sys.stderr)
 
 
 def _suggestions(

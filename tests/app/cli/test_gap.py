@@ -84,6 +84,45 @@ def test_diagnose_reads_all_records_and_prints_a_summary(asked, capsys):
     assert files() == ["a.csv", "b.csv.gz"]
 
 
+def bare(name, axes, keep=(Tap.CMD, Tap.MEAS)):
+    """A record of some taps alone."""
+    write_measured(name, axes=axes, seed=2)
+    record = read_record(name)
+    signals = {each: record.signal(*each) for each in record.columns if each.tap in keep}
+    write_record(Record.from_signals(record.time_s, signals, record.units), name)
+
+
+def test_cautions_are_told_once_for_all_axes_and_files_are_named(asked, capsys):
+    write_measured("a.csv")
+    bare("b.csv", ("x", "zn"))
+    short = read_record("a.csv")
+    kept = np.delete(np.arange(1000), [300])
+    write_record(
+        Record(short.time_s[kept], short.columns, short.values[kept], short.units), "a.csv"
+    )
+    assert main(["gap", "diagnose", "a.csv", "b.csv"]) == 0
+    assert capsys.readouterr().err.splitlines()[:2] == [
+        "rotemina: a.csv: Rows are missing at 1 places of a record; the commands are taken as held "
+        "there.",
+        "rotemina: x, zn: No independent reference (ref) was recorded: effects of the sensor "
+        "cannot be told from those of the axis.",
+    ]
+
+
+def test_records_that_cannot_be_diagnosed_are_refused_with_their_file(asked, capsys):
+    write_measured("a.csv")
+    write_measured("b.csv")
+    assert main(["gap", "diagnose", "a.csv", "b.csv", "--json", "out.json"]) == 2
+    assert capsys.readouterr().err == (
+        "rotemina: b.csv: it holds measurements of a.csv again (thx.ref); give each record once, "
+        "and parts of one record without overlap\n"
+    )
+    assert not asked
+    bare("c.csv", ("x",), keep=(Tap.CMD,))
+    assert main(["gap", "diagnose", "c.csv"]) == 2
+    assert capsys.readouterr().err.startswith("rotemina: c.csv: no measured channel (u, ref or")
+
+
 def test_jobs_are_by_default_the_usable_cores(asked):
     import joblib
 

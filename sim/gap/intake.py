@@ -1,0 +1,142 @@
+"""Whether records can be diagnosed at all: looked at before anything is fitted.
+
+What would make a confident answer wrong is refused, with what to do; what only narrows the answer
+is told as a caution. In particular an axis that was never moved is no error, for effects that act
+without motion show all the same, and short of them the verdict is insufficient excitation.
+"""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from rotemina.sim.gap.caution import Caution, Labelled
+from rotemina.sim.gap.clocks import check_clock
+from rotemina.sim.gap.copies import check_copies
+from rotemina.sim.gap.errors import GapError
+from rotemina.sim.gap.scales import check_scales
+from rotemina.sim.gap.stuck import check_sensors
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.model import ForceAxis, Robot
+
+LEAST_ROWS = 100  # of a record
+_MEASURED = (Tap.U, Tap.REF, Tap.MEAS)
+
+
+def check(
+    robot: Robot, records: Sequence[Record], names: Sequence[str] = ()
+) -> tuple[Caution, ...]:
+    """Check records and the robot that they are said to be of.
+
+    Parameters
+    ----------
+    robot : Robot
+    records : sequence of Record
+    names : sequence of str, optional
+        What messages call the records; by default their number, from 1, and length.
+
+    Returns
+    -------
+    tuple of Caution
+        :func:`~rotemina.sim.gap.caution.remarks` makes of them what a diagnosis says of an axis.
+
+    Raises
+    ------
+    GapError
+        With record, axis, value, bound and what to do.
+    """
+    if not records:
+        raise GapError("no record was given; name at least one")
+    called = names or [_name(number, one) for number, one in enumerate(records, start=1)]
+    labelled = [
+        Labelled(record, name, number)
+        for number, (record, name) in enumerate(zip(records, called, strict=True))
+    ]
+    cautions: list[Caution] = []
+    for one in labelled:
+        _check_fit(robot, one)
+        cautions += check_clock(one)
+        cautions += check_scales(robot, one)
+        cautions += check_sensors(robot, one)
+    check_copies(labelled)
+    if not any(_is_measured(one.record, axis) for one in labelled for axis in one.record.axes):
+        raise GapError(
+            f"{_listed(labelled)}: no measured channel (u, ref or meas) but only commands; "
+            "give records of the real machine"
+        )
+    cautions += _missing(robot, records)
+    return tuple(cautions)
+
+
+def _name(number: int, record: Record) -> str:
+    return f"record {number} ({len(record.time_s)} rows, {record.duration_s:.6g} s)"
+
+
+def _listed(records: Sequence[Labelled]) -> str:
+    return ", ".join(one.name for one in records)
+
+
+def _check_fit(robot: Robot, one: Labelled) -> None:
+    record = one.record
+    for axis in record.axes:
+        if axis not in robot.axes:
+            raise GapError(
+                f"{one.name}: robot {robot.name!r} has no axis {axis!r}; its axes are "
+                f"{', '.join(robot.axes)}; name the right robot by --robot"
+            )
+        unit = robot.unit(axis)
+        if unit is not None and record.units[axis] != unit:
+            raise GapError(
+                f"{one.name}: axis {axis!r} is in units of {record.units[axis]}, but robot "
+                f"{robot.name!r} moves it in units of {unit}; correct the unit"
+            )
+        if not record.has(axis, Tap.CMD):
+            raise GapError(
+                f"{one.name}: axis {axis!r} has no {axis}.cmd column to drive the model; add it"
+            )
+        _check_drive(robot, one, axis)
+    if len(record.time_s) < LEAST_ROWS:
+        raise GapError(
+            f"{one.name}: {len(record.time_s)} rows; a diagnosis needs {LEAST_ROWS} rows or more "
+            "in each record: leave it out, or record longer"
+        )
+
+
+def _check_drive(robot: Robot, one: Labelled, axis: str) -> None:
+    described = robot.axes[axis]
+    if not isinstance(described, ForceAxis) or one.record.has(axis, Tap.U):
+        return
+    if one.record.closed_loop and described.controller is not None:
+        return
+    raise GapError(
+        f"{one.name}: axis {axis!r} is moved by a force, and no {axis}.u column tells which: add "
+        "it, or write '# mode: closed_loop' and give the robot file its controller"
+    )
+
+
+def _is_measured(record: Record, axis: str) -> bool:
+    return any(record.has(axis, tap) for tap in _MEASURED)
+
+
+def _missing(robot: Robot, records: Sequence[Record]) -> Iterator[Caution]:
+    """Tell which axes were not measured, or not moved, and which taps are missing."""
+    for axis in robot.axes:
+        own = [record for record in records if axis in record.axes]
+        taps = {tap for record in own for tap in Tap if record.has(axis, tap)}
+        if not own:
+            continue
+        if not taps & set(_MEASURED):
+            yield Caution("The axis was commanded but not measured: nothing is said of it.", axis)
+            continue
+        if all(np.ptp(record.signal(axis, Tap.CMD)) == 0.0 for record in own):
+            yield Caution(
+                "The axis was never commanded to move: only what acts without motion can show.",
+                axis,
+            )
+        if Tap.MEAS not in taps:
+            yield Caution("The axis' own sensor was not recorded: nothing is said of it.", axis)
+        elif Tap.REF not in taps:
+            yield Caution(
+                "No independent reference (ref) was recorded: effects of the sensor cannot be told "
+                "from those of the axis.",
+                axis,
+            )

@@ -1,0 +1,206 @@
+"""Units of records: what is off by a factor that no effect explains.
+
+Readings are compared with commands where both are slow: by means over blocks that are long beside
+the axis' own period, in which its dynamics have averaged out.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import permutations
+from math import log, pi
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.gap.caution import Caution, Labelled
+from rotemina.sim.gap.errors import GapError
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.model import Axis, ForceAxis, PiezoAxis, Robot, StepperAxis
+from rotemina.sim.trajectory.wording import readable
+from rotemina.sim.units import per_si, units_of
+
+_PERIODS = 10.0  # of the axis, in one block
+_ROWS = 20  # in one block, at least
+_BLOCKS = 10  # in a record, at least
+_SLOW_SHARE = 0.1  # of a command's variance, that blocks must keep
+_ALIKE = 0.95  # correlation from which a reading follows its command
+_PLAUSIBLE = 3.0  # gains between this and its inverse may have other causes
+_FAR = log(10.0)  # factors beyond this are no accident, even when a gain error comes on top
+_NEAR_FAR, _NEAR = log(1.35), log(1.15)  # how closely far factors, and others, must be met
+_TOGETHER = 0.9  # correlation of two axes' commands from which a gain may be a coupling's
+_OUTSIDE = 1.0  # spans by which a command may lie outside its range
+_SLACK = 1e-9  # spans by which it does so unnoticed
+_HASTE = 30.0  # speed limits that the median speed may have
+
+
+def check_scales(robot: Robot, one: Labelled) -> Iterator[Caution]:
+    """Check commands against limits, and readings against commands.
+
+    A factor between two units of the axis is refused, as are commands far beyond the range: to
+    the model they are errors of gain, saturation or contact. Other odd gains, and a reading that
+    runs against its command, are told: strong coupling can bring them about.
+
+    Raises
+    ------
+    GapError
+        With axis, factor and the units that would explain it.
+    """
+    for axis in one.record.axes:
+        if one.record.has(axis, Tap.CMD):
+            yield from _check_command(robot, one, axis)
+            yield from _check_readings(robot, one, axis)
+
+
+def _check_command(robot: Robot, one: Labelled, axis: str) -> Iterator[Caution]:
+    described, command = robot.axes[axis], one.record.signal(axis, Tap.CMD)
+    unit = one.record.units[axis]
+    low, high = described.range
+    outside = np.maximum(low - command, command - high)
+    row = int(np.argmax(outside))
+    bounds = f"{readable(low, unit, scale=high)} to {readable(high, unit)}"
+    if outside[row] > _OUTSIDE * described.span:
+        raise GapError(
+            f"{one.name}: {axis}.cmd = {readable(float(command[row]), unit)} at row {row + 1} is "
+            f"far outside the range {bounds} of robot {robot.name!r}: this looks like a unit "
+            "error; correct the unit in the header, or the robot file"
+        )
+    if outside[row] > _SLACK * described.span:
+        yield one.caution(
+            f"A command goes beyond the range {bounds}, to {readable(float(command[row]), unit)}; "
+            "the model knows no ends of the range.",
+            axis,
+        )
+    speeds = np.abs(np.diff(command)) / np.diff(one.record.time_s)
+    if described.max_speed is not None and np.median(speeds) > _HASTE * described.max_speed:
+        raise GapError(
+            f"{one.name}: axis {axis!r} is commanded at {np.median(speeds):.3g} {unit}/s, "
+            f"{np.median(speeds) / described.max_speed:.3g} × its speed limit: this looks like a "
+            "unit error of time; correct the unit of t, such as ms for s"
+        )
+
+
+def _check_readings(robot: Robot, one: Labelled, axis: str) -> Iterator[Caution]:
+    described = robot.axes[axis]
+    for tap in (Tap.U, Tap.REF, Tap.MEAS):
+        if not one.record.has(axis, tap):
+            continue
+        expected = _expected(described, one.record, tap)
+        gain = None if expected is None else _slow_gain(described, one.record, axis, tap, expected)
+        if gain is None:
+            continue
+        if tap is Tap.U:
+            _check_voltage(one, axis, gain)
+            continue
+        factor = _unit_factor(abs(gain), one.record.units[axis])
+        if factor is not None and not _moves_with_another(one.record, axis):
+            raise GapError(
+                f"{one.name}: {axis}.{tap} is {gain:.4g} × what {axis}.cmd asks for: this looks "
+                f"like a unit error, a factor of {factor.text}; correct the unit of the column "
+                "that is wrong"
+            )
+        if factor is not None or abs(gain) > _PLAUSIBLE or gain < 0.0:
+            yield one.caution(
+                f"The {tap} channel is {gain:.3g} × what is commanded, which no single effect "
+                "brings about: check signs, units and the gain in the robot file.",
+                axis,
+            )
+
+
+def _expected(described: Axis, record: Record, tap: Tap) -> float | None:
+    """Return what a slow signal is for a command of 1, or None where that is not known."""
+    if tap is Tap.U:
+        known = isinstance(described, PiezoAxis) and not _under_controller(described, record)
+        return 1.0 / described.gain if known and isinstance(described, PiezoAxis) else None
+    if isinstance(described, ForceAxis) and not _under_controller(described, record):
+        return None
+    return 1.0
+
+
+def _under_controller(described: Axis, record: Record) -> bool:
+    if isinstance(described, StepperAxis):
+        return False
+    return record.closed_loop and described.controller is not None
+
+
+def _slow_gain(
+    described: Axis, record: Record, axis: str, tap: Tap, expected: float
+) -> float | None:
+    """Return slow signal over expected one, or None where the one does not follow the other."""
+    command, signal = record.signal(axis, Tap.CMD), record.signal(axis, tap)
+    step_s = float(np.median(np.diff(record.time_s)))
+    rows = max(round(_PERIODS * _own_period_s(described, record) / step_s), _ROWS)
+    if len(command) < _BLOCKS * rows:
+        return None
+    slow, read = (_centred(_block_means(x, rows)) for x in (command, signal))
+    if np.var(slow) <= _SLOW_SHARE * np.var(command) or not np.any(read):
+        return None
+    product = float(np.mean(slow * read))
+    if abs(product) < _ALIKE * float(np.std(slow) * np.std(read)):
+        return None
+    return product / float(np.var(slow)) / expected
+
+
+def _moves_with_another(record: Record, axis: str) -> bool:
+    """Whether what comes from another axis cannot be told from what the own command does."""
+    own = _centred(record.signal(axis, Tap.CMD))
+    for other in record.axes:
+        if other != axis and record.has(other, Tap.CMD):
+            command = _centred(record.signal(other, Tap.CMD))
+            size = float(np.linalg.norm(own) * np.linalg.norm(command))
+            if abs(float(own @ command)) > _TOGETHER * size > 0.0:
+                return True
+    return False
+
+
+def _own_period_s(described: Axis, record: Record) -> float:
+    if not isinstance(described, StepperAxis) and _under_controller(described, record):
+        assert described.controller is not None
+        return 2.0 * pi / described.controller.kp
+    inertia = described.inertia
+    if inertia is None or inertia.stiffness == 0.0:
+        return 0.0
+    return 2.0 * pi * float(np.sqrt(inertia.mass / inertia.stiffness))
+
+
+def _block_means(signal: FloatArray, rows: int) -> FloatArray:
+    blocks = len(signal) // rows
+    return np.asarray(signal[: blocks * rows].reshape(blocks, rows).mean(axis=1))
+
+
+def _centred(signal: FloatArray) -> FloatArray:
+    return np.asarray(signal - signal.mean())
+
+
+def _check_voltage(one: Labelled, axis: str, gain: float) -> None:
+    if 1.0 / _PLAUSIBLE <= gain <= _PLAUSIBLE:
+        return
+    raise GapError(
+        f"{one.name}: {axis}.u is {gain:.4g} × cmd/gain, the output of the amplifier: this looks "
+        "like a unit error, or a voltage before the amplifier; correct the column, leave it out, "
+        "or correct the gain in the robot file"
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Factor:
+    """A factor between two units, and how a message tells it."""
+
+    value: float
+    text: str
+
+
+def _factors(si_unit: str) -> Iterator[_Factor]:
+    for right, wrong in permutations(units_of(si_unit), 2):
+        value = per_si(wrong) / per_si(right)
+        yield _Factor(value, f"{value:.6g}, such as {wrong} read as {right}")
+
+
+def _unit_factor(gain: float, si_unit: str) -> _Factor | None:
+    """Return the unit factor that a gain meets, or None."""
+    found: Mapping[float, _Factor] = {
+        abs(log(gain / factor.value)): factor
+        for factor in _factors(si_unit)
+        if gain > 0.0
+        and abs(log(gain / factor.value)) < (_NEAR_FAR if abs(log(factor.value)) > _FAR else _NEAR)
+    }
+    return found[min(found)] if found else None
