@@ -171,7 +171,7 @@ def made_diagnosis():
         ),
         ranking=(
             Ranked("hysteresis", "prandtl_ishlinskii", None, 0.98, 1.5, (1.4, 1.6)),
-            Ranked("creep", "logarithmic", None, 0.02, 30.0, (25.0, float("inf"))),
+            Ranked("creep", "logarithmic", None, 0.02, 30.0, (25.0, 35.0)),
         ),
         untestable=(
             Untestable("contact", "the axis stayed in mid-range"),

@@ -42,6 +42,9 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         metavar="OUT",
         help="write the diagnosis as JSON, with suggested experiments beside it ('-' prints it)",
     )
+    parser.add_argument(
+        "--report", type=Path, metavar="OUT.html", help="write a report, one page that needs no net"
+    )
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="of chance (default: 0)")
     add_workers(parser)
     parser.set_defaults(run=run)
@@ -61,10 +64,13 @@ def run(options: argparse.Namespace) -> int:
     suggestions = [] if document is None else _suggestions(diagnosis, records, document)
     text = json_text(as_json(diagnosis, [each.names for each in suggestions]))
     told = text if options.json == "-" else summary(diagnosis)
+    page = None if options.report is None else report(diagnosis, records, options.records)
     # All files appear together or none: a failure at one leaves the others' places alone.
     with ExitStack() as files:
         if document is not None:
             files.enter_context(replaced(document)).write(text.encode("utf-8"))
+        if page is not None:
+            files.enter_context(replaced(options.report)).write(page)
         for each in suggestions:
             for name, record in each.records.items():
                 file = files.enter_context(replaced(document.with_name(name)))
@@ -110,16 +116,19 @@ def _file_of(record: Record) -> bytes:
 
 def _check_files(options: argparse.Namespace, document: Path | None) -> None:
     """Refuse an output that would take the place of an input or of another output."""
-    sources = [*options.records, *([Path(options.robot)] if Path(options.robot).is_file() else [])]
-    if document is None:
-        return
-    for source in sources:
-        if _is_same(document, source):
-            raise InputError(f"{document}: it is named twice; give each file a name of its own")
-        beside = _is_same(document.parent, source.parent)
-        if beside and may_be_suggested(source.name, document.stem):
+    taken = [*options.records, *([Path(options.robot)] if Path(options.robot).is_file() else [])]
+    for output in (document, options.report):
+        if output is None:
+            continue
+        if any(_is_same(output, other) for other in taken):
+            raise InputError(f"{output}: it is named twice; give each file a name of its own")
+        taken.append(output)
+    for other in taken:
+        if document is None or not _is_same(document.parent, other.parent):
+            continue
+        if may_be_suggested(other.name, document.stem):
             raise InputError(
-                f"{source}: a suggested experiment of {document} would take its place; "
+                f"{other}: a suggested experiment of {document} would take its place; "
                 "name another file by --json"
             )
 
@@ -133,7 +142,15 @@ def _is_same(one: Path, other: Path) -> bool:
 def diagnose(
     robot: Robot, records: Sequence[Record], *, seed: int, jobs: int, listener: ProgressLine
 ) -> Diagnosis:
-    """Load the diagnosis, which takes its time, and run it."""
-    from rotemina.sim.gap import method
+    """Run the diagnosis."""
+    from rotemina.sim.gap import method  # takes its time to import
 
     return method.diagnose(robot, records, seed=seed, jobs=jobs, listener=listener)
+
+
+def report(diagnosis: Diagnosis, records: Sequence[Record], files: Sequence[Path]) -> bytes:
+    """Return the page of a report."""
+    from rotemina.sim.gap.report.page import report_text  # takes its time to import
+
+    names = [path.name for path in files]
+    return report_text(diagnosis, records, names).encode("utf-8", "replace")

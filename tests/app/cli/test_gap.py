@@ -164,6 +164,16 @@ def test_json_on_stdout_is_json_alone(asked, capsys):
     assert files() == ["r.csv"]
 
 
+def test_a_report_is_a_page_with_the_names_of_the_records(asked, capsys):
+    write_measured("first.csv")
+    asked_for = ["--report", "out.html", "--json", "out.json"]
+    assert main(["gap", "diagnose", "first.csv", *asked_for]) == 0
+    page = Path("out.html").read_text("utf-8")
+    assert page.startswith("<!DOCTYPE html>")
+    assert "first.csv" in page
+    assert Path("out.json").exists()
+
+
 def refuse(*_, **__):
     raise GapError("axis 'thx': no record holds a measured channel of it")
 
@@ -190,10 +200,20 @@ def test_an_interrupt_leaves_no_file_and_status_130(monkeypatch, capsys):
     assert files() == ["r.csv"]
 
 
-def test_files_appear_together_or_none(asked, monkeypatch):
+@pytest.mark.parametrize("part", ["_file_of", "report"])
+def test_files_appear_together_or_none(asked, monkeypatch, part):
     write_measured()
-    monkeypatch.setattr(gap_diagnose, "_file_of", interrupt)
-    assert main(["gap", "diagnose", "r.csv", "--json", "out.json"]) == 130
+    monkeypatch.setattr(gap_diagnose, part, interrupt)
+    asked_for = ["--report", "out.html", "--json", "out.json"]
+    assert main(["gap", "diagnose", "r.csv", *asked_for]) == 130
+    assert files() == ["r.csv"]
+
+
+def test_a_report_that_cannot_be_written_leaves_no_document(asked, capsys):
+    write_measured()
+    asked_for = ["--report", "no/such/out.html", "--json", "out.json"]
+    assert main(["gap", "diagnose", "r.csv", *asked_for]) == 2
+    assert "no/such/out.html: it cannot be written" in capsys.readouterr().err
     assert files() == ["r.csv"]
 
 
@@ -207,6 +227,8 @@ def test_files_appear_together_or_none(asked, monkeypatch):
         ("diagnose r.csv --jobs 0", "--jobs 0: must be 1 or more"),
         ("diagnose r.csv --json ./r.csv", "r.csv: it is named twice"),
         ("diagnose r.csv --robot own.toml --json own.toml", "own.toml: it is named twice"),
+        ("diagnose r.csv --report r.csv", "r.csv: it is named twice"),
+        ("diagnose r.csv --json o.html --report ./o.html", "o.html: it is named twice"),
         ("diagnose r.csv --json no/such/out.json", "no/such/out.json: it cannot be written"),
         ("diagnose o_experiment_1.csv --json o.json", "a suggested experiment of o.json would"),
         ("predict none.json r.csv", "none.json: it cannot be read"),

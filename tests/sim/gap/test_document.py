@@ -91,7 +91,10 @@ def test_every_key_of_the_contract_is_there(made_diagnosis):
 
 
 def test_candidates_are_in_si_at_the_last_tap_and_what_is_not_finite_is_null(made_diagnosis):
-    form = as_json(made_diagnosis)
+    thx = made_diagnosis.axes["thx"]
+    lost = replace(thx.ranking[1], held_out_interval=(25.0, float("inf")))
+    wide = replace(thx, ranking=(thx.ranking[0], lost))
+    form = as_json(replace(made_diagnosis, axes={**made_diagnosis.axes, "thx": wide}))
     first, second = form["candidates"]["thx"]
     assert first["held_out_rms"] == pytest.approx(1.5 * 4.0e-7)
     assert second["held_out_interval"] == [pytest.approx(25.0 * 4.0e-7), None]
