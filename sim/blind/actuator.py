@@ -1,0 +1,203 @@
+"""Actuators as the generator makes them: gain, curve, hysteresis, creep, lost and micro-steps."""
+
+from math import pi
+
+import numba
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.blind.curves import draw_curve
+from rotemina.sim.blind.part import Axis, Course, Part, Stage
+from rotemina.sim.blind.preisach import draw_plane, run_plane
+
+
+def gain_error(axis: Axis, rng: np.random.Generator) -> Part:
+    """Sensitivity off by a share; size is the share."""
+    sign = rng.choice([-1.0, 1.0])
+
+    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+        return values * (1.0 + sign * size)
+
+    return Part("gain_error", axis, Stage.ACTUATOR, act, (1e-5, 0.1))
+
+
+def static_nonlinearity(axis: Axis, rng: np.random.Generator) -> Part:
+    """Bowed characteristic; size in m or rad."""
+    curve = draw_curve(axis, rng)
+
+    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+        return values + size * curve(values)
+
+    return Part("static_nonlinearity", axis, Stage.ACTUATOR, act, (axis.floor, 0.1 * axis.span))
+
+
+def hysteresis(axis: Axis, rng: np.random.Generator) -> Part:
+    """Hysteresis of a Preisach plane or of Maxwell slip elements; size is the loop's share."""
+    return _preisach(axis, rng) if rng.uniform() < 0.6 else _maxwell_slip(axis, rng)
+
+
+def _preisach(axis: Axis, rng: np.random.Generator) -> Part:
+    plane = draw_plane(rng)
+    ramp = np.concatenate([np.linspace(0.0, 1.0, 400), np.linspace(1.0, 0.0, 400)])
+    major = run_plane(plane.everett, ramp)
+    slope, rest = np.polyfit(ramp, major, 1)
+    width = float(np.max(major[400:][::-1] - major[:400]))
+
+    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+        inputs = (values - axis.low) / axis.span
+        bent = run_plane(plane.everett, inputs) - (slope * inputs + rest)
+        return np.asarray(values + axis.span * size / width * bent)
+
+    return Part("hysteresis", axis, Stage.ACTUATOR, act, (0.002, 0.15))
+
+
+def _maxwell_slip(axis: Axis, rng: np.random.Generator) -> Part:
+    """Springs that slip one after the other, their strengths spread continuously."""
+    strengths = np.sort(rng.uniform(0.003, 0.6, 40) ** rng.uniform(1.0, 2.0))
+    stiffness = rng.gamma(2.0, 1.0, 40)
+    stiffness /= np.sum(stiffness * strengths)
+
+    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+        inputs = (values - axis.low) / axis.span
+        pull = _slipping(inputs, strengths, stiffness)
+        return np.asarray(values - 0.5 * axis.span * size * pull)
+
+    return Part("hysteresis", axis, Stage.ACTUATOR, act, (0.002, 0.15))
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _slipping(inputs: FloatArray, strengths: FloatArray, stiffness: FloatArray) -> FloatArray:
+    stretch = np.zeros_like(strengths)
+    out = np.empty_like(inputs)
+    last, force = 0.0, 0.0
+    for k in range(len(inputs)):
+        move = inputs[k] - last
+        last = inputs[k]
+        if move != 0.0:
+            force = 0.0
+            for i in range(len(strengths)):
+                stretch[i] = min(max(stretch[i] + move, -strengths[i]), strengths[i])
+                force += stiffness[i] * stretch[i]
+        out[k] = force
+    return out
+
+
+def creep(axis: Axis, rng: np.random.Generator) -> Part:
+    """Creep of a Kelvin–Voigt chain spread over decades of time; size is the share per decade."""
+    times = np.geomspace(rng.uniform(0.03, 0.1), rng.uniform(60.0, 300.0), 9)
+    per_decade = 8.0 / np.log10(times[-1] / times[0])
+    weights = rng.uniform(0.75, 1.25, 9) / per_decade
+
+    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+        return values + size * _crept(values, weights, course.step_s / times, course.lead)
+
+    return Part("creep", axis, Stage.ACTUATOR, act, (0.001, 0.05))
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _crept(values: FloatArray, weights: FloatArray, rates: FloatArray, lead: int) -> FloatArray:
+    """Strain of elements that had settled by the end of the lead, and count from there."""
+    start = values[lead]
+    strain = np.zeros_like(weights)
+    kept = np.exp(-rates)
+    out = np.zeros_like(values)
+    for k in range(lead, len(values)):
+        total = 0.0
+        for i in range(len(weights)):
+            goal = weights[i] * (values[k] - start)
+            strain[i] = goal + (strain[i] - goal) * kept[i]
+            total += strain[i]
+        out[k] = total
+    return out
+
+
+def lost_steps(axis: Axis, rng: np.random.Generator) -> Part:
+    """Four full steps, or a multiple, lost at the highest load; size counts the events."""
+    seed = int(rng.integers(2**31))
+
+    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+        draw = course.chance(seed)
+        out = values.copy()
+        for at in _busiest(values, course, round(size), draw):
+            way = np.sign(values[min(at + 20 * course.every, len(values) - 1)] - values[at])
+            out[at:] -= way * 4.0 * axis.full_step * draw.choice([1.0, 1.0, 1.0, 2.0])
+        return out
+
+    return Part("lost_steps", axis, Stage.ACTUATOR, act, (1.0, 4.0))
+
+
+def _busiest(
+    values: FloatArray, course: Course, number: int, draw: np.random.Generator
+) -> list[int]:
+    """Return up to ``number`` fine steps, apart, out of those of the highest load."""
+    width = 20 * course.every
+    moved = np.abs(values[2 * width :] - 2.0 * values[width:-width] + values[: -2 * width])
+    moved[: course.lead + width] = 0.0
+    high = np.flatnonzero(moved >= 0.8 * moved.max()) + width
+    chosen: list[int] = []
+    for at in draw.permutation(high):
+        if len(chosen) < number and all(abs(at - other) > 40 * width for other in chosen):
+            chosen.append(int(at))
+    return chosen
+
+
+def periodic(
+    axis: Axis, period: float, rng: np.random.Generator, harmonics: int, wander: float
+) -> "Wave":
+    """Draw a wave over position with harmonics, whose phase wanders slowly along the axis."""
+    orders = np.arange(1, harmonics + 1)
+    shares = rng.uniform(0.0, 0.5, harmonics) / orders
+    shares[0] = 1.0
+    return Wave(
+        period,
+        orders / 1.0,
+        shares / np.sqrt(np.sum(shares**2)),
+        rng.uniform(0.0, 2.0 * pi, harmonics),
+        wander * rng.uniform(0.3, 1.0),
+        rng.uniform(6.0, 20.0) * period,
+    )
+
+
+class Wave:
+    """A function of position, periodic but for a slow wander of its phase; rms 0.7."""
+
+    def __init__(
+        self,
+        period: float,
+        orders: FloatArray,
+        shares: FloatArray,
+        phases: FloatArray,
+        wander: float,
+        length: float,
+    ) -> None:
+        self.period, self.orders, self.shares = period, orders, shares
+        self.phases, self.wander, self.length = phases, wander, length
+
+    def __call__(self, position: FloatArray) -> FloatArray:
+        """Return the wave at ``position`` (n,)."""
+        turn = 2.0 * pi * position / self.period
+        turn = turn + self.wander * np.sin(2.0 * pi * position / self.length)
+        out = np.zeros_like(position)
+        for order, share, phase in zip(self.orders, self.shares, self.phases, strict=True):
+            out += share * np.sin(order * turn + phase)
+        return out
+
+
+def microstep_error(axis: Axis, rng: np.random.Generator) -> Part:
+    """Error with a period of four full steps; size is its amplitude, m."""
+    wave = periodic(axis, 4.0 * axis.full_step, rng, 4, 0.0)
+
+    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+        return values + size * wave(values)
+
+    return Part("microstep_error", axis, Stage.ACTUATOR, act, (5e-8, 3e-6))
+
+
+def leadscrew_error(axis: Axis, rng: np.random.Generator) -> Part:
+    """Error with a period of one pitch or a fraction, phase slowly modulated; size in m."""
+    wave = periodic(axis, axis.pitch / rng.choice([1.0, 1.0, 1.0, 2.0]), rng, 3, 0.3)
+
+    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+        return values + size * wave(values)
+
+    return Part("leadscrew_error", axis, Stage.ACTUATOR, act, (5e-8, 2e-5))

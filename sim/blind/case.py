@@ -1,0 +1,310 @@
+"""One case: its machine, the parts that it is given, their sizes, and its label."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.blind import excitation
+from rotemina.sim.blind.catalogue import CATALOGUE
+from rotemina.sim.blind.machine import Commands, Machine, Response, machine_of
+from rotemina.sim.blind.part import Axis, Part
+from rotemina.sim.blind.parts import draw_part
+from rotemina.sim.robot.model import Robot
+
+LEAST_FLOORS = 1.5
+LEAST_SHARE = 0.06
+MOST_FLOORS = 300.0
+
+KINDS = (
+    "healthy", "single", "double", "triple", "parameter", "poor", "unknown",
+)  # fmt: skip
+_PARAMETERS = ("gain_error", "resonance_mismatch")
+# At one frequency and amplitude, or in one step, each of these is any of the others.
+_POOR_SINE = ("delay", "amplifier_lag", "gain_error", "creep", "hysteresis", "sensor_gain")
+_POOR_STEP = ("gain_error", "static_nonlinearity", "sensor_gain", "thermal_drift")
+_TWINS = (
+    "sensor_gain", "sensor_nonlinearity", "sensor_lag", "gain_error", "static_nonlinearity",
+    "amplifier_lag",
+)  # fmt: skip
+_TRIES = 12
+
+
+class Present(NamedTuple):
+    """A part and what it adds to its axis' gap: in noise floors, and as a share of the power."""
+
+    part: Part
+    floors: float
+    share: float
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """A machine with parts, the commands it is run with and the taps that are recorded."""
+
+    kind: str
+    machine: Machine
+    names: tuple[str, ...]
+    training: tuple[Commands, ...]
+    held_out: Commands
+    taps: tuple[str, ...]
+    seed: int
+    present: tuple[Present, ...]
+
+    def label(self) -> dict[str, Any]:
+        """Return the answer that is right, as JSON."""
+        effects = [
+            {
+                "axis": one.part.axis.name,
+                "effect": one.part.effect,
+                "from_axis": one.part.from_axis,
+                "floors": round(one.floors, 3),
+                "share": round(one.share, 4),
+            }
+            for one in self.present
+        ]
+        return {
+            "verdict": _verdict(self.kind),
+            "effects": [] if self.kind == "poor" else effects,
+            "hidden": effects if self.kind == "poor" else [],
+            "kind": self.kind,
+            "floors": round(max((one.floors for one in self.present), default=0.0), 3),
+        }
+
+
+def _verdict(kind: str) -> str:
+    return {"healthy": "none", "unknown": "unknown", "poor": "insufficient_excitation"}.get(
+        kind, "explained"
+    )
+
+
+def draw_case(robot: Robot, kind: str, seed: int, effect: str | None = None) -> Case:
+    """Draw a case of a kind whose parts count by what they do; ``effect``: which it must hold."""
+    for attempt in range(100):
+        rng = np.random.default_rng((seed, attempt))
+        case = _attempt(robot, kind, rng, seed, effect)
+        if case is not None:
+            return case
+    raise RuntimeError(f"no case of kind {kind} with {effect} came about; seed {seed}")
+
+
+def _attempt(
+    robot: Robot, kind: str, rng: np.random.Generator, seed: int, effect: str | None
+) -> Case | None:
+    names = _names(robot, rng, effect)
+    step = bool(rng.uniform() < 0.4)
+    if kind == "poor":
+        training = excitation.poor_training(robot, names, rng, step=step)
+    else:
+        training = excitation.training(robot, names, rng)
+    spans = np.array([robot.axes[name].range for name in names]).T
+    training = [Commands(c.step_s, np.clip(c.values, *spans)) for c in training]
+    lowest = np.min([c.values.min(axis=0) for c in training], axis=0)
+    highest = np.max([c.values.max(axis=0) for c in training], axis=0)
+    travels = {n: np.array([lowest[i], highest[i]]) for i, n in enumerate(names)}
+    held_out = excitation.held_out(robot, names, travels, rng)
+    rounded = [_as_written(robot, names, c) for c in (*training, held_out)]
+    machine = machine_of(robot, names, travels)
+    present = _present(machine, kind, rounded[:-1], rng, effect, step=step)
+    if present is None:
+        return None
+    machine = machine.having([one.part for one in present])
+    shown = () if kind == "healthy" and rng.uniform() < 0.5 else tuple(present)
+    hidden = kind == "healthy"
+    return Case(
+        kind,
+        machine,
+        names,
+        tuple(rounded[:-1]),
+        rounded[-1],
+        _taps(machine, rng),
+        seed,
+        () if hidden else shown,
+    )
+
+
+def _names(robot: Robot, rng: np.random.Generator, effect: str | None) -> tuple[str, ...]:
+    """Return the axes of one stage on which the effect can sit."""
+    kinds = CATALOGUE[effect].kinds if effect in CATALOGUE else ("piezo", "stepper")
+    stages = [s for s in robot.stages.values() if robot.axes[s[0]].kind in kinds]
+    return tuple(stages[rng.integers(len(stages))])
+
+
+def _as_written(robot: Robot, names: Sequence[str], commands: Commands) -> Commands:
+    """Round commands to the digits that files hold: what was applied is what is written."""
+    values = np.empty_like(commands.values, order="F")
+    for i, name in enumerate(names):
+        per_si = file_unit(robot, name)[1]
+        values[:, i] = significant(commands.values[:, i] * per_si) / per_si
+    return Commands(commands.step_s, values)
+
+
+def file_unit(robot: Robot, name: str) -> tuple[str, float]:
+    """Return the unit in which files show an axis, and how many of it make the SI unit."""
+    axis = robot.axes[name]
+    if axis.unit == "rad" or (axis.unit is None and axis.kind == "piezo" and name != "zn"):
+        return "urad", 1e6
+    return ("mm", 1e3) if axis.kind == "stepper" else ("um", 1e6)
+
+
+def significant(values: FloatArray, digits: int = 7) -> FloatArray:
+    """Round to so many significant digits."""
+    size = np.floor(np.log10(np.maximum(np.abs(values), 1e-300)))
+    scale = 10.0 ** (digits - 1 - np.maximum(size, -12.0))
+    return np.asarray(np.round(values * scale) / scale)
+
+
+def _taps(machine: Machine, rng: np.random.Generator) -> tuple[str, ...]:
+    effects = {part.effect for part in machine.parts}
+    if machine.axes[0].kind == "stepper":
+        choices: tuple[tuple[str, ...], ...] = (("meas",), ("ref", "meas"))
+    else:
+        choices = (("meas",), ("u", "ref", "meas"), ("u", "meas"), ("ref", "meas"))
+    with_ref = [choice for choice in choices if "ref" in choice]
+    if effects & set(_TWINS) and rng.uniform() < 0.85:
+        return with_ref[rng.integers(len(with_ref))]
+    return choices[
+        rng.choice(len(choices), p=(0.5, 0.5) if len(choices) == 2 else (0.4, 0.4, 0.1, 0.1))
+    ]
+
+
+def _present(
+    machine: Machine,
+    kind: str,
+    training: Sequence[Commands],
+    rng: np.random.Generator,
+    effect: str | None,
+    *,
+    step: bool,
+) -> list[Present] | None:
+    """Draw parts and sizes; None where one of them would not be there to be found."""
+    trial = Trial(machine, tuple(training), int(rng.integers(2**31)))
+    if kind == "healthy":
+        return _slightly_off(trial, rng)
+    floors = float(np.exp(rng.uniform(np.log(LEAST_FLOORS * 1.1), np.log(MOST_FLOORS))))
+    parts: list[Part] = []
+    for axis, name in _places(machine.axes, kind, rng, effect, step=step):
+        others = tuple(a for a in machine.axes if a is not axis)
+        part = draw_part(name, axis, others, rng)
+        near = floors * 10.0 ** rng.uniform(-0.35, 0.35) if parts else floors
+        sized = trial.sized(part, near)
+        if sized is None:
+            return None
+        parts.append(sized)
+    return trial.present(parts)
+
+
+def _places(
+    axes: tuple[Axis, ...],
+    kind: str,
+    rng: np.random.Generator,
+    effect: str | None,
+    *,
+    step: bool,
+) -> list[tuple[Axis, str]]:
+    number = {"double": 2, "triple": 3}.get(kind, 1)
+    first = axes[rng.integers(len(axes))]
+    names = [name for name, entry in CATALOGUE.items() if first.kind in entry.kinds]
+    if kind == "unknown":
+        return [(first, "unknown")]
+    if kind == "poor":
+        pool = [name for name in (_POOR_STEP if step else _POOR_SINE) if name in names]
+        return [(first, pool[rng.integers(len(pool))])]
+    if kind == "parameter":
+        return [(first, _PARAMETERS[rng.integers(len(_PARAMETERS))])]
+    chosen = [str(name) for name in rng.choice(names, number, replace=False)]
+    if effect is not None:
+        chosen = [effect, *(name for name in chosen if name != effect)][:number]
+    together = rng.uniform() < 0.5
+    order = rng.permutation(len(axes))
+    start = int(np.flatnonzero(order == first.index)[0])
+    places = [first if together else axes[order[(start + k) % len(axes)]] for k in range(number)]
+    return list(zip(places, chosen, strict=True))
+
+
+def _slightly_off(trial: "Trial", rng: np.random.Generator) -> list[Present] | None:
+    """Return parameters that are off by less than shows, for half of the healthy machines."""
+    if rng.uniform() < 0.5:
+        return []
+    axes = trial.machine.axes
+    name = _PARAMETERS[rng.integers(len(_PARAMETERS))]
+    part = draw_part(name, axes[rng.integers(len(axes))], (), rng)
+    sized = trial.sized(part, rng.uniform(0.05, 0.2), low=0.0, free=True)
+    return None if sized is None else [Present(sized, 0.0, 0.0)]
+
+
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """Runs of a machine over the training records, to see what a part does."""
+
+    machine: Machine
+    training: tuple[Commands, ...]
+    seed: int
+
+    def readings(self, parts: Sequence[Part]) -> list[FloatArray]:
+        """Return the noise-free readings (n, m) of each record."""
+        machine = self.machine.having(parts)
+        return [
+            machine.respond(c, record_seed(self.seed, k)).reading
+            for k, c in enumerate(self.training)
+        ]
+
+    def sized(
+        self, part: Part, floors: float, low: float = LEAST_FLOORS, *, free: bool = False
+    ) -> Part | None:
+        """Return the part, sized so that alone it makes about so many floors; None if it cannot."""
+        plain = self.readings([])
+        if free:
+            part = _unbound(part)
+        part = part.sized(np.sqrt(part.sizes[0] * part.sizes[1]))
+        for _ in range(4):
+            got = difference(self.readings([part]), plain, part.axis)
+            if 0.7 < got / floors < 1.4:
+                break
+            part = part.sized(part.size * float(np.clip(floors / max(got, 1e-9), 0.02, 50.0)))
+        got = difference(self.readings([part]), plain, part.axis)
+        return part if got >= low and got < 4.0 * MOST_FLOORS else None
+
+    def present(self, parts: list[Part]) -> list[Present] | None:
+        """Return what each part adds when all others are in; None if one does too little."""
+        whole, plain = self.readings(parts), self.readings([])
+        out = []
+        for part in parts:
+            rest = self.readings([other for other in parts if other is not part])
+            floors = difference(whole, rest, part.axis)
+            share = (floors / difference(whole, plain, part.axis)) ** 2
+            if floors < LEAST_FLOORS or share < LEAST_SHARE:
+                return None
+            out.append(Present(part, floors, share))
+        return out
+
+
+def _unbound(part: Part) -> Part:
+    from dataclasses import replace
+
+    return replace(part, sizes=(1e-9, part.sizes[1]))
+
+
+def record_seed(seed: int, number: int) -> int:
+    """Return the seed of one record's chance."""
+    return seed * 16 + number
+
+
+def difference(first: list[FloatArray], second: list[FloatArray], axis: Axis) -> float:
+    """Return the rms of the difference of two sets of readings, means removed, in floors."""
+    gaps = [a[:, axis.index] - b[:, axis.index] for a, b in zip(first, second, strict=True)]
+    power = sum(float(np.sum((gap - gap.mean()) ** 2)) for gap in gaps)
+    return float(np.sqrt(power / sum(len(gap) for gap in gaps)) / axis.floor)
+
+
+def measured(case: Case, commands: Commands, number: int) -> tuple[Response, FloatArray]:
+    """Run the case over one record; return its taps and the reading with noise, rounded."""
+    response = case.machine.respond(commands, record_seed(case.seed, number))
+    chance = np.random.default_rng((case.seed, 77, number))
+    reading = response.reading.copy()
+    for axis in case.machine.axes:
+        noisy = reading[:, axis.index] + chance.normal(0.0, axis.noise, len(reading))
+        reading[:, axis.index] = np.round(noisy / axis.resolution) * axis.resolution
+    return response, reading

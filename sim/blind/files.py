@@ -1,0 +1,123 @@
+"""Cases as folders of record files, and their labels in a file apart."""
+
+import json
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+import polars as pl
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.blind.case import Case, draw_case, file_unit, measured, significant
+from rotemina.sim.blind.catalogue import CATALOGUE
+from rotemina.sim.blind.machine import Commands
+from rotemina.sim.records.writing import open_export
+from rotemina.sim.robot.model import PiezoAxis, Robot
+
+_HEAD = "# rotemina-record: 1\n# mode: open_loop\n"
+_VOLTAGE_NOISE = 0.003
+# In every hundred cases.
+_MIX = {
+    "healthy": 14,
+    "single": 38,
+    "double": 18,
+    "triple": 4,
+    "parameter": 8,
+    "poor": 8,
+    "unknown": 10,
+}
+
+
+def kinds(number: int, seed: int) -> Iterator[tuple[str, str | None, int]]:
+    """Yield kind, effect that must be in it (or None) and seed of each of ``number`` cases."""
+    deck = np.repeat(list(_MIX), list(_MIX.values()))
+    rng = np.random.default_rng(seed)
+    order: list[str] = []
+    effects: list[str] = []
+    for k in range(number):
+        if not order:
+            order = [str(kind) for kind in rng.permutation(deck)]
+        kind = order.pop()
+        effect = None
+        if kind in ("single", "double"):
+            if not effects:
+                effects = [str(name) for name in rng.permutation(list(CATALOGUE))]
+            effect = effects.pop()
+        yield kind, effect, seed * 100_000 + k
+
+
+def write_cases(
+    folder: Path,
+    number: int,
+    seed: int,
+    robot: Robot,
+    *,
+    only: Sequence[str] = (),
+    effect: str | None = None,
+) -> dict[str, dict[str, object]]:
+    """Write cases into ``folder/case_0000`` …, labels to ``folder/labels.json``; return these.
+
+    ``only``: kinds to keep; ``effect``: makes every one a single case of that effect.
+    """
+    labels: dict[str, dict[str, object]] = {}
+    for k, (kind, wanted, case_seed) in enumerate(kinds(number, seed)):
+        if effect is not None:
+            kind, wanted = "single", effect
+        if only and kind not in only:
+            continue
+        name = f"case_{k:04d}"
+        case = draw_case(robot, kind, case_seed, wanted)
+        write_case(folder / name, case, robot)
+        labels[name] = case.label()
+        (folder / "labels.json").write_text(json.dumps(labels, indent=1), encoding="utf-8")
+    return labels
+
+
+def write_case(folder: Path, case: Case, robot: Robot) -> None:
+    """Write one case's training records, and the commands and readings that are held out."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for number, commands in enumerate(case.training):
+        _write(folder / f"train_{number + 1}.csv.gz", case, robot, commands, number, case.taps)
+    last = len(case.training)
+    _write(folder / "test_commands.csv.gz", case, robot, case.held_out, last, ())
+    _write(folder / "test_measured.csv.gz", case, robot, case.held_out, last, ("meas",))
+
+
+def _write(
+    path: Path,
+    case: Case,
+    robot: Robot,
+    commands: Commands,
+    number: int,
+    taps: tuple[str, ...],
+) -> None:
+    columns = {"t [s]": np.round(np.arange(len(commands.values)) * commands.step_s, 9)}
+    signals = _signals(case, robot, commands, number) if taps else {}
+    for i, name in enumerate(case.names):
+        unit, per_si = file_unit(robot, name)
+        columns[f"{name}.cmd [{unit}]"] = significant(commands.values[:, i] * per_si)
+        for tap in taps:
+            shown, factor = ("V", 1.0) if tap == "u" else (unit, per_si)
+            values = significant(signals[tap][:, i] * factor)
+            columns[f"{name}.{tap} [{shown}]"] = values
+    with open_export(str(path)) as file:
+        file.write((_HEAD + ", ".join(columns) + "\n").encode())
+        pl.DataFrame(columns).write_csv(file, include_header=False)
+
+
+def _signals(case: Case, robot: Robot, commands: Commands, number: int) -> dict[str, FloatArray]:
+    response, reading = measured(case, commands, number)
+    chance = np.random.default_rng((case.seed, 78, number))
+    gains = [a.gain if isinstance(a := robot.axes[n], PiezoAxis) else 1.0 for n in case.names]
+    noise = [_reference_noise(robot, name) for name in case.names]
+    shape = response.motion.shape
+    return {
+        "u": response.drive / gains + chance.normal(0.0, _VOLTAGE_NOISE, shape),
+        "ref": response.motion + chance.normal(0.0, 1.0, shape) * noise,
+        "meas": reading,
+    }
+
+
+def _reference_noise(robot: Robot, name: str) -> float:
+    noise = robot.reference.noise_rms
+    return (noise.angular if file_unit(robot, name)[0] == "urad" else noise.linear) or 0.0

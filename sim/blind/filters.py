@@ -1,0 +1,33 @@
+"""Linear filters on the fine grid that start at rest with their first value."""
+
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import signal
+
+from rotemina.sim.arrays import FloatArray
+
+ComplexArray = NDArray[np.complex128]
+
+
+def lagged(values: FloatArray, poles: ComplexArray, step_s: float) -> FloatArray:
+    """Filter ``values`` (n,) by a low-pass with the given ``poles`` (1/s) and static gain 1."""
+    numerator = [float(np.real(np.prod(-poles)))]
+    system = signal.TransferFunction(numerator, np.real(np.poly(poles)))
+    digital = system.to_discrete(step_s, "foh")
+    sections = signal.tf2sos(np.ravel(digital.num), digital.den)
+    settled = signal.sosfilt_zi(sections) * values[0]
+    return np.asarray(signal.sosfilt(sections, values, zi=settled)[0])
+
+
+def mode_poles(frequency_hz: float, damping_ratio: float) -> ComplexArray:
+    """Return the pair of poles (1/s) of a mode."""
+    rate = 2.0 * pi * frequency_hz
+    return np.asarray(np.roots([1.0, 2.0 * damping_ratio * rate, rate**2]), np.complex128)
+
+
+def shifted(values: FloatArray, steps: FloatArray | float) -> FloatArray:
+    """Return ``values`` (n,) later by a fractional number of fine steps (a number or (n,))."""
+    index = np.arange(len(values), dtype=np.float64)
+    return np.interp(index - steps, index, values)
