@@ -6,7 +6,7 @@ import numba
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.blind.filters import lagged, mode_poles, shifted
+from rotemina.sim.blind.filters import ComplexArray, lagged, mode_poles, shifted
 from rotemina.sim.blind.part import Axis, Course, Part, Stage
 
 
@@ -19,7 +19,7 @@ def delay(axis: Axis, rng: np.random.Generator) -> Part:
     return Part("delay", axis, Stage.DRIVE, act, (1e-4, 1.5e-2))
 
 
-def lag_poles(rng: np.random.Generator) -> FloatArray:
+def lag_poles(rng: np.random.Generator) -> ComplexArray:
     """Draw a low-pass whose low-frequency delay is 1 s: one to three poles, in various places."""
     match rng.integers(4):
         case 0:
@@ -30,7 +30,7 @@ def lag_poles(rng: np.random.Generator) -> FloatArray:
             poles = mode_poles(1.0 / (2.0 * pi), rng.uniform(0.6, 1.0))
         case _:
             poles = np.exp(1j * pi * np.array([2.0, 3.0, 4.0]) / 3.0)  # Butterworth
-    return np.asarray(poles * float(np.real(np.sum(-1.0 / poles))))
+    return np.asarray(poles * float(np.real(np.sum(-1.0 / poles))), np.complex128)
 
 
 def amplifier_lag(axis: Axis, rng: np.random.Generator) -> Part:

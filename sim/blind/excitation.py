@@ -33,7 +33,7 @@ def _decaying(time_s: FloatArray, rng: np.random.Generator) -> FloatArray:
     fading = 1.0 - rng.uniform(0.6, 0.9) * time_s / time_s[-1]
     onset = np.minimum(time_s / 0.4, 1.0)
     onset = onset * onset * (3.0 - 2.0 * onset)
-    return 0.5 + rng.choice([-1.0, 1.0]) * rng.uniform(0.3, 0.4) * fading * onset * wave
+    return np.asarray(0.5 + rng.choice([-1.0, 1.0]) * rng.uniform(0.3, 0.4) * fading * onset * wave)
 
 
 def _noisy_sine(time_s: FloatArray, rng: np.random.Generator) -> FloatArray:
@@ -87,14 +87,14 @@ def _ramps(time_s: FloatArray, rng: np.random.Generator) -> FloatArray:
     far = rng.choice([0.0, 1.0])
     rest = abs(far - rng.uniform(0.0, 0.1))
     shares = np.array([far, far, 1.0 - far, 1.0 - far, rest, rest])
-    return np.interp(time_s, knots, shares)
+    return np.asarray(np.interp(time_s, knots, shares))
 
 
 def _noisy_triangle(time_s: FloatArray, rng: np.random.Generator) -> FloatArray:
     fading = 1.0 - rng.uniform(0.5, 0.85) * time_s / time_s[-1]
     wave = _triangle(rng.uniform(0.25, 0.55) * time_s)
     tones = rng.uniform(0.003, 0.009) * _tones(time_s, rng)
-    return 0.5 + rng.choice([-1.0, 1.0]) * 0.45 * fading * wave + tones
+    return np.asarray(0.5 + rng.choice([-1.0, 1.0]) * 0.45 * fading * wave + tones)
 
 
 def _slow_sine(time_s: FloatArray, rng: np.random.Generator) -> FloatArray:
@@ -103,7 +103,7 @@ def _slow_sine(time_s: FloatArray, rng: np.random.Generator) -> FloatArray:
 
 def _one_step(time_s: FloatArray, rng: np.random.Generator) -> FloatArray:
     step = rng.uniform(0.02, 0.08) * rng.choice([-1.0, 1.0])
-    return 0.5 + step * (time_s >= 0.3 * time_s[-1])
+    return np.asarray(0.5 + step * (time_s >= 0.3 * time_s[-1]))
 
 
 PIEZO = (

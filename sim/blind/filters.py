@@ -11,12 +11,12 @@ from rotemina.sim.arrays import FloatArray
 ComplexArray = NDArray[np.complex128]
 
 
-def lagged(values: FloatArray, poles: ComplexArray, step_s: float) -> FloatArray:
+def lagged(values: FloatArray, poles: ComplexArray | FloatArray, step_s: float) -> FloatArray:
     """Filter ``values`` (n,) by a low-pass with the given ``poles`` (1/s) and static gain 1."""
-    numerator = [float(np.real(np.prod(-poles)))]
-    system = signal.TransferFunction(numerator, np.real(np.poly(poles)))
-    digital = system.to_discrete(step_s, "foh")
-    sections = signal.tf2sos(np.ravel(digital.num), digital.den)
+    numerator = np.atleast_1d(np.float64(np.real(np.prod(-poles))))
+    denominator = np.asarray(np.real(np.poly(poles)), np.float64)
+    digital = signal.cont2discrete((numerator, denominator), step_s, "foh")
+    sections = signal.tf2sos(np.ravel(digital[0]), digital[1])
     settled = signal.sosfilt_zi(sections) * values[0]
     return np.asarray(signal.sosfilt(sections, values, zi=settled)[0])
 

@@ -103,7 +103,7 @@ def _load(
     if code == CONTACT:
         return _pressed(row, q, v)
     if code == HARDENING:
-        return -row[2] * _hardened(row, q)
+        return float(-row[2] * _hardened(row, q))
     if code == ELASTOPLASTIC:
         return -_elastoplastic(row, memory, v, step_s)
     # BREATHING: a stiffness that changes by itself with time.
@@ -118,7 +118,7 @@ def _play(gap: float, half: float, soft: float) -> float:
 
 @numba.njit(cache=True, error_model="numpy")
 def _ramp(x: float, soft: float) -> float:
-    return 0.5 * (x + np.sqrt(x * x + soft * soft))
+    return float(0.5 * (x + np.sqrt(x * x + soft * soft)))
 
 
 @numba.njit(cache=True, error_model="numpy")
@@ -146,7 +146,7 @@ def _maxwell(row: FloatArray, memory: FloatArray, v: float, step_s: float) -> fl
             f = min(max(f, -2.0 * most), 2.0 * most)
         memory[i] = f
         total += f
-    return total
+    return float(total)
 
 
 @numba.njit(cache=True, error_model="numpy")
@@ -157,7 +157,7 @@ def _dahl(row: FloatArray, memory: FloatArray, v: float, step_s: float) -> float
     slope = np.sign(rest) * abs(rest) ** row[5]
     f = memory[0] + coulomb / row[6] * slope * v * step_s
     memory[0] = min(max(f, -row[3]), row[2])
-    return memory[0] + row[8] * v
+    return float(memory[0] + row[8] * v)
 
 
 @numba.njit(cache=True, error_model="numpy")
@@ -171,7 +171,7 @@ def _elastoplastic(row: FloatArray, memory: FloatArray, v: float, step_s: float)
         plastic = 0.5 - 0.5 * np.cos(np.pi * x)
     memory[0] = memory[0] + v * step_s * (1.0 - plastic * abs(z))
     memory[0] = min(max(memory[0], -row[6]), row[6])
-    return coulomb * memory[0] / row[6] + row[8] * v
+    return float(coulomb * memory[0] / row[6] + row[8] * v)
 
 
 @numba.njit(cache=True, error_model="numpy")
@@ -181,7 +181,7 @@ def _pressed(row: FloatArray, q: float, v: float) -> float:
     if depth <= 0.0:
         return 0.0
     push = row[3] * depth ** row[6] * (1.0 + row[4] * v * row[5])
-    return -row[5] * max(push, 0.0)
+    return float(-row[5] * max(push, 0.0))
 
 
 @numba.njit(cache=True, error_model="numpy")
@@ -189,7 +189,7 @@ def _hardened(row: FloatArray, q: float) -> float:
     """Extra restoring share about row[3] over the length row[4], by one of three laws row[5]."""
     x = (q - row[3]) / row[4]
     if row[5] == 0.0:
-        return np.sinh(row[6] * x) / row[6] - x
+        return float(np.sinh(row[6] * x) / row[6] - x)
     if row[5] == 1.0:
-        return x * abs(x) ** row[6]
-    return np.tan(1.2 * max(min(x, 1.2), -1.2)) / 1.2 - x
+        return float(x * abs(x) ** row[6])
+    return float(np.tan(1.2 * max(min(x, 1.2), -1.2)) / 1.2 - x)

@@ -62,4 +62,4 @@ def vibration(axis: Axis, rng: np.random.Generator) -> Part:
 def _wander(time_s: NDArray[np.floating[Any]], draw: np.random.Generator) -> FloatArray:
     """Return a smooth random curve (n,) of rms about 1, that changes over several seconds."""
     knots_s = np.arange(-3.0, time_s[-1] + 9.0, 3.0)
-    return np.interp(time_s, knots_s, draw.normal(size=len(knots_s)))
+    return np.asarray(np.interp(time_s, knots_s, draw.normal(size=len(knots_s))))

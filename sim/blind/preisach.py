@@ -41,7 +41,7 @@ def _mass(everett: FloatArray, high: float, low: float) -> float:
     a, b = min(max(high, 0.0), 1.0) * n, min(max(low, 0.0), 1.0) * n
     i, j = min(int(a), n - 1), min(int(b), n - 1)
     s, t = a - i, b - j
-    return (
+    return float(
         everett[i, j] * (1.0 - s) * (1.0 - t)
         + everett[i + 1, j] * s * (1.0 - t)
         + everett[i, j + 1] * (1.0 - s) * t

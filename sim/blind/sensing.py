@@ -16,7 +16,7 @@ def sensor_gain(axis: Axis, rng: np.random.Generator) -> Part:
     sign = rng.choice([-1.0, 1.0])
 
     def act(values: FloatArray, course: Course, size: float) -> FloatArray:
-        return values * (1.0 + sign * size)
+        return np.asarray(values * (1.0 + sign * size))
 
     return Part("sensor_gain", axis, Stage.READING, act, (1e-5, 0.1))
 
