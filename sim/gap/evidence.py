@@ -5,12 +5,13 @@ The constant part of a difference is no evidence: the offset of a record is a nu
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Self
+from typing import NamedTuple, Self
 
 import numpy as np
 
-from rotemina.sim.arrays import FloatArray
+from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
 from rotemina.sim.comparison.noise_floor import noise_floor
+from rotemina.sim.gap.blocks import block_numbers
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.plant.history import measured_start, steady_start
 from rotemina.sim.plant.plant import Plant
@@ -26,16 +27,28 @@ _GRID_ROWS = 20_000  # in which the steps of a signal are looked for
 Signals = Mapping[Tap, FloatArray]
 
 
+class Part(NamedTuple):
+    """Which rows of a residual belong to a tap of a record."""
+
+    record: int
+    tap: Tap
+    rows: slice
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Observation:
     """One record as it speaks of one axis.
 
-    ``real`` (n,) per tap, SI; ``floor`` rms per tap of what no model can explain.
+    ``real`` (n,) per tap, SI; ``floor`` rms per tap of what no model can explain; ``kept`` (n,)
+    per tap tells which rows a fit may trust, all where a tap is missing; ``nuisance`` (n, m) are
+    signals that are this record's own, in whatever amount, beside its offset.
     """
 
     record: Record
     real: Signals
     floor: Mapping[Tap, float]
+    kept: Mapping[Tap, BoolArray] = field(default_factory=dict)
+    nuisance: FloatArray | None = None
 
     @property
     def taps(self) -> tuple[Tap, ...]:
@@ -51,6 +64,7 @@ class Evidence:
     axis: str
     observations: tuple[Observation, ...]
     _runs: dict[tuple[int, tuple[str, ...]], Run] = field(default_factory=dict)
+    _own: dict[tuple[int, Tap], FloatArray] = field(default_factory=dict)
 
     @classmethod
     def of(cls, robot: Robot, axis: str, records: Sequence[Record]) -> Self:
@@ -78,8 +92,55 @@ class Evidence:
             )
         return cls(robot, axis, tuple(observations))
 
-    def response(self, effects: Sequence[AxisEffect] = ()) -> list[Signals]:
-        """Return what the model with further effects answers to each record.
+    def with_model(self, robot: Robot) -> "Evidence":
+        """Return the same evidence beside another model of the machine."""
+        return Evidence(robot, self.axis, self.observations)
+
+    @property
+    def parts(self) -> list[Part]:
+        """The taps of all records in the order in which :meth:`residual` strings them together."""
+        parts, begin = [], 0
+        for number, observation in enumerate(self.observations):
+            for tap, real in observation.real.items():
+                parts.append(Part(number, tap, slice(begin, begin + len(real))))
+                begin += len(real)
+        return parts
+
+    def residual(
+        self, effects: Sequence[AxisEffect] = (), only: Sequence[int] | None = None
+    ) -> FloatArray:
+        """Return real minus model (rows,) over the floor, without nuisances; 0 in rows not kept.
+
+        ``only`` names records; all of them by default.
+        """
+        numbers = range(len(self.observations)) if only is None else only
+        answers = self.response(effects, numbers)
+        left = [
+            self._without_nuisance(number, tap, (real - answer[tap]) / observation.floor[tap])
+            for number, answer in zip(numbers, answers, strict=True)
+            for observation in (self.observations[number],)
+            for tap, real in observation.real.items()
+        ]
+        return np.concatenate(left)
+
+    def _without_nuisance(self, number: int, tap: Tap, gap: FloatArray) -> FloatArray:
+        """Remove what is the record's own: its offset, and further signals."""
+        observation = self.observations[number]
+        kept = observation.kept.get(tap)
+        if kept is None and observation.nuisance is None:
+            return _centred(gap)
+        key = number, tap
+        if key not in self._own:
+            self._own[key] = _own_signals(observation, kept, len(gap))
+        basis = self._own[key]
+        if kept is not None:
+            gap = np.where(kept, gap, 0.0)
+        return np.asarray(gap - basis @ (basis.T @ gap))
+
+    def response(
+        self, effects: Sequence[AxisEffect] = (), only: Sequence[int] | None = None
+    ) -> list[Signals]:
+        """Return what the model with further effects answers to each record, or to some.
 
         Raises
         ------
@@ -89,7 +150,8 @@ class Evidence:
         robot = replace(self.robot, effects=(*self.robot.effects, *effects))
         plants: dict[bool, Plant] = {}
         answers: list[Signals] = []
-        for number, observation in enumerate(self.observations):
+        for number in range(len(self.observations)) if only is None else only:
+            observation = self.observations[number]
             record = observation.record
             if record.closed_loop not in plants:
                 plants[record.closed_loop] = Plant.of(
@@ -127,6 +189,18 @@ class Evidence:
         if key not in self._runs:
             self._runs[key] = run_of(plant, self.observations[number].record)
         return self._runs[key]
+
+
+def block_rows(evidence: Evidence) -> IntArray:
+    """Return the block (rows,) of each row of a residual, the same one for all taps."""
+    numbers: dict[int, IntArray] = {}
+    begin = 0
+    for number, observation in enumerate(evidence.observations):
+        record = observation.record
+        own = block_numbers(record.time_s, record.signal(evidence.axis, Tap.CMD))
+        numbers[number] = own + begin
+        begin = int(numbers[number].max()) + 1
+    return np.concatenate([numbers[part.record] for part in evidence.parts])
 
 
 def _start(plant: Plant, record: Record, run: Run) -> PlantState:
@@ -169,6 +243,17 @@ def _grid(signal: FloatArray) -> float:
     step = float(np.diff(levels).min())
     off = levels / step - np.rint(levels / step)
     return step if float(np.abs(off).max()) < 0.05 else 0.0
+
+
+def _own_signals(observation: Observation, kept: BoolArray | None, rows: int) -> FloatArray:
+    """Return an orthonormal basis (n, m) of a record's nuisances over the rows that are kept."""
+    signals = [np.ones((rows, 1))]
+    if observation.nuisance is not None:
+        signals.append(observation.nuisance)
+    together = np.hstack(signals)
+    if kept is not None:
+        together = together * kept[:, None]
+    return np.asarray(np.linalg.qr(together)[0])
 
 
 def _centred(signal: FloatArray) -> FloatArray:

@@ -1,61 +1,38 @@
 """Effects fitted to records by output error: simulate, compare, correct.
 
-All parameters of all effects are fitted together, within their bounds, by a trust-region
-least-squares method (Branch, Coleman, Li, SIAM J. Sci. Comput. 21 (1999) 1-23) on the gaps over
-their noise floors. A parameter is counted in units of its size: of its preset, or of a hundredth
-of its scale where that is zero.
+All parameters of all effects are fitted together, within their bounds, to the gaps over their
+noise floors. A parameter is counted in units of its size: of its preset, or of a hundredth of its
+scale where that is zero. Never is an effect fitted beside a frozen model: the model's own
+parameters may be re-tuned along with it.
 """
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
-from scipy.optimize import least_squares
+from scipy.optimize import lsq_linear
 
-from rotemina.sim.arrays import FloatArray
+from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.errors import EffectError
-from rotemina.sim.gap.evidence import Evidence, Signals
+from rotemina.sim.gap.descent import descend
+from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.robot.model import AxisEffect
 
-_STEP = 1e-4  # of a parameter's size, for its derivative
 _LOST = 1e6  # floors by which a model that cannot be simulated is off
 _SMALL_SHARE = 0.01  # of its scale, as the size of a parameter whose preset is zero
 _UNBOUNDED = 1e6  # sizes up to which a parameter without a bound may go
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Fit:
-    """Effects fitted to evidence.
-
-    Attributes
-    ----------
-    effects : tuple of AxisEffect
-        With the fitted parameters.
-    gaps : list of mapping tap -> (n,)
-        What is left of each record, over the floor.
-    cost : float
-        Mean square of what is left, over the records that were fitted.
-    jacobian : (rows, parameters)
-        Of the gaps, by parameters in units of their sizes.
-    at_bound : mapping (effect number, parameter) -> "low" or "high"
-        Parameters that ended at a bound.
-    runs : int
-        How many times all records were simulated.
-    """
-
-    effects: tuple[AxisEffect, ...]
-    gaps: list[Signals]
-    cost: float
-    jacobian: FloatArray
-    at_bound: Mapping[tuple[int, str], str]
-    runs: int
+_DOUBT = 0.02  # of all that is known, which a fit to some records may keep of the others
+_BLIND = 1e-10  # of the greatest eigenvalue, below which the records say nothing
+_BLIND_SHARE = 1e-3  # of a parameter in such directions, from which it is unknown
+_AT_BOUND = 1e-6  # sizes from a bound that are none
 
 
 @dataclass(frozen=True, slots=True)
-class _Free:
-    """One parameter: whose, and its bounds, size and start, SI."""
+class Free:
+    """One parameter: whose, its bounds, size and start, SI."""
 
     effect: int
     name: str
@@ -65,99 +42,207 @@ class _Free:
     start: float
 
 
-def fit(
-    evidence: Evidence,
-    effects: Sequence[AxisEffect],
-    *,
-    records: Sequence[int] | None = None,
-    most_steps: int = 30,
-) -> Fit:
-    """Fit all parameters of ``effects``, from those that they name or their presets on.
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """Effects fitted to evidence.
 
-    Parameters
+    Attributes
     ----------
-    evidence : Evidence
-    effects : sequence of AxisEffect
-    records : sequence of int, optional
-        Which records to fit; all of them by default. The gaps of all are told.
-    most_steps : int
-        After which the fit ends where it is.
+    effects : tuple of AxisEffect
+        With the fitted parameters.
+    free : tuple of Free
+        The parameters.
+    x : (parameters,)
+        Their values in units of their sizes.
+    residual : (rows,)
+        What is left of all records, over the floor.
+    jacobian : (rows, parameters)
+        Of the residual.
+    """
+
+    effects: tuple[AxisEffect, ...]
+    free: tuple[Free, ...]
+    x: FloatArray
+    residual: FloatArray
+    jacobian: FloatArray
+
+    @property
+    def cost(self) -> float:
+        """Mean square of what is left."""
+        return float(np.mean(self.residual**2))
+
+    @property
+    def at_bound(self) -> Mapping[tuple[int, str], str]:
+        """Parameters (effect number, name) that ended at a bound: "low" or "high"."""
+        ends: dict[tuple[int, str], str] = {}
+        for one, x in zip(self.free, self.x, strict=True):
+            for bound, name in ((one.low, "low"), (one.high, "high")):
+                if abs(x - bound / one.size) < _AT_BOUND * max(1.0, abs(x)):
+                    ends[one.effect, one.name] = name
+        return ends
+
+    @cached_property
+    def basis(self) -> FloatArray:
+        """Orthonormal directions (rows, parameters) in which the fit can still give way."""
+        return np.linalg.qr(self.jacobian)[0]
+
+    def deviation(self, numbers: IntArray) -> FloatArray:
+        """Return the standard deviation (parameters,) of ``x``, infinite where nothing tells.
+
+        Rows of one block, as ``numbers`` (rows,) count them, may err alike: the sandwich of Huber
+        (5th Berkeley Symposium 1 (1967) 221-233) with scores summed over blocks.
+        """
+        if not self.free:
+            return np.zeros(0)
+        scores = np.stack(
+            [np.bincount(numbers, column * self.residual) for column in self.jacobian.T], axis=1
+        )
+        hessian = self.jacobian.T @ self.jacobian
+        scale = np.sqrt(np.maximum(np.diag(hessian), 1e-300))
+        values, vectors = np.linalg.eigh(hessian / np.outer(scale, scale))
+        told = values > _BLIND * values.max(initial=0.0)
+        inverse = (vectors[:, told] / values[told]) @ vectors[:, told].T / np.outer(scale, scale)
+        covariance = inverse @ (scores.T @ scores) @ inverse
+        blind = (vectors[:, ~told] ** 2).sum(axis=1) > _BLIND_SHARE
+        return np.where(blind, np.inf, np.sqrt(np.maximum(np.diag(covariance), 0.0)))
+
+
+def fit(evidence: Evidence, effects: Sequence[AxisEffect], *, most_steps: int = 12) -> Fit:
+    """Fit all parameters of ``effects``, from those that they name or their presets on.
 
     Raises
     ------
     EffectError
         If an effect cannot sit where it is asked to.
     """
-    free = _free_parameters(evidence, effects)
-    chosen = range(len(evidence.observations)) if records is None else records
-    rows = sum(
-        len(real) for number in chosen for real in evidence.observations[number].real.values()
-    )
-    runs = 0
+    free = free_parameters(evidence, effects)
+    if not free:
+        residual = evidence.residual(effects)
+        nothing = np.zeros(0)
+        return Fit(tuple(effects), (), nothing, residual, np.zeros((len(residual), 0)))
+    low, high, start = bounds(free)
+    found = descend(lambda x: residual_of(evidence, effects, free, x), start, low, high, most_steps)
+    return Fit(with_values(effects, free, found.x), free, *found)
 
-    def residual(sizes: FloatArray) -> FloatArray:
-        nonlocal runs
-        runs += 1
-        try:
-            gaps = evidence.gaps(_with(effects, free, sizes))
-        except (EffectError, PlantError):
-            return np.full(rows, _LOST)
-        return np.concatenate([gap for number in chosen for gap in gaps[number].values()])
 
+def held_out(evidence: Evidence, fitted: Fit) -> FloatArray:
+    """Return what is left (rows,) of each record by a fit to all the others.
+
+    Each fit is one Gauss-Newton step away from the fit to all. Directions in which the other
+    records say hardly anything stay where they are. A single record is halved.
+    """
+    if not fitted.free:
+        return fitted.residual
+    low, high, _ = bounds(fitted.free)
+    left = fitted.residual.copy()
+    hessian = fitted.jacobian.T @ fitted.jacobian
+    slope = fitted.jacobian.T @ fitted.residual
+    for records, rows in folds(evidence):
+        jacobian, residual = fitted.jacobian[rows], fitted.residual[rows]
+        # What the others know, and a little of all: it keeps blind directions in place.
+        known = (1.0 + _DOUBT) * hessian - jacobian.T @ jacobian
+        x = _bounded_minimum(known, slope - jacobian.T @ residual, fitted.x, low, high)
+        then = residual_of(evidence, fitted.effects, fitted.free, x, records)
+        left[rows] = then[_among(evidence, records, rows)]
+    return left
+
+
+def _bounded_minimum(
+    hessian: FloatArray, slope: FloatArray, x: FloatArray, low: FloatArray, high: FloatArray
+) -> FloatArray:
+    """Return where the quadratic about ``x`` with this slope is least, within bounds."""
+    scale = np.sqrt(np.maximum(np.diag(hessian), 1e-300))
+    values, vectors = np.linalg.eigh(hessian / np.outer(scale, scale))
+    roots = np.sqrt(np.maximum(values, 1e-12 * values.max()))
+    rows = roots[:, None] * vectors.T  # rowsᵀ rows is the scaled hessian
+    target = -(vectors.T @ (slope / scale)) / roots
+    lows, highs = (low - x) * scale, (high - x) * scale
+    step = lsq_linear(rows, target, (np.minimum(lows, 0.0) - 1e-9, np.maximum(highs, 0.0) + 1e-9))
+    return np.asarray(np.clip(x + step.x / scale, low, high))
+
+
+def folds(evidence: Evidence) -> list[tuple[list[int], np.ndarray]]:
+    """Return which records, and which rows (rows,) of them, are left out together."""
+    parts = evidence.parts
+    rows = parts[-1].rows.stop
+    found = []
+    several = len(evidence.observations) > 1
+    for number in range(len(evidence.observations)):
+        for half in range(1 if several else 4):
+            out = np.zeros(rows, dtype=np.bool_)
+            for part in parts:
+                if part.record == number:
+                    begin, end = part.rows.start, part.rows.stop
+                    size = end - begin
+                    if several:
+                        out[begin:end] = True
+                    else:
+                        out[begin + size * half // 4 : begin + size * (half + 1) // 4] = True
+            found.append(([number], out))
+    return found
+
+
+def _among(evidence: Evidence, records: Sequence[int], rows: np.ndarray) -> np.ndarray:
+    """Return which rows of the residual of some records are meant, of those of all."""
+    return np.concatenate([rows[part.rows] for part in evidence.parts if part.record in records])
+
+
+def residual_of(
+    evidence: Evidence,
+    effects: Sequence[AxisEffect],
+    free: Sequence[Free],
+    x: FloatArray,
+    only: Sequence[int] | None = None,
+) -> FloatArray:
+    """Return the residual (rows,) with these parameters."""
+    try:
+        return evidence.residual(with_values(effects, free, x), only)
+    except (EffectError, PlantError):
+        rows = sum(
+            part.rows.stop - part.rows.start
+            for part in evidence.parts
+            if only is None or part.record in only
+        )
+        return np.full(rows, _LOST)
+
+
+def bounds(free: Sequence[Free]) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return lows, highs and starts (parameters,) in units of their sizes."""
     low = np.array([one.low / one.size for one in free])
     high = np.array([one.high / one.size for one in free])
-    start = np.array([one.start / one.size for one in free])
-    if not free:
-        gaps = evidence.gaps(effects)
-        left = residual(start)
-        return Fit(tuple(effects), gaps, float(np.mean(left**2)), np.zeros((rows, 0)), {}, 1)
-    # The method wants to begin inside; a bound itself is reached as nearly as makes no difference.
-    inside = 1e-9 * np.maximum(high - low, 1.0)
-    found = least_squares(
-        residual,
-        np.clip(start, low + inside, high - inside),
-        bounds=(low, high),
-        diff_step=np.full(len(free), _STEP),
-        max_nfev=most_steps,
-    )
-    fitted = _with(effects, free, found.x)
-    ends = {-1: "low", 1: "high"}
-    at_bound = {
-        (one.effect, one.name): ends[int(end)]
-        for one, end in zip(free, found.active_mask, strict=True)
-        if end != 0
-    }
-    cost = 2.0 * float(found.cost) / rows
-    return Fit(fitted, evidence.gaps(fitted), cost, np.asarray(found.jac), at_bound, runs)
+    return low, high, np.array([one.start / one.size for one in free])
 
 
-def _free_parameters(evidence: Evidence, effects: Sequence[AxisEffect]) -> list[_Free]:
-    free: list[_Free] = []
+def free_parameters(evidence: Evidence, effects: Sequence[AxisEffect]) -> tuple[Free, ...]:
+    """Return the parameters of effects, numbered as these."""
+    free: list[Free] = []
     for number, asked in enumerate(effects):
         attached = Attached.of(evidence.robot, asked)
         for parameter in attached.formulation.parameters:
             low, high = parameter.bounds(attached.facts)
             preset = parameter.preset(attached.facts)
             size = abs(preset) or _SMALL_SHARE * parameter.scale(attached.facts)
-            start = attached.values[parameter.name]
             free.append(
-                _Free(
+                Free(
                     number,
                     parameter.name,
                     max(low, -_UNBOUNDED * size),
                     min(high, _UNBOUNDED * size),
                     size,
-                    start,
+                    attached.values[parameter.name],
                 )
             )
-    return free
+    return tuple(free)
 
 
-def _with(
-    effects: Sequence[AxisEffect], free: Sequence[_Free], sizes: FloatArray
+def with_values(
+    effects: Sequence[AxisEffect], free: Sequence[Free], x: FloatArray
 ) -> tuple[AxisEffect, ...]:
     """Return the effects with these parameters, each given in units of its size."""
     values: list[dict[str, float]] = [{} for _ in effects]
-    for one, size in zip(free, sizes, strict=True):
+    for one, size in zip(free, x, strict=True):
         values[one.effect][one.name] = float(np.clip(size * one.size, one.low, one.high))
-    return tuple(replace(asked, parameters=own) for asked, own in zip(effects, values, strict=True))
+    return tuple(
+        replace(asked, parameters={**asked.parameters, **own})
+        for asked, own in zip(effects, values, strict=True)
+    )

@@ -1,110 +1,185 @@
 """Where a fit begins: what is periodic, placed or coupled cannot be found downhill from anywhere.
 
-Periods and frequencies are read from the spectrum of the gap, over time or over position (Lomb,
-Astrophysics and Space Science 39 (1976) 447-462); modes and places of contact are tried in several
-places; the strength of a coupling is that of its regression.
+Periods are read from the spectrum of what is left, over position or over time; thresholds, places,
+delays and modes are tried in several sizes; the strength of a coupling is that of its regression.
 """
 
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
-from scipy.signal import lombscargle
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.effects.attachment import Attached
-from rotemina.sim.effects.formulation import Parameter
 from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.fit import Fit
+from rotemina.sim.gap.lines import strongest_frequency, strongest_period
 from rotemina.sim.records.record import Tap
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.robot.model import AxisEffect, PiezoAxis
 
-_MOST_ROWS = 4000  # of a record, for a spectrum
-_MOST_LINES = 4000
-_FINENESS = 4.0  # lines per resolvable one
 _MODES = (0.4, 1.7, 3.0)  # of the axis' own frequency
-_PLACES = (0.25, 0.5, 0.75, 0.9)  # of the way from the lowest to the highest command
+_PLACES = (0.2, 0.4, 0.6, 0.8, 0.92)  # of the way from the lowest to the highest command
+_BEYOND = (0.04, 0.15)  # of that way, which a saturated amplifier does not go
+_LADDERS: Mapping[str, Mapping[str, tuple[float, ...]]] = {  # in presets
+    "delay": {"delay": (0.3, 1.0, 4.0, 15.0)},
+    "amplifier_lag": {"time_constant": (0.5, 2.0, 8.0)},
+    "sensor_lag": {"time_constant": (0.5, 2.0, 8.0)},
+    "slew_limit": {"rate": (10.0, 3.0, 1.0, 0.3, 0.1, 0.03)},
+    "backlash": {"width": (0.1, 0.5, 2.0)},
+    "friction": {"coulomb": (0.2, 1.0, 4.0), "coulomb_forward": (0.2, 1.0, 4.0)},
+    "creep": {"onset": (0.3, 3.0)},
+    "thermal_drift": {"time_constant": (0.03, 0.2, 1.0)},
+    "hysteresis": {"width": (0.3, 1.0)},
+}
 
 
-def starts(evidence: Evidence, candidate: AxisEffect) -> tuple[AxisEffect, ...]:
-    """Return the candidate with the parameters from which its fit should be tried."""
-    attached = Attached.of(evidence.robot, candidate)
-    names = {parameter.name: parameter for parameter in attached.formulation.parameters}
-    if "period" in names:
-        preset = attached.values["period"]
-        seen = _strongest(evidence, names["period"].bounds(attached.facts), over_time=False)
-        return _each(candidate, "period", [preset, *([seen] if seen else [])])
-    if candidate.id == "vibration":
-        low, high = names["frequency"].bounds(attached.facts)
-        seen = _strongest(evidence, (1.0 / high, 1.0 / low), over_time=True)
-        return _each(candidate, "frequency", [1.0 / seen] if seen else [50.0])
-    if "place" in names:
-        return _each(candidate, "place", _places(evidence, names["place"], attached))
-    if "k" in names:
-        candidate = _with(candidate, k=_regressed(evidence, names["k"], attached))
-    if "frequency" in names:
-        modes = [share * attached.facts.pace_hz for share in _MODES]
-        return _each(candidate, "frequency", modes)
-    return (candidate,)
+def starts(evidence: Evidence, fitted: Fit, candidate: AxisEffect) -> tuple[AxisEffect, ...]:
+    """Return the candidate with the parameters from which its fit should be tried.
 
-
-def _with(candidate: AxisEffect, **parameters: float) -> AxisEffect:
-    return replace(candidate, parameters={**candidate.parameters, **parameters})
-
-
-def _each(candidate: AxisEffect, name: str, values: list[float]) -> tuple[AxisEffect, ...]:
-    return tuple(_with(candidate, **{name: value}) for value in values)
-
-
-def _strongest(evidence: Evidence, bounds: tuple[float, float], *, over_time: bool) -> float | None:
-    """Return the period, within bounds, of the strongest line of the gap over time or position."""
-    best: tuple[float, float] | None = None
-    for observation, gaps in zip(evidence.observations, evidence.gaps(), strict=True):
-        record = observation.record
-        place = record.time_s if over_time else record.signal(evidence.axis, Tap.CMD)
-        for gap in gaps.values():
-            line = _line(place, gap, bounds)
-            if line is not None and (best is None or line[1] > best[1]):
-                best = line
-    return best[0] if best is not None else None
-
-
-def _line(
-    place: FloatArray, gap: FloatArray, bounds: tuple[float, float]
-) -> tuple[float, float] | None:
-    """Return period and power of the strongest line of ``gap`` over ``place``, both (n,)."""
-    step = -(-len(place) // _MOST_ROWS)
-    place, gap = place[::step], gap[::step]
-    reach = float(np.ptp(place))
-    longest, shortest = min(bounds[1], reach), max(bounds[0], 2.5 * reach / len(place))
-    if reach == 0.0 or longest <= shortest:
-        return None
-    lines = min(int(_FINENESS * reach * (1.0 / shortest - 1.0 / longest)) + 2, _MOST_LINES)
-    rates = np.linspace(1.0 / longest, 1.0 / shortest, lines)
-    power = lombscargle(place - place[0], gap - gap.mean(), 2.0 * np.pi * rates)
-    strongest = int(np.argmax(power))
-    return float(1.0 / rates[strongest]), float(power[strongest])
-
-
-def _places(evidence: Evidence, place: Parameter, attached: Attached) -> list[float]:
-    commands = np.concatenate(
-        [observation.record.signal(evidence.axis, Tap.CMD) for observation in evidence.observations]
+    ``fitted`` is what is there already; the candidate is to explain what it leaves.
+    """
+    given = candidate.parameters
+    return tuple(
+        replace(candidate, parameters={**given, **values})
+        for values in _starts(evidence, fitted, Attached.of(evidence.robot, candidate))
     )
-    low, high = place.bounds(attached.facts)
-    reached = commands.min() + np.array(_PLACES) * np.ptp(commands) - attached.facts.low
-    return [float(place) for place in np.clip(reached, low, high)]
 
 
-def _regressed(evidence: Evidence, k: Parameter, attached: Attached) -> float:
-    """Return the coupling by regression of the gap on the other axis' command."""
+def _starts(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
+    names = {parameter.name for parameter in attached.formulation.parameters}
+    special = _SPECIAL.get(attached.effect.id)
+    ladders = _LADDERS.get(attached.effect.id, {})
+    if special is not None:
+        yield from special(evidence, fitted, attached)
+    elif "period" in names:
+        yield from _periods(evidence, fitted, attached)
+    else:
+        for name, presets in ladders.items():
+            if name in names:
+                yield from ({name: attached.values[name] * share} for share in presets)
+                return
+        yield {}
+
+
+def _periods(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
+    parameter = attached.formulation.parameter("period")
+    assert parameter is not None
+    low, high = parameter.bounds(attached.facts)
+    yield {"period": attached.values["period"]}
+    seen = strongest_period(evidence, fitted.residual, (low, high))
+    if seen is not None:
+        yield {"period": float(np.clip(seen, low, high))}
+
+
+def _quanta(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
+    parameter = attached.formulation.parameter("step")
+    assert parameter is not None
+    low, high = parameter.bounds(attached.facts)
+    axis = evidence.robot.axes[evidence.axis]
+    inputs = attached.effect.id == "quantization" and isinstance(axis, PiezoAxis)
+    gain = attached.facts.gain if inputs else 1.0
+    yield {"step": attached.values["step"]}
+    seen = strongest_period(evidence, fitted.residual, (max(low * gain, 1e-12), high * gain))
+    if seen is not None:
+        yield {"step": float(np.clip(seen / gain, low, high))}
+
+
+def _tones(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
+    parameter = attached.formulation.parameter("frequency")
+    assert parameter is not None
+    low, high = parameter.bounds(attached.facts)
+    seen = strongest_frequency(evidence, fitted.residual, (low, high))
+    yield {"frequency": float(np.clip(seen or attached.values["frequency"], low, high))}
+
+
+def _modes(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
+    parameter = attached.formulation.parameter("frequency")
+    assert parameter is not None
+    low, high = parameter.bounds(attached.facts)
+    for share in _MODES:
+        yield {"frequency": share * attached.facts.pace_hz}
+    seen = strongest_frequency(evidence, fitted.residual, (low, high))
+    if seen is not None:
+        yield {"frequency": float(np.clip(seen, low, high))}
+
+
+def _places(evidence: Evidence, _fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
+    parameter = attached.formulation.parameter("place")
+    assert parameter is not None
+    low, high = parameter.bounds(attached.facts)
+    least, most = _reach(evidence)
+    for share in _PLACES:
+        place = least + share * (most - least) - attached.facts.low
+        yield {"place": float(np.clip(place, low, high))}
+
+
+def _margins(evidence: Evidence, _fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
+    facts = attached.facts
+    gain = facts.gain if facts.kind == "piezo" else 1.0
+    least, most = (end / gain for end in _reach(evidence))
+    low, high = least - facts.input_low, facts.input_high - most
+    for share in _BEYOND:
+        beyond = share * (most - least)
+        yield _clipped(attached, low_margin=low + beyond, high_margin=high + beyond)
+        yield _clipped(attached, low_margin=low - beyond, high_margin=high + beyond)
+        yield _clipped(attached, low_margin=low + beyond, high_margin=high - beyond)
+
+
+def _couplings(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
+    k = _regressed(evidence, fitted, attached)
+    if attached.formulation.parameter("frequency") is None:
+        yield {"k": k}
+        return
+    for start in _modes(evidence, fitted, attached):
+        yield {"k": k or attached.values["k"], **start}
+
+
+def _clipped(attached: Attached, **values: float) -> dict[str, float]:
+    clipped = {}
+    for name, value in values.items():
+        parameter = attached.formulation.parameter(name)
+        assert parameter is not None
+        low, high = parameter.bounds(attached.facts)
+        clipped[name] = float(np.clip(value, low, high))
+    return clipped
+
+
+def _reach(evidence: Evidence) -> tuple[float, float]:
+    """Return the least and greatest command."""
+    commands = [o.record.signal(evidence.axis, Tap.CMD) for o in evidence.observations]
+    return min(float(c.min()) for c in commands), max(float(c.max()) for c in commands)
+
+
+def _regressed(evidence: Evidence, fitted: Fit, attached: Attached) -> float:
+    """Return the coupling by regression of what is left on the other axis' command."""
     above = below = 0.0
     source = attached.asked.from_axis
     assert source is not None
-    for observation, gaps in zip(evidence.observations, evidence.gaps(), strict=True):
-        if not observation.record.has(source, Tap.CMD):
+    for part in evidence.parts:
+        observation = evidence.observations[part.record]
+        if part.tap is Tap.U or not observation.record.has(source, Tap.CMD):
             continue
-        other = observation.record.signal(source, Tap.CMD)
-        other = other - other.mean()
-        for tap, gap in gaps.items():
-            above += float(gap @ other) / observation.floor[tap]
-            below += float(other @ other) / observation.floor[tap] ** 2
-    low, high = k.bounds(attached.facts)
+        other = _centred(observation.record.signal(source, Tap.CMD))
+        other = other / observation.floor[part.tap]
+        above += float(fitted.residual[part.rows] @ other)
+        below += float(other @ other)
+    parameter = attached.formulation.parameter("k")
+    assert parameter is not None
+    low, high = parameter.bounds(attached.facts)
     return float(np.clip(above / below, low, high)) if below > 0.0 else attached.values["k"]
+
+
+def _centred(signal: FloatArray) -> FloatArray:
+    return np.asarray(signal - signal.mean())
+
+
+_Maker = Callable[[Evidence, Fit, Attached], Iterator[dict[str, float]]]
+_SPECIAL: Mapping[str, _Maker] = {
+    "quantization": _quanta,
+    "sensor_quantization": _quanta,
+    "vibration": _tones,
+    "flexible_mode": _modes,
+    "contact": _places,
+    "saturation": _margins,
+    "cross_coupling": _couplings,
+}

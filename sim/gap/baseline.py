@@ -1,0 +1,21 @@
+"""The model's own parameters, which are re-tuned beside every effect that is tried."""
+
+from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.robot.model import AxisEffect, ForceAxis
+
+GAIN, RESONANCE = "gain_error", "resonance_mismatch"
+
+
+def baseline(evidence: Evidence) -> tuple[AxisEffect, ...]:
+    """Return the re-tuning of an axis' own parameters, from none on.
+
+    A missing effect must not be taken for a wrong parameter, nor a wrong parameter for an effect.
+    """
+    axis = evidence.robot.axes[evidence.axis]
+    found = [AxisEffect(axis=evidence.axis, id=GAIN, parameters={"error": 0.0})]
+    inertia = axis.inertia
+    held = inertia is not None and inertia[2] > 0.0
+    if not axis.static and held and not isinstance(axis, ForceAxis):
+        none = {"frequency_error": 0.0, "damping_error": 0.0}
+        found.append(AxisEffect(axis=evidence.axis, id=RESONANCE, parameters=none))
+    return tuple(found)

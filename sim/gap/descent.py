@@ -1,0 +1,113 @@
+"""Bounded nonlinear least squares for models that are simulated.
+
+Gauss-Newton steps damped as by Levenberg and Marquardt (Nocedal and Wright, Numerical
+Optimization, 2nd ed., 10.3), cut off at the bounds; parameters that press against a bound stand
+still. Derivatives are forward differences with steps that a simulation with steps and dead bands
+in it can feel, which the solvers of general libraries choose far too small where a parameter is
+zero.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from rotemina.sim.arrays import BoolArray, FloatArray
+
+_STEP = 1e-3  # of a parameter, for its derivative
+_DAMPING = 1e-3  # at first, of the diagonal
+_TRIES = 6  # of damping a step until it goes down
+_ENOUGH = 1e-3  # relative gain of a step below which no further one is worth its runs
+_TINY = 1e-12
+
+Residual = Callable[[FloatArray], FloatArray]
+
+
+class Descent(NamedTuple):
+    """Where a descent ended: ``x`` (p,), residual (n,) and its jacobian (n, p) nearby."""
+
+    x: FloatArray
+    residual: FloatArray
+    jacobian: FloatArray
+
+
+def descend(
+    residual: Residual, start: FloatArray, low: FloatArray, high: FloatArray, most_steps: int
+) -> Descent:
+    """Lessen the sum of squares of ``residual(x)`` (n,) from ``start`` (p,) on, within bounds.
+
+    Parameters should be scaled to sizes of about one.
+    """
+    x = np.clip(start, low, high)
+    left = residual(x)
+    jacobian = _slopes(residual, x, left, high)
+    damping = _DAMPING
+    for _ in range(most_steps):
+        before = float(left @ left)
+        step = _step(residual, x, left, jacobian, low, high, damping)
+        if step is None:
+            break
+        x, left, damping = step
+        jacobian = _slopes(residual, x, left, high)
+        if float(left @ left) > before * (1.0 - _ENOUGH):
+            break
+    return Descent(x, left, jacobian)
+
+
+def bounded_step(
+    jacobian: FloatArray,
+    left: FloatArray,
+    x: FloatArray,
+    low: FloatArray,
+    high: FloatArray,
+    damping: float,
+) -> FloatArray:
+    """Return where one damped Gauss-Newton step leads, within bounds."""
+    hessian, slope = jacobian.T @ jacobian, jacobian.T @ left
+    free = _free(x, slope, low, high)
+    diagonal = np.diag(hessian)[free]
+    damped = hessian[np.ix_(free, free)] + np.diag(
+        damping * diagonal + _TINY * diagonal.max(initial=1.0)
+    )
+    after = x.copy()
+    after[free] -= np.linalg.solve(damped, slope[free])
+    return np.asarray(np.clip(after, low, high))
+
+
+def _step(
+    residual: Residual,
+    x: FloatArray,
+    left: FloatArray,
+    jacobian: FloatArray,
+    low: FloatArray,
+    high: FloatArray,
+    damping: float,
+) -> tuple[FloatArray, FloatArray, float] | None:
+    """Return x, residual and damping after a step that goes down; None where none does."""
+    before = float(left @ left)
+    for _ in range(_TRIES):
+        after = bounded_step(jacobian, left, x, low, high, damping)
+        then = residual(after)
+        if float(then @ then) < before:
+            return after, then, max(damping / 10.0, 1e-9)
+        damping *= 10.0
+    return None
+
+
+def _slopes(residual: Residual, x: FloatArray, left: FloatArray, high: FloatArray) -> FloatArray:
+    """Return the jacobian (n, p) by differences, backward ones at the upper bound."""
+    jacobian = np.empty((len(left), len(x)))
+    for column in range(len(x)):
+        step = _STEP * max(1.0, abs(x[column]))
+        if x[column] + step > high[column]:
+            step = -step
+        aside = x.copy()
+        aside[column] += step
+        jacobian[:, column] = (residual(aside) - left) / step
+    return jacobian
+
+
+def _free(x: FloatArray, slope: FloatArray, low: FloatArray, high: FloatArray) -> BoolArray:
+    """Return which parameters (p,) may move: those at a bound that want to leave it, and others."""
+    held = ((x <= low) & (slope > 0.0)) | ((x >= high) & (slope < 0.0))
+    return np.asarray(~held)

@@ -1,0 +1,154 @@
+"""The diagnosis of the sim-to-real gap, from records to verdict.
+
+Where the gap lies (:mod:`~rotemina.sim.gap.where`), which effects may cause it
+(:mod:`~rotemina.sim.gap.candidates`, :mod:`~rotemina.sim.gap.screening`), how well they do on data
+that their fit did not see (:mod:`~rotemina.sim.gap.fit`, :mod:`~rotemina.sim.gap.selection`), what
+can be told apart (:mod:`~rotemina.sim.gap.rivals`) and what can be said
+(:mod:`~rotemina.sim.gap.verdict`), axis by axis, the larger gaps first: what one axis does may
+show on another.
+"""
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from rotemina.sim.gap.caution import remarks
+from rotemina.sim.gap.diagnosis import AxisDiagnosis, Diagnosis, Verdict
+from rotemina.sim.gap.errors import GapError
+from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.examination import Examination, examine, told_of
+from rotemina.sim.gap.intake import check
+from rotemina.sim.gap.progress import Listener, Progress, unheard
+from rotemina.sim.gap.where import Place, locate
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.model import AxisEffect, Robot
+
+_LEAST_LEFT = 0.06  # of an axis' gap, that other axes' causes must leave for it to have its own
+_LEAST_GAP = 1.25  # floors below which a gap is no matter
+
+
+def diagnose(
+    robot: Robot,
+    records: Sequence[Record],
+    *,
+    seed: int = 0,
+    jobs: int = 1,
+    listener: Listener = unheard,
+) -> Diagnosis:
+    """Tell where the gap between a robot's model and records of it lies, and what causes it.
+
+    Parameters
+    ----------
+    robot : Robot
+        The model, with the effects that it already has.
+    records : sequence of Record
+        They may differ in rate, length, axes and taps. Their order changes nothing.
+    seed : int
+        Of the draws from which intervals come.
+    jobs : int
+        How many candidates are tried at a time.
+    listener : Listener
+        Is told of every step; what it raises ends the diagnosis.
+
+    Raises
+    ------
+    GapError, PlantError, EffectError
+        If the records cannot be diagnosed.
+    """
+    cautions = check(robot, records)
+    run = _Run(robot, _in_order(records), np.random.default_rng(seed), jobs, listener)
+    axes = run.diagnosed()
+    cautioned = {
+        name: replace(one, remarks=(*one.remarks, *remarks(cautions, name)))
+        for name, one in axes.items()
+    }
+    return Diagnosis(robot, cautioned, seed=seed)
+
+
+def _in_order(records: Sequence[Record]) -> list[Record]:
+    """Return records in an order that their contents alone decide."""
+
+    def content(record: Record) -> str:
+        digest = hashlib.sha256(record.time_s.tobytes())
+        for axis in sorted(record.axes):
+            for tap in Tap:
+                if record.has(axis, tap):
+                    digest.update(f"{axis}.{tap}".encode())
+                    digest.update(record.signal(axis, tap).tobytes())
+        return digest.hexdigest()
+
+    return sorted(records, key=content)
+
+
+@dataclass
+class _Run:
+    """A diagnosis on its way."""
+
+    robot: Robot
+    records: Sequence[Record]
+    rng: np.random.Generator
+    jobs: int
+    listener: Listener
+    examined: dict[str, Examination] = field(default_factory=dict)
+
+    def diagnosed(self) -> dict[str, AxisDiagnosis]:
+        """Return what can be said of each axis that was measured, in the robot's order."""
+        self._tell("where", None, None, 0.0)
+        evidences = self._evidences()
+        places = {name: locate(one, self.rng) for name, one in evidences.items()}
+        gaps = [name for name in evidences if _has_gap(places[name])]
+        gaps.sort(key=lambda name: -max(place.excess for place in places[name]))
+        for number, name in enumerate(gaps):
+            self._examine(name, evidences[name], 0.9 * number / len(gaps), 0.9 / len(gaps))
+        return {name: self._told_of(name, places[name], name in gaps) for name in evidences}
+
+    def _evidences(self) -> dict[str, Evidence]:
+        found: dict[str, Evidence] = {}
+        refusals = []
+        for name in self.robot.axes:
+            if any(name in record.axes for record in self.records):
+                try:
+                    found[name] = Evidence.of(self.robot, name, self.records)
+                except GapError as error:
+                    refusals.append(str(error))
+        if not found:
+            raise GapError("; ".join(refusals) or "the records name no axis of the robot")
+        return found
+
+    def _examine(self, name: str, evidence: Evidence, begin: float, share: float) -> None:
+        context = [e for other, one in self.examined.items() if other != name for e in one.fitted]
+        evidence = evidence.with_model(_with(self.robot, context))
+        steps = {"screening": 0.0, "fitting": 0.3, "deciding": 0.9}
+
+        def told(stage: str, candidate: str | None) -> None:
+            self._tell(stage, name, candidate, begin + share * steps[stage])
+
+        before = float(np.mean(self._bare(name).residual() ** 2))
+        now = float(np.mean(evidence.residual() ** 2))
+        if context and now - 1.0 < _LEAST_LEFT * (before - 1.0):
+            return
+        self.examined[name] = examine(evidence, told, jobs=self.jobs)
+
+    def _bare(self, name: str) -> Evidence:
+        return Evidence.of(self.robot, name, self.records)
+
+    def _told_of(self, name: str, places: tuple[Place, ...], has_gap: bool) -> AxisDiagnosis:
+        if name in self.examined:
+            return told_of(self.examined[name], places, self.rng)
+        said = ("Its gap comes from what was found on other axes.",) if has_gap else ()
+        return AxisDiagnosis(name, Verdict.NONE, places, remarks=said)
+
+    def _tell(self, stage: str, axis: str | None, candidate: str | None, share: float) -> None:
+        self.listener(Progress(stage, axis, candidate, share))
+
+
+def _has_gap(places: Sequence[Place]) -> bool:
+    return any(
+        place.significant and place.gap_rms > _LEAST_GAP * place.noise_floor for place in places
+    )
+
+
+def _with(robot: Robot, effects: Sequence[AxisEffect]) -> Robot:
+    return replace(robot, effects=(*robot.effects, *effects))

@@ -1,0 +1,101 @@
+"""How sure a cause is: its rivals, and which of them the data cannot tell from it."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.gap.blocks import Blocks
+from rotemina.sim.gap.evidence import Evidence, block_rows
+from rotemina.sim.gap.models import Explanation
+from rotemina.sim.records.record import Tap
+
+_POWER = 2.0  # of what is left: how fast a rival loses with what it leaves
+_SLACK = 0.03  # of the floor's power, which two scores at the floor differ by chance
+_SURE = 3.0  # standard errors from which a difference counts in full
+_SAME = 0.2  # of the likeliest one's probability, from which a rival is not ruled out
+_PRIOR: Mapping[str, float] = {  # others: 1
+    "sensor_gain": 0.5,
+    "sensor_nonlinearity": 0.5,
+    "sensor_lag": 0.5,
+    "vibration": 0.5,
+    "contact": 0.5,
+    "cross_coupling": 0.7,
+    "clock_skew": 0.5,
+}
+
+Key = tuple[str, str | None]
+
+
+@dataclass(frozen=True, slots=True)
+class Rival:
+    """An effect in the place of a cause: how likely, and the explanation with it."""
+
+    effect: str
+    from_axis: str | None
+    probability: float
+    explanation: Explanation
+
+
+def rivals(
+    evidence: Evidence, best: Explanation, tried: Sequence[Explanation], cause: Key
+) -> tuple[Rival, ...]:
+    """Return what was tried in the place of a cause, and the cause itself, likeliest first."""
+    others = [key for key in best.ids if key != cause]
+    found = [(cause, best)]
+    for one in tried:
+        keys = list(one.ids)
+        if one is best or len(keys) != len(best.ids) or any(key not in keys for key in others):
+            continue
+        (own,) = [key for key in keys if key not in others] or [cause]
+        if own != cause:
+            found.append((own, one))
+    weights = np.array([_weight(evidence, best, one) * _prior(key[0]) for key, one in found])
+    shares = weights / weights.sum()
+    ranked = sorted(zip(found, shares, strict=True), key=lambda pair: -pair[1])
+    return tuple(Rival(key[0], key[1], float(share), one) for (key, one), share in ranked)
+
+
+def not_ruled_out(ranked: Sequence[Rival], cause: Key) -> tuple[str, ...]:
+    """Return the effects that the data cannot tell from a cause."""
+    own = next(one for one in ranked if (one.effect, one.from_axis) == cause)
+    names = [
+        one.effect
+        for one in ranked
+        if one.effect != cause[0] and one.probability >= _SAME * own.probability
+    ]
+    return tuple(dict.fromkeys(names))
+
+
+def _prior(effect: str) -> float:
+    return _PRIOR.get(effect, 1.0)
+
+
+def _weight(evidence: Evidence, best: Explanation, other: Explanation) -> float:
+    """Return how likely an explanation is beside the best one."""
+    if other is best:
+        return 1.0
+    floor = min(best.score, 1.3) if best.score < 1.3 else 1.0
+    ratio = (max(other.score - floor, 0.0) + _SLACK) / (max(best.score - floor, 0.0) + _SLACK)
+    doubt = min(1.0, (_errors_apart(evidence, best, other) / _SURE) ** 2)
+    return float(ratio ** (-_POWER * doubt))
+
+
+def _errors_apart(evidence: Evidence, one: Explanation, other: Explanation) -> float:
+    """Return by how many standard errors two scores differ, block by block."""
+    numbers = block_rows(evidence)
+    change = np.bincount(numbers, other.held_out**2 - one.held_out**2)
+    spread = float(np.sqrt(np.sum((change - change.mean()) ** 2)))
+    return abs(float(change.sum())) / spread if spread > 0.0 else np.inf
+
+
+def paired_blocks(evidence: Evidence, left: Sequence[FloatArray], tap: Tap) -> Blocks:
+    """Return sums of squares (blocks, residuals) at one tap."""
+    numbers = block_rows(evidence)
+    rows = np.concatenate(
+        [np.full(part.rows.stop - part.rows.start, part.tap is tap) for part in evidence.parts]
+    )
+    _, own = np.unique(numbers[rows], return_inverse=True)
+    total = np.stack([np.bincount(own, one[rows] ** 2) for one in left], axis=1)
+    return Blocks(np.asarray(total, dtype=np.float64), np.bincount(own).astype(np.float64))

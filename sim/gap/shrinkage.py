@@ -1,0 +1,127 @@
+"""How far the gap of an axis shrinks, cause by cause, on data that no fit saw."""
+
+from collections.abc import Callable
+from itertools import combinations
+from math import factorial
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.gap.blocks import drawn_means
+from rotemina.sim.gap.diagnosis import Interval, Shrinkage, ShrinkageStep
+from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.models import Explanation, explain
+from rotemina.sim.gap.probe import Probe
+from rotemina.sim.gap.rivals import paired_blocks
+from rotemina.sim.gap.verdict import closed
+from rotemina.sim.records.record import Tap
+
+_TAIL = 2.5  # percent on either side of an interval
+_LEAST_GAP = 1.05  # floors below which there is no gap to close
+
+
+def shrinkage(
+    evidence: Evidence,
+    retuned: Explanation,
+    best: Explanation,
+    probe: Probe,
+    tap: Tap,
+    rng: np.random.Generator,
+) -> Shrinkage:
+    """Return the whole way from the raw gap of a tap to its floor."""
+    raw = evidence.residual()
+    floor = floor_of(evidence, tap)
+    shown = at_tap(evidence, tap)
+    share, interval = closing(evidence, raw, best.held_out, tap, rng)
+    return Shrinkage(
+        axis=evidence.axis,
+        tap=tap,
+        raw=floor * rms(raw[shown]),
+        retuned=floor * rms(retuned.held_out[shown]),
+        corrected=floor * rms(best.held_out[shown]),
+        floor=floor,
+        ceiling=floor * min(rms(best.held_out[shown]), rms(probe.left[shown])),
+        closed=share,
+        closed_interval=interval,
+        steps=_steps(evidence, raw, best, shown, floor),
+    )
+
+
+def closing(
+    evidence: Evidence, before: FloatArray, after: FloatArray, tap: Tap, rng: np.random.Generator
+) -> tuple[float | None, Interval | None]:
+    """Return which share of a gap is closed, and its 95 % interval; None where there is none."""
+    shown = at_tap(evidence, tap)
+    was, left = float(np.mean(before[shown] ** 2)), float(np.mean(after[shown] ** 2))
+    if was <= _LEAST_GAP**2:
+        return None, None
+    drawn = drawn_means(paired_blocks(evidence, [before, after], tap), rng)
+    shares = [closed(float(b), float(a)) for b, a in drawn]
+    low, high = np.percentile(shares, [_TAIL, 100.0 - _TAIL])
+    share = closed(was, left)
+    return share, (min(float(low), share), max(float(high), share))
+
+
+def at_tap(evidence: Evidence, tap: Tap) -> np.ndarray:
+    """Return which rows (rows,) of a residual are of a tap."""
+    return np.concatenate(
+        [np.full(part.rows.stop - part.rows.start, part.tap is tap) for part in evidence.parts]
+    )
+
+
+def floor_of(evidence: Evidence, tap: Tap) -> float:
+    """Return the noise floor of a tap, SI: the quadratic mean of those of the records."""
+    floors = [o.floor[tap] for o in evidence.observations if tap in o.floor]
+    return float(np.sqrt(np.mean(np.square(floors))))
+
+
+def rms(left: FloatArray) -> float:
+    """Return the root mean square."""
+    return float(np.sqrt(np.mean(left**2)))
+
+
+def _steps(
+    evidence: Evidence, raw: FloatArray, best: Explanation, shown: np.ndarray, floor: float
+) -> tuple[ShrinkageStep, ...]:
+    """Return what is left after each cause, and the causes' Shapley shares of what is closed."""
+    if not best.causes:
+        return ()
+    whole = frozenset(range(len(best.causes)))
+    left: dict[frozenset[int], FloatArray] = {frozenset(): raw, whole: best.held_out}
+
+    def score(members: frozenset[int]) -> float:
+        if members not in left:
+            own = [best.causes[number] for number in sorted(members)]
+            left[members] = explain(evidence, own, most_steps=4).held_out
+        return float(np.mean(left[members][shown] ** 2))
+
+    steps = []
+    for number, cause in enumerate(best.causes):
+        members = frozenset(range(number + 1))
+        steps.append(
+            ShrinkageStep(
+                effect=cause.id,
+                axis=cause.axis,
+                rms=floor * float(np.sqrt(score(members))),
+                shapley=_shapley(number, whole, score),
+            )
+        )
+    return tuple(steps)
+
+
+def _shapley(number: int, whole: frozenset[int], score: Callable[[frozenset[int]], float]) -> float:
+    """Return the mean share of the gap that a cause closes, over all orders of adding causes.
+
+    Shapley, Contributions to the Theory of Games II (1953) 307-317.
+    """
+    before = score(frozenset())
+    total = 0.0
+    others = sorted(whole - {number})
+    for size in range(len(others) + 1):
+        orders = factorial(size) * factorial(len(others) - size) / factorial(len(whole))
+        for chosen in combinations(others, size):
+            without = frozenset(chosen)
+            total += orders * (
+                closed(before, score(without | {number})) - closed(before, score(without))
+            )
+    return total

@@ -1,0 +1,37 @@
+"""What can be said of an axis, given the best explanation of its gap and its rivals."""
+
+from collections.abc import Sequence
+
+from rotemina.sim.gap.diagnosis import Verdict
+from rotemina.sim.gap.models import Explanation
+
+_MOST_LEFT = 0.5  # of the gap's power, that an explanation may leave
+_MOST_RIVALS = 4  # from which a record cannot tell
+
+
+def decide(raw: float, best: Explanation, ambiguous: Sequence[Sequence[str]]) -> Verdict:
+    """Return the verdict on an axis that has a gap.
+
+    Parameters
+    ----------
+    raw : float
+        Mean square of the gap over the floor.
+    best : Explanation
+    ambiguous : sequence of sequence of str
+        For each cause, the effects that cannot be told from it.
+    """
+    if closed(raw, best.score) < 1.0 - _MOST_LEFT:
+        return Verdict.UNKNOWN
+    if any(len(others) >= _MOST_RIVALS for others in ambiguous):
+        return Verdict.INSUFFICIENT
+    return Verdict.EXPLAINED
+
+
+def closed(before: float, after: float) -> float:
+    """Return the share, within 0 and 1, of a gap that is closed; both mean squares over the floor.
+
+    A gap within the floor counts as closed.
+    """
+    if before <= 1.0:
+        return 1.0
+    return min(max(1.0 - (after - 1.0) / (before - 1.0), 0.0), 1.0)
