@@ -76,6 +76,7 @@ class Workbench(QObject):
     busy_changed(str) : what is being worked on in the background, or "".
     noticed(Level, str) : something to tell the operator.
     theme_changed(Theme)
+    closing() : the window goes; what a panel has under way must end before this returns.
     """
 
     refreshed = Signal(object)
@@ -84,6 +85,7 @@ class Workbench(QObject):
     busy_changed = Signal(str)
     noticed = Signal(object, str)
     theme_changed = Signal(object)
+    closing = Signal()
     _happened = Signal(object)
 
     def __init__(
@@ -113,6 +115,7 @@ class Workbench(QObject):
     def close(self) -> None:
         """Stop refreshing, end all work and disconnect."""
         self._frames.stop()
+        self.closing.emit()
         self._unsubscribe()
         self.session.close()
         self._background.wait()

@@ -10,6 +10,7 @@ from rotemina.sim.units import drawing_unit, per_si, symbol
 
 NOTHING = "–"  # in place of what is not known
 
+_LEAST_SHARE = 1e-4  # that is told in digits
 _TIMES = (("s", 0.1), ("ms", 1e-4), ("us", 0.0))  # least size, s, from which each reads well
 
 
@@ -63,7 +64,11 @@ def amounts(interval: tuple[float, float] | None, unit: str) -> str:
 
 def percent(share: float | None) -> str:
     """Return a share of 1 in per cent."""
-    return NOTHING if share is None or not isfinite(share) else f"{100.0 * share:.3g} %"
+    if share is None or not isfinite(share):
+        return NOTHING
+    if 0.0 < share < _LEAST_SHARE:
+        return f"< {100.0 * _LEAST_SHARE:g} %"
+    return f"{100.0 * share:.3g} %"
 
 
 def percents(interval: tuple[float, float] | None) -> str:

@@ -17,7 +17,7 @@ from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_record
 
 LONG_MS = 30_000
-BUILT_IN = ["control", "plots", "trajectory", "comparison", "identification", "effects"]
+BUILT_IN = ["control", "plots", "trajectory", "comparison", "identification", "effects", "gap"]
 
 
 def short_trajectory(path, seconds=0.4, height=2e-4):

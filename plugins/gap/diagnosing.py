@@ -1,0 +1,130 @@
+"""A diagnosis under way, away from the window's thread: its progress, its end, and its stop."""
+
+import os
+import time
+from collections.abc import Sequence
+from threading import Event
+
+from PySide6.QtCore import QObject, Signal
+
+from rotemina.app.shell.background import Background
+from rotemina.plugins.gap.answer import Answer
+from rotemina.sim.gap.diagnosis import Diagnosis
+from rotemina.sim.gap.progress import Listener, Progress
+from rotemina.sim.records.record import Record
+from rotemina.sim.robot.model import Robot
+
+_FIRST_GUESS_S = 1.0  # before which nothing is said of the time left
+_FIRST_GUESS_SHARE = 0.02
+
+
+class StoppedError(Exception):
+    """The operator wants no answer any more."""
+
+
+class Diagnosing(QObject):
+    """Runs one diagnosis at a time.
+
+    The workbench's own thread stays free for what must not wait: a record that was played is
+    written down and compared while a diagnosis goes on.
+
+    Signals
+    -------
+    progressed(str, float) : what is done now, in words, and the share that is done.
+    finished(Answer)
+    failed(str)
+    """
+
+    progressed = Signal(str, float)
+    finished = Signal(object)
+    failed = Signal(str)
+    _heard = Signal(int, object)
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        self._background = Background(self)
+        self._number = 0
+        self._stopped = Event()
+        self._stopped.set()
+        self._began_s = 0.0
+        self._heard.connect(self._tell)
+
+    @property
+    def running(self) -> bool:
+        """Whether an answer is awaited."""
+        return not self._stopped.is_set()
+
+    def start(self, robot: Robot, names: Sequence[str], records: Sequence[Record]) -> None:
+        """Diagnose records; what ran before is stopped."""
+        self.stop()
+        self._number += 1
+        number = self._number
+        stopped = self._stopped = Event()
+        self._began_s = time.monotonic()
+
+        def listen(progress: Progress) -> None:
+            if stopped.is_set():
+                raise StoppedError
+            self._heard.emit(number, progress)
+
+        def work() -> Answer | None:
+            try:
+                listen(Progress("reading", None, None, 0.0))
+                diagnosis = diagnose(robot, records, listen)
+                listen(Progress("drawing", None, None, 1.0))
+                return Answer.of(diagnosis, names, records)
+            except StoppedError:
+                return None
+
+        self._background.run(
+            "diagnosis",
+            work,
+            lambda answer: self._end(number, answer),
+            lambda message: self._fail(number, message),
+        )
+
+    def stop(self) -> None:
+        """Want no answer any more; the work ends at its next step, and nobody waits for it."""
+        self._stopped.set()
+
+    def close(self) -> None:
+        """Stop, and wait until the thread is free."""
+        self.stop()
+        self._background.wait()
+
+    def _is_wanted(self, number: int) -> bool:
+        return number == self._number and self.running
+
+    def _tell(self, number: int, progress: Progress) -> None:
+        if self._is_wanted(number):
+            elapsed_s = time.monotonic() - self._began_s
+            self.progressed.emit(said(progress, elapsed_s), progress.share)
+
+    def _end(self, number: int, answer: Answer | None) -> None:
+        if self._is_wanted(number):
+            self._stopped.set()
+            self.finished.emit(answer)
+
+    def _fail(self, number: int, message: str) -> None:
+        if self._is_wanted(number):
+            self._stopped.set()
+            self.failed.emit(message)
+
+
+def diagnose(robot: Robot, records: Sequence[Record], listener: Listener) -> Diagnosis:
+    """Load the diagnosis, which takes its time, and run it; one core stays free for the machine."""
+    from rotemina.sim.gap import method
+
+    jobs = max((os.cpu_count() or 1) - 1, 1)
+    return method.diagnose(robot, records, jobs=jobs, listener=listener)
+
+
+def said(progress: Progress, elapsed_s: float) -> str:
+    """Return what is done now and how long the rest may take."""
+    text = " ".join(
+        part for part in (progress.stage, progress.axis, progress.candidate) if part is not None
+    )
+    if elapsed_s < _FIRST_GUESS_S or progress.share < _FIRST_GUESS_SHARE:
+        return text
+    left_s = elapsed_s * (1.0 / progress.share - 1.0)
+    return f"{text}, about {left_s:.0f} s left"

@@ -1,0 +1,81 @@
+"""The model that is to be diagnosed: the one in use, a shipped one, or a file's."""
+
+from pathlib import Path
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QComboBox, QFileDialog
+
+from rotemina.app.shell.workbench import Workbench
+from rotemina.sim.robot.file import load_robot, shipped_robots
+from rotemina.sim.robot.model import Robot
+
+_FILE = object()
+
+
+class RobotChoice(QComboBox):
+    """Robots by name; one that cannot be loaded becomes a notice, and the last one stays.
+
+    Signals
+    -------
+    changed(Robot)
+    """
+
+    changed = Signal(object)
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__()
+        self._workbench = workbench
+        self.robot: Robot = workbench.robot
+        self.source: str | Path | None = None  # of the robot's text, None for the one in use
+        self._place = 0
+        self.setAccessibleName("Model")
+        self.setToolTip("The model whose gap is looked for")
+        self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.setMinimumContentsLength(11)
+        self.addItem(f"{workbench.robot.name} (in use)", None)
+        for name in shipped_robots():
+            self.addItem(name, name)
+        self.addItem("Robot file …", _FILE)
+        self.activated.connect(self._choose)
+
+    def load(self, source: str | Path | None) -> None:
+        """Take a robot in hand: the one in use, a shipped one by name, or one of a file."""
+        if source is None:
+            self._take(None, self._workbench.robot)
+            return
+        self._workbench.work(
+            "gap robot",
+            f"Reading {source} …",
+            lambda: load_robot(source),
+            lambda robot: self._take(source, robot),
+        )
+
+    def _choose(self, place: int) -> None:
+        source = self.itemData(place)
+        self.setCurrentIndex(self._place)  # until it is there
+        if source is _FILE:
+            self._ask()
+        else:
+            self.load(source)
+
+    def _take(self, source: str | Path | None, robot: Robot) -> None:
+        if isinstance(source, Path) and self.findData(source) < 0:
+            self.insertItem(self.count() - 1, source.name, source)
+        self._place = self.findData(source)
+        self.setCurrentIndex(self._place)
+        self.source, self.robot = source, robot
+        self.changed.emit(robot)
+
+    def _ask(self) -> None:
+        settings = self._workbench.settings
+        dialog = QFileDialog(
+            self.window(), "Robot file", settings.get("files.folder", ""), "Robot files (*.toml)"
+        )
+        dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
+        dialog.fileSelected.connect(
+            lambda name: settings.set("files.folder", str(Path(name).parent))
+        )
+        dialog.fileSelected.connect(lambda name: self.load(Path(name)))
+        dialog.show()

@@ -1,0 +1,136 @@
+"""Where the gap lies: axes and taps, and the heat map of the chosen one."""
+
+import math
+from itertools import pairwise
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor
+from PySide6.QtWidgets import QLabel, QSplitter, QVBoxLayout, QWidget
+
+from rotemina.app.display import label
+from rotemina.app.shell.theme import Theme
+from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap.table import Table
+from rotemina.sim.gap.document import shares
+from rotemina.sim.gap.report.heat import Heat
+from rotemina.sim.gap.report.quantities import NOTHING, amount, percent, percents
+from rotemina.sim.gap.where import Place
+
+HEAD = ("axis, tap", "share", "gap rms", "floor", "worst at", "while", "95 % of the share")
+_BANDS = 2  # columns before those of the bands
+_COLDEST = 0.3  # floors
+_DECADES = 3.0  # from the coldest to the warmest
+_STRENGTH = 170  # of the warmest colour, of 255
+
+
+class WhereView(QSplitter):
+    """Places of the gap on the left, band by regime on the right."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(Qt.Orientation.Horizontal)
+        self._theme = theme
+        self._answer: Answer | None = None
+        self._places: list[Place] = []
+        self.places = Table("Where the gap lies", HEAD)
+        self.heat_title = QLabel()
+        self.heat_title.setTextFormat(Qt.TextFormat.PlainText)
+        self.heat = Table("Gap by band and regime")
+        right = QWidget()
+        column = QVBoxLayout(right)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(2)
+        column.addWidget(self.heat_title)
+        column.addWidget(self.heat, 1)
+        self.addWidget(self.places)
+        self.addWidget(right)
+        self.setSizes([520, 420])
+        self.places.currentCellChanged.connect(lambda *_: self._show_heat())
+
+    def show_answer(self, answer: Answer) -> None:
+        """Show where the gap lies, the largest first; what may be noise stands back."""
+        self._answer = answer
+        found = answer.diagnosis.places
+        every = [place for one in answer.diagnosis.axes.values() for place in one.places]
+        self._places = [*found, *(place for place in every if not place.significant)]
+        known = {
+            (place.axis, place.tap): share
+            for place, share in zip(found, shares(found), strict=True)
+        }
+        rows = [_row(place, answer, known.get((place.axis, place.tap))) for place in self._places]
+        quiet = QColor(self._theme.quiet)
+        self.places.show_rows(
+            rows, [None if place.significant else quiet for place in self._places]
+        )
+        if self._places:
+            self.places.selectRow(0)
+        self._show_heat()
+
+    def set_theme(self, theme: Theme) -> None:
+        """Change all colours."""
+        self._theme = theme
+        if self._answer is not None:
+            self.show_answer(self._answer)
+
+    def _show_heat(self) -> None:
+        row = self.places.currentRow()
+        if self._answer is None or not 0 <= row < len(self._places):
+            self._clear("")
+            return
+        place = self._places[row]
+        name = f"{label(place.axis)} {place.tap}"
+        heat = self._answer.heats.get((place.axis, place.tap))
+        if heat is None:
+            self._clear(f"{name}: no record is sampled evenly and long enough for a map")
+            return
+        self.heat_title.setText(f"{name}: gap rms in floors, by regime and band from … Hz on")
+        self._draw(heat)
+
+    def _clear(self, text: str) -> None:
+        self.heat_title.setText(text)
+        self.heat.show_rows([])
+        self.heat.set_head(())
+
+    def _draw(self, heat: Heat) -> None:
+        edges = [_few(edge) for edge in heat.edges_hz]
+        self.heat.set_head(("while", "share", *edges[:-1]))
+        for column, (low, high) in enumerate(pairwise(edges), start=_BANDS):
+            self.heat.horizontalHeaderItem(column).setToolTip(f"{low} to {high} Hz")
+        self.heat.show_rows(
+            [
+                (str(regime), percent(float(share.sum())), *map(_few, floors))
+                for regime, floors, share in zip(heat.regimes, heat.floors, heat.share, strict=True)
+            ]
+        )
+        for row, floors in enumerate(heat.floors):
+            for column, value in enumerate(floors, start=_BANDS):
+                colour = QColor(self._theme.real)
+                colour.setAlpha(round(_STRENGTH * warmth(value)))
+                item = self.heat.item(row, column)
+                item.setBackground(colour)
+                share = percent(float(heat.share[row][column - _BANDS]))
+                item.setToolTip(f"{share} of the gap of the whole path")
+
+
+def warmth(floors: float) -> float:
+    """Return how warm a cell looks, 0 to 1."""
+    return min(max(math.log10(max(floors, 1e-9) / _COLDEST) / _DECADES, 0.0), 1.0)
+
+
+def _few(value: float) -> str:
+    return f"{float(f'{value:.2g}'):g}"
+
+
+def _row(
+    place: Place, answer: Answer, share: tuple[float, tuple[float, float]] | None
+) -> tuple[str, ...]:
+    unit = answer.unit(place.axis, place.tap)
+    band = place.worst_band_hz
+    return (
+        f"{label(place.axis)} {place.tap}",
+        percent(share[0]) if share is not None else "noise",
+        amount(place.gap_rms, unit),
+        amount(place.noise_floor, unit),
+        NOTHING if band is None else f"{_few(band[0])}…{_few(band[1])} Hz",
+        str(place.worst_regime or NOTHING),
+        percents(share[1]) if share is not None else NOTHING,
+    )

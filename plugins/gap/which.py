@@ -1,0 +1,104 @@
+"""Which effect causes the gap of an axis: the candidates, and what is said of the causes."""
+
+from collections.abc import Iterator
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor
+from PySide6.QtWidgets import QPlainTextEdit, QSplitter
+
+from rotemina.app.shell.theme import Theme
+from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap.table import Table
+from rotemina.sim.gap.diagnosis import AxisDiagnosis, Cause, FittedParameter, Ranked
+from rotemina.sim.gap.report.quantities import amount, amounts, percent, percents
+from rotemina.sim.gap.report.words import VERDICTS, effect_title, listed
+
+HEAD = ("candidate", "prob.", "left [floors]", "95 %")
+
+
+class WhichView(QSplitter):
+    """The ranking on the left, sentences on the right."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(Qt.Orientation.Horizontal)
+        self._theme = theme
+        self._shown: tuple[Answer, str] | None = None
+        self.ranking = Table("Candidates, likeliest first", HEAD)
+        self.ranking.setSelectionMode(Table.SelectionMode.NoSelection)
+        self.text = QPlainTextEdit()
+        self.text.setReadOnly(True)
+        self.text.setAccessibleName("What is said of the axis")
+        self.addWidget(self.ranking)
+        self.addWidget(self.text)
+        self.setSizes([480, 460])
+
+    def show_axis(self, answer: Answer, axis: str) -> None:
+        """Show what was found on an axis; candidates that may be the cause stand out."""
+        self._shown = answer, axis
+        one = answer.diagnosis.axes[axis]
+        named = {cause.effect for cause in one.causes}
+        named |= {effect for cause in one.causes for effect in cause.ambiguous_with}
+        quiet = QColor(self._theme.quiet)
+        self.ranking.show_rows(
+            [_row(ranked) for ranked in one.ranking],
+            [None if ranked.effect in named else quiet for ranked in one.ranking],
+        )
+        self.text.setPlainText("\n".join(_lines(one, answer)))
+
+    def set_theme(self, theme: Theme) -> None:
+        """Change all colours."""
+        self._theme = theme
+        if self._shown is not None:
+            self.show_axis(*self._shown)
+
+
+def _row(ranked: Ranked) -> tuple[str, ...]:
+    name = effect_title(ranked.effect)
+    if ranked.from_axis is not None:
+        name += f" from {ranked.from_axis}"
+    if ranked.formulation is not None:
+        name += f" ({ranked.formulation.replace('_', ' ')})"
+    return (
+        name,
+        percent(ranked.probability),
+        amount(ranked.held_out_rms, ""),
+        amounts(ranked.held_out_interval, ""),
+    )
+
+
+def _lines(one: AxisDiagnosis, answer: Answer) -> Iterator[str]:
+    yield f"{VERDICTS[one.verdict]}."
+    for cause in one.causes:
+        yield from _cause(cause, answer)
+    yield from one.remarks
+    reasons: dict[str, list[str]] = {}
+    for each in one.untestable:
+        reasons.setdefault(each.reason, []).append(effect_title(each.effect).lower())
+    for reason, effects in reasons.items():
+        yield f"Not testable: {listed(effects)} ({reason})."
+    for experiment in answer.diagnosis.experiments:
+        if experiment.axis == one.axis:
+            yield f"Next experiment: {experiment.why}"
+
+
+def _cause(cause: Cause, answer: Answer) -> Iterator[str]:
+    unit = answer.unit(cause.axis, cause.tap)
+    source = f" from {cause.from_axis}" if cause.from_axis is not None else ""
+    yield (
+        f"{effect_title(cause.effect)}{source}: {percent(cause.probability)} likely; "
+        f"{amount(cause.gap_before, unit)} rms without it, {amount(cause.gap_after, unit)} with it"
+        f" at {cause.tap}, on unseen data; closes {percent(cause.closed)}"
+        f" ({percents(cause.closed_interval)})."
+    )
+    if cause.ambiguous_with:
+        rivals = [effect_title(effect).lower() for effect in cause.ambiguous_with]
+        yield f"    These records cannot tell it from {listed(rivals, 'or')}."
+    for one in cause.parameters:
+        yield f"    {_parameter(one)}"
+
+
+def _parameter(one: FittedParameter) -> str:
+    text = f"{one.name.replace('_', ' ')}: {amount(one.value, one.unit)}"
+    if one.interval is not None:
+        text += f" ({amounts(one.interval, one.unit)})"
+    return text if one.at_bound is None else f"{text}, at its {one.at_bound} bound"

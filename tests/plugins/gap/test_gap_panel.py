@@ -1,0 +1,377 @@
+"""The gap page: what an operator chooses, sees and does, and that nothing waits for it."""
+
+import json
+import threading
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QDesktopServices
+from PySide6.QtWidgets import QMessageBox
+
+from rotemina.app.shell.workbench import Run
+from rotemina.plugins.gap import diagnosing as module
+from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap.diagnosing import StoppedError, said
+from rotemina.plugins.gap.where import warmth
+from rotemina.sim.comparison.comparison import compare
+from rotemina.sim.gap.document import as_json
+from rotemina.sim.gap.errors import GapError
+from rotemina.sim.gap.progress import Progress
+from rotemina.sim.records.writing import write_record
+from rotemina.sim.robot.file import load_robot
+
+LONG_MS = 30_000
+WHERE, WHICH, FAR = range(3)
+
+
+@pytest.fixture
+def panel(qtbot, window):
+    window.docks["gap"].raise_()
+    return window.panels["gap"]
+
+
+@pytest.fixture
+def chosen(panel, record):
+    """The panel with a record."""
+    panel.records.take(Run("day one.csv", compare(panel.workbench.robot, record)))
+    return panel
+
+
+@pytest.fixture
+def answered(chosen, diagnosis, record):
+    """The panel with an answer."""
+    chosen.take_answer(Answer.of(diagnosis, ["day one.csv"], [record]))
+    return chosen
+
+
+class Stepwise:
+    """A diagnosis that takes a step when it is let; it tells where it ran and how it ended."""
+
+    def __init__(self, diagnosis):
+        self.diagnosis = diagnosis
+        self.steps = threading.Semaphore(0)
+        self.calls, self.threads, self.ends = [], [], []
+
+    def __call__(self, robot, records, listener):
+        self.calls.append((robot, records))
+        self.threads.append(threading.current_thread())
+        try:
+            for share in (0.1, 0.5):
+                listener(Progress("fitting", "thx", "hysteresis", share))
+                assert self.steps.acquire(timeout=20.0)
+            listener(Progress("deciding", None, None, 0.9))
+        except StoppedError:
+            self.ends.append("stopped")
+            raise
+        self.ends.append("answered")
+        return self.diagnosis
+
+
+@pytest.fixture
+def stepwise(monkeypatch, diagnosis):
+    made = Stepwise(diagnosis)
+    monkeypatch.setattr(module, "diagnose", made)
+    yield made
+    made.steps.release(100)
+
+
+def click(qtbot, button):
+    qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+
+
+def newest(window):
+    notices = window.notices.notices()
+    return notices[0].text if notices else ""
+
+
+def saved(qtbot, window, path):
+    qtbot.waitUntil(lambda: newest(window) == f"Saved {path}", timeout=LONG_MS)
+
+
+# --- choosing ---------------------------------------------------------------------------------
+
+
+def test_without_records_there_is_nothing_to_diagnose(panel):
+    assert not panel.start.isEnabled()
+    assert not panel.stop.isEnabled()
+    assert not panel.twin.isEnabled()
+    assert not panel.report.isEnabled()
+    assert panel.tabs.isHidden()
+
+
+def test_the_last_playback_is_taken_until_something_else_is_chosen(panel, record):
+    bench = panel.workbench
+    first, second = (Run(name, compare(bench.robot, record)) for name in ("first", "second"))
+    bench.run_changed.emit(first)
+    bench.run_changed.emit(second)
+    assert [each.name for each in panel.records.chosen] == ["second"]
+    assert panel.start.isEnabled()
+    panel.records.take(first)
+    bench.run_changed.emit(second)
+    assert [each.name for each in panel.records.chosen] == ["first"]
+
+
+def test_files_are_added_and_removed_by_the_menu(qtbot, window, panel, record, tmp_path):
+    paths = [tmp_path / name for name in ("a & b.csv", "<b>two.csv")]
+    for path in paths:
+        write_record(record, path)
+    panel.records.add_files(paths)
+    qtbot.waitUntil(lambda: len(panel.records.chosen) == 2, timeout=LONG_MS)
+    assert panel.records.text() == "2 records"
+    assert "&lt;b&gt;two" in panel.records.toolTip()
+    panel.records.menu().aboutToShow.emit()
+    actions = {action.text(): action for action in panel.records.menu().actions()}
+    actions["Remove a && b.csv"].trigger()
+    assert [each.name for each in panel.records.chosen] == ["<b>two.csv"]
+
+
+def test_a_file_that_cannot_be_read_or_needs_names_becomes_a_notice(
+    qtbot, window, panel, record, tmp_path
+):
+    (tmp_path / "bare.csv").write_text("0,1\n1,2\n2,3\n")
+    write_record(record, tmp_path / "good.csv")
+    panel.records.add_files([tmp_path / "bare.csv", tmp_path / "good.csv"])
+    qtbot.waitUntil(lambda: "it has no header" in newest(window), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: len(panel.records.chosen) == 1, timeout=LONG_MS)
+    panel.records.add_files([tmp_path / "missing.csv"])
+    qtbot.waitUntil(lambda: "missing.csv" in newest(window), timeout=LONG_MS)
+
+
+def test_another_robot_is_chosen_and_a_broken_one_refused(qtbot, window, panel, tmp_path):
+    with qtbot.waitSignal(panel.robots.changed, timeout=LONG_MS):
+        panel.robots.load("emps")
+    assert panel.robots.robot == load_robot("emps")
+    assert panel.robots.currentText() == "emps"
+    (tmp_path / "broken.toml").write_text("name = 3")
+    panel.robots.load(tmp_path / "broken.toml")
+    qtbot.waitUntil(lambda: "broken.toml" in newest(window), timeout=LONG_MS)
+    assert panel.robots.currentText() == "emps"
+    with qtbot.waitSignal(panel.robots.changed, timeout=LONG_MS):
+        panel.robots.activated.emit(0)
+    assert panel.robots.robot is window.workbench.robot
+
+
+# --- running ----------------------------------------------------------------------------------
+
+
+def test_a_diagnosis_runs_beside_the_window_and_tells_how_far_it_is(
+    qtbot, window, chosen, stepwise, record
+):
+    click(qtbot, chosen.start)
+    qtbot.waitUntil(lambda: chosen.doing.text() == "fitting thx hysteresis", timeout=LONG_MS)
+    assert chosen.progress.value() == 100
+    assert not chosen.start.isEnabled()
+    assert stepwise.threads[0] is not threading.main_thread()
+    # What must not wait, does not: a file is written and motion goes on meanwhile.
+    window.workbench.record = record
+    window.workbench.save_record(window.workbench.played_folder.parent / "meanwhile.csv")
+    saved(qtbot, window, window.workbench.played_folder.parent / "meanwhile.csv")
+    window.workbench.go_to({"thx": 6e-4})
+    snapshot = window.workbench.session.snapshot
+    qtbot.waitUntil(lambda: snapshot().command["thx"] == pytest.approx(6e-4), timeout=LONG_MS)
+    stepwise.steps.release(2)
+    qtbot.waitUntil(lambda: chosen.answer is not None, timeout=LONG_MS)
+    assert chosen.answer.diagnosis is stepwise.diagnosis
+    assert chosen.start.isEnabled()
+    assert chosen.progress.isHidden()
+
+
+def test_stop_works_at_once_and_what_comes_late_is_dropped(qtbot, chosen, stepwise):
+    click(qtbot, chosen.start)
+    qtbot.waitUntil(lambda: len(stepwise.calls) == 1, timeout=LONG_MS)
+    click(qtbot, chosen.stop)
+    assert chosen.start.isEnabled()  # although the work has not come to its next step yet
+    assert not chosen.stop.isEnabled()
+    assert chosen.doing.text() == "stopped"
+    stepwise.steps.release()
+    qtbot.waitUntil(lambda: stepwise.ends == ["stopped"], timeout=LONG_MS)
+    click(qtbot, chosen.start)
+    stepwise.steps.release(2)
+    qtbot.waitUntil(lambda: chosen.answer is not None, timeout=LONG_MS)
+    assert stepwise.ends == ["stopped", "answered"]
+
+
+def test_an_answer_that_was_ready_when_it_was_stopped_is_not_shown(qtbot, window, chosen, stepwise):
+    click(qtbot, chosen.start)
+    qtbot.waitUntil(lambda: len(stepwise.calls) == 1, timeout=LONG_MS)
+    stepwise.steps.release(2)
+    while chosen.diagnosing._background.busy:
+        if stepwise.ends:
+            chosen.diagnosing._background.wait()
+            click(qtbot, chosen.stop)
+            break
+    qtbot.waitUntil(lambda: not chosen.diagnosing._background.busy, timeout=LONG_MS)
+    assert chosen.answer is None
+
+
+def test_records_that_cannot_be_diagnosed_become_a_notice(qtbot, window, chosen, monkeypatch):
+    def refuse(_robot, _records, _listener):
+        raise GapError("record 1: too short to tell anything; record 2 s or more")
+
+    monkeypatch.setattr(module, "diagnose", refuse)
+    click(qtbot, chosen.start)
+    qtbot.waitUntil(lambda: "too short" in newest(window), timeout=LONG_MS)
+    assert chosen.doing.text() == "failed"
+    assert chosen.start.isEnabled()
+
+
+def test_closing_the_window_ends_a_diagnosis(qtbot, window, chosen, monkeypatch):
+    under_way, ended = threading.Event(), threading.Event()
+
+    def endless(_robot, _records, listener):
+        try:
+            while True:
+                listener(Progress("fitting", "thx", "hysteresis", 0.5))
+                under_way.set()
+                ended.wait(0.01)
+        except StoppedError:
+            ended.set()
+            raise
+
+    monkeypatch.setattr(module, "diagnose", endless)
+    click(qtbot, chosen.start)
+    qtbot.waitUntil(under_way.is_set, timeout=LONG_MS)
+    window.workbench.close()
+    assert ended.is_set()
+    assert not chosen.diagnosing.running
+
+
+def test_the_time_left_is_told_once_it_can_be_guessed():
+    progress = Progress("fitting", "thx", "creep", 0.25)
+    assert said(progress, 0.5) == "fitting thx creep"
+    assert said(progress, 10.0) == "fitting thx creep, about 30 s left"
+    assert said(replace(progress, share=0.0), 10.0) == "fitting thx creep"
+
+
+# --- showing ----------------------------------------------------------------------------------
+
+
+def test_where_names_axes_taps_and_shares_with_a_map_of_the_chosen_one(answered):
+    rows = answered.where.places.texts()
+    assert rows[0][0] == "θx ref"
+    assert [row[1] for row in rows if row[0].startswith("θy")] == ["noise", "noise"]
+    heat = answered.where.heat.texts()
+    assert {"reversal", "forward", "backward"} <= {row[0] for row in heat}
+    shares = {row[0]: float(row[1].removesuffix(" %").removeprefix("< ")) for row in heat}
+    assert shares["fast"] + shares["slow"] + shares["reversal"] == pytest.approx(100.0, abs=3.0)
+    answered.where.places.selectRow(1)
+    assert answered.where.heat_title.text().startswith("θx meas")
+
+
+def test_warmth_goes_from_none_to_all():
+    assert warmth(0.0) == 0.0
+    assert 0.0 < warmth(1.0) < warmth(100.0) < 1.0
+    assert warmth(1e6) == 1.0
+
+
+def test_which_ranks_candidates_and_says_what_cannot_be_told_apart(answered):
+    answered.tabs.setCurrentIndex(WHICH)
+    assert answered.views.currentWidget() is answered.which
+    assert answered.which.ranking.texts()[0] == [
+        "Hysteresis (prandtl ishlinskii)",
+        "91 %",
+        "1.2",
+        "1.1 … 1.3",
+    ]
+    text = answered.which.text.toPlainText()
+    assert "These records cannot tell it from creep." in text
+    assert "width: 120 µrad (110 µrad … 130 µrad), at its high bound" in text
+    assert "Not testable: sensor gain error (no reference was measured)." in text
+    assert answered.verdict.text() == "Explained.   θx: hysteresis or creep 91 %"
+
+
+def test_how_far_shows_bars_and_the_gap_before_and_after(answered):
+    answered.tabs.setCurrentIndex(FAR)
+    assert [(bar.name, bar.text) for bar in answered.far.bars.bars] == [
+        ("as it is", "33 µrad"),
+        ("re-tuned", "32 µrad"),
+        ("+ Hysteresis", "0.78 µrad"),
+        ("corrected", "0.77 µrad"),
+    ]
+    assert [line.text for line in answered.far.bars.lines] == ["0.4 µrad"]
+    assert not answered.far.bars.grab().toImage().isNull()
+    assert answered.far.trace.currentText() == "day one.csv: meas"
+    before, after = (
+        np.asarray(answered.far.plot._curves[name].getData()[1]) for name in ("before", "after")
+    )
+    assert np.std(before) > 10 * np.std(after) > 0.0
+    answered.axis.setCurrentIndex(answered.axis.findData("thy"))
+    answered.axis.activated.emit(answered.axis.currentIndex())
+    assert answered.far.bars.bars == ()
+    assert answered.far.title.text() == "No shrinkage is told of this axis."
+
+
+def test_another_theme_recolours_everything(window, answered):
+    for theme in ("light", "dark"):
+        window.use_theme(theme)
+        for view in (WHERE, WHICH, FAR):
+            answered.tabs.setCurrentIndex(view)
+            assert not answered.grab().toImage().isNull()
+    quiet = answered.workbench.theme.quiet
+    assert answered.which.ranking.item(1, 0).foreground().color().name() == quiet
+
+
+# --- acting -----------------------------------------------------------------------------------
+
+
+def test_json_holds_the_diagnosis(qtbot, window, answered, diagnosis, tmp_path):
+    answered.save_json(tmp_path / "gap.json")
+    saved(qtbot, window, tmp_path / "gap.json")
+    assert json.loads((tmp_path / "gap.json").read_text("utf-8")) == as_json(diagnosis)
+
+
+def test_the_report_is_written_and_opened(qtbot, window, answered, tmp_path, monkeypatch):
+    opened = []
+    monkeypatch.setattr(QDesktopServices, "openUrl", lambda url: opened.append(url) or True)
+    answered.save_report(tmp_path / "gap.html")
+    saved(qtbot, window, tmp_path / "gap.html")
+    assert "day one.csv" in (tmp_path / "gap.html").read_text("utf-8")
+    assert [url.toLocalFile() for url in opened] == [str(tmp_path / "gap.html")]
+
+
+def test_a_report_that_nothing_opens_is_told(qtbot, window, answered, tmp_path, monkeypatch):
+    monkeypatch.setattr(QDesktopServices, "openUrl", lambda _url: False)
+    answered.save_report(tmp_path / "gap.html")
+    qtbot.waitUntil(lambda: "open it in a browser" in newest(window), timeout=LONG_MS)
+
+
+def test_a_place_that_cannot_be_written_becomes_a_notice(qtbot, window, answered, tmp_path):
+    answered.save_json(tmp_path)
+    qtbot.waitUntil(lambda: "it is a folder" in newest(window), timeout=LONG_MS)
+
+
+def question(window):
+    boxes = [box for box in window.findChildren(QMessageBox) if box.isVisible()]
+    return boxes[0] if boxes else None
+
+
+def test_the_twin_is_a_robot_file_that_the_simulator_takes_if_it_is_asked_to(
+    qtbot, window, answered, diagnosis, tmp_path
+):
+    session = window.workbench.session
+    for button, wanted in (
+        (QMessageBox.StandardButton.No, ()),
+        (QMessageBox.StandardButton.Yes, diagnosis.fitted),
+    ):
+        answered.save_twin(tmp_path / "twin.toml")
+        qtbot.waitUntil(lambda: question(window) is not None, timeout=LONG_MS)
+        box = question(window)
+        assert not box.isModal()
+        click(qtbot, box.button(button))
+        qtbot.waitUntil(lambda: question(window) is None, timeout=LONG_MS)
+        qtbot.waitUntil(lambda wanted=wanted: session.effects == wanted, timeout=LONG_MS)
+    assert load_robot(tmp_path / "twin.toml").effects == diagnosis.fitted
+
+
+def test_a_twin_of_another_robot_is_not_offered_to_this_simulator(
+    qtbot, window, answered, tmp_path
+):
+    other = {name: axis for name, axis in window.workbench.robot.axes.items() if name != "y"}
+    robot = replace(window.workbench.robot, axes=other, couplings=(), stages={})
+    diagnosis = replace(answered.answer.diagnosis, robot=robot)
+    answered.answer = replace(answered.answer, diagnosis=diagnosis)
+    answered.save_twin(tmp_path / "twin.toml")
+    saved(qtbot, window, tmp_path / "twin.toml")
+    assert question(window) is None
