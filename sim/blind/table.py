@@ -1,0 +1,60 @@
+"""The figures of the blind test in words: a table for the terminal, a page of Markdown."""
+
+from collections.abc import Mapping
+
+from rotemina.sim.blind.intervals import Figure
+
+# What each figure is, the level that it is to reach ("" where there is none), and its form.
+ROWS: dict[str, tuple[str, str, str]] = {
+    "top_1": ("first cause right, one effect", "", "share"),
+    "top_1_large_gap": ("… where the gap is ≥ 5 floors", "≥ 95 %", "share"),
+    "top_1_small_gap": ("… where it is smaller", "≥ 85 %", "share"),
+    "single_exact": ("one effect exactly, nothing beside it", "", "share"),
+    "set_coverage": ("truth in the reported set", "≥ 97 %", "share"),
+    "set_size": ("mean size of the set", "≤ 1.3", "number"),
+    "two_exact": ("two effects exactly", "≥ 80 %", "share"),
+    "two_exact_large_gap": ("… where the gap is ≥ 5 floors", "", "share"),
+    "two_exact_small_gap": ("… where it is smaller", "", "share"),
+    "three_exact": ("three effects exactly", "", "share"),
+    "false_accusations": ("healthy machines accused", "0", "share"),
+    "unknown_recall": ("unknown effects called unknown", "≥ 85 %", "share"),
+    "insufficient_recall": ("poor excitation called so", "", "share"),
+    "closure_median": ("gap closed on unseen data, median", "≥ 95 %", "share"),
+    "closure_10th_percentile": ("gap closed, 10th percentile", "≥ 80 %", "share"),
+    "calibration_error": ("expected calibration error", "≤ 0.05", "number"),
+    "seconds_median": ("seconds a case, median", "", "seconds"),
+    "seconds_greatest": ("seconds a case, greatest", "≤ 60 s", "seconds"),
+    "seconds_healthy_median": ("seconds a healthy case, median", "≤ 5 s", "seconds"),
+}
+
+
+def shown(figure: Figure, form: str) -> str:
+    """Return a figure with its interval, or a dash where no case tells."""
+    if figure.value is None or figure.low is None or figure.high is None:
+        return "–"
+    if form == "share":
+        low, high = 100.0 * figure.low, 100.0 * figure.high
+        return f"{100.0 * figure.value:.1f} % ({low:.1f}–{high:.1f})"
+    digits = 1 if form == "seconds" else 3
+    return f"{figure.value:.{digits}f} ({figure.low:.{digits}f}–{figure.high:.{digits}f})"
+
+
+def plain_table(figures: Mapping[str, Figure]) -> str:
+    """Return the figures as lines for a terminal, 95 % intervals in brackets."""
+    lines = [f"{'':40} {'level':>8}  {'reached (95 %)':<24} {'n':>5}"]
+    for key, figure in figures.items():
+        text, level, form = ROWS[key]
+        lines.append(f"{text:40} {level:>8}  {shown(figure, form):<24} {figure.number:>5}")
+    return "\n".join(lines)
+
+
+def markdown_table(columns: Mapping[str, Mapping[str, Figure]]) -> str:
+    """Return the figures of several contestants side by side; ``columns``: heading -> figures."""
+    head = ["", "level", *columns, "n"]
+    lines = [f"| {' | '.join(head)} |", f"|{'---|' * len(head)}"]
+    first = next(iter(columns.values()))
+    for key, figure in first.items():
+        text, level, form = ROWS[key]
+        cells = [shown(each[key], form) if key in each else "–" for each in columns.values()]
+        lines.append(f"| {text} | {level} | {' | '.join(cells)} | {figure.number} |")
+    return "\n".join(lines)
