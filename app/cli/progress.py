@@ -29,6 +29,7 @@ class ProgressLine:
         self._begin_s = clock()
         self._last_s = self._begin_s
         self._open = False
+        self._share = 0.0
 
     def __enter__(self) -> Self:
         return self
@@ -45,6 +46,7 @@ class ProgressLine:
 
     def __call__(self, progress: Progress) -> None:
         """Tell how far it has come, unless that was just done."""
+        self._share = max(self._share, progress.share)
         now_s = self._clock()
         pause_s = _BETWEEN_REWRITES_S if self._terminal else _BETWEEN_LINES_S
         begun = self._open or not self._terminal
@@ -61,9 +63,9 @@ class ProgressLine:
 
     def _text(self, progress: Progress, elapsed_s: float) -> str:
         what = " ".join(part for part in (progress.axis, progress.candidate) if part)
-        text = f"{progress.stage} {what}".rstrip() + f", {100.0 * progress.share:.0f} %"
-        if elapsed_s >= _FIRST_GUESS_S and progress.share >= _FIRST_GUESS_SHARE:
-            left_s = elapsed_s * (1.0 / progress.share - 1.0)
+        text = f"{progress.stage} {what}".rstrip() + f", {100.0 * self._share:.0f} %"
+        if elapsed_s >= _FIRST_GUESS_S and self._share >= _FIRST_GUESS_SHARE:
+            left_s = elapsed_s * (1.0 / self._share - 1.0)
             text += f", about {_duration(left_s)} left"
         return text
 

@@ -1,6 +1,7 @@
 """Where parallel work runs: on this machine's cores, or on a Dask cluster."""
 
 import argparse
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -54,5 +55,14 @@ def workers(jobs: int | None, cluster: str | None) -> Iterator[int]:
             f"--cluster {cluster}: it cannot be reached ({error}); name the address of a running "
             "Dask scheduler"
         ) from error
-    with client, joblib.parallel_config(backend="dask"):
-        yield jobs or max(sum(client.ncores().values()), 1)
+    with client, warnings.catch_warnings():
+        # Records are sent with what is to be done to them, whatever Dask thinks of their size.
+        warnings.filterwarnings("ignore", "Sending large graph")
+        try:
+            client.wait_for_workers(1, timeout=_CONNECTING_S)
+        except TimeoutError as error:
+            raise InputError(
+                f"--cluster {cluster}: it has no workers; start some by dask worker {cluster}"
+            ) from error
+        with joblib.parallel_config(backend="dask"):
+            yield jobs or sum(client.ncores().values())

@@ -1,5 +1,6 @@
 """``rotemina gap`` as its users meet it; the diagnosis itself is made by hand here."""
 
+import contextlib
 import io
 import json
 import sys
@@ -359,4 +360,19 @@ def test_a_cluster_that_does_not_answer_is_said(monkeypatch, capsys, asked):
     monkeypatch.setitem(sys.modules, "distributed", types.SimpleNamespace(Client=client))
     assert main(["gap", "diagnose", "r.csv", "--cluster", "tcp://host:8786"]) == 2
     assert "--cluster tcp://host:8786: it cannot be reached" in capsys.readouterr().err
+    assert not asked
+
+
+def test_a_cluster_without_workers_is_said(monkeypatch, capsys, asked):
+    class Client(contextlib.nullcontext):
+        def __init__(self, address, timeout):
+            super().__init__()
+
+        def wait_for_workers(self, count, timeout):
+            raise TimeoutError
+
+    write_measured()
+    monkeypatch.setitem(sys.modules, "distributed", types.SimpleNamespace(Client=Client))
+    assert main(["gap", "diagnose", "r.csv", "--cluster", "tcp://host:8786"]) == 2
+    assert "--cluster tcp://host:8786: it has no workers" in capsys.readouterr().err
     assert not asked
