@@ -1,12 +1,13 @@
 """``rotemina gap``: the diagnosis of the gap between model and machine, and what follows from it.
 
-``diagnose`` finds causes, ``predict`` asks the corrected model, ``twin`` writes it as a robot file.
+``diagnose`` finds causes, ``predict`` asks the corrected model, ``twin`` writes it as a robot
+file, ``blind`` tests the diagnosis itself.
 """
 
 import argparse
 from pathlib import Path
 
-from rotemina.app.cli import gap_diagnose
+from rotemina.app.cli import gap_blind, gap_diagnose
 from rotemina.app.cli.options import add_columns
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap.prediction import predict
@@ -28,10 +29,11 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     gap_diagnose.add_parser(verbs)
     _add_predict(verbs)
     _add_twin(verbs)
+    gap_blind.add_parser(verbs)
 
 
 def _nothing(_options: argparse.Namespace) -> int:
-    raise InputError("gap: name what to do: diagnose, predict or twin (--help tells more)")
+    raise InputError("gap: name what to do: diagnose, predict, twin or blind (--help tells more)")
 
 
 def _add_predict(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:

@@ -66,6 +66,12 @@ class Outcome:
         """Whether the named causes are those that are there, no more and no fewer."""
         return self.verdict == "explained" and Counter(self.named) == Counter(self.truth)
 
+    @property
+    def right(self) -> bool:
+        """Whether verdict and causes are what the label says."""
+        verdict = self.label["verdict"]
+        return self.exact if verdict == "explained" else self.verdict == verdict
+
     def covered(self) -> list[bool]:
         """For each effect that is there: whether it is in a set that was named on its axis."""
         sets = [

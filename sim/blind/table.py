@@ -1,8 +1,10 @@
 """The figures of the blind test in words: a table for the terminal, a page of Markdown."""
 
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 
 from rotemina.sim.blind.intervals import Figure
+from rotemina.sim.blind.scoring import Outcome
 
 # What each figure is, the level that it is to reach ("" where there is none), and its form.
 ROWS: dict[str, tuple[str, str, str]] = {
@@ -58,3 +60,22 @@ def markdown_table(columns: Mapping[str, Mapping[str, Figure]]) -> str:
         cells = [shown(each[key], form) if key in each else "–" for each in columns.values()]
         lines.append(f"| {text} | {level} | {' | '.join(cells)} | {figure.number} |")
     return "\n".join(lines)
+
+
+def page(
+    figures: Mapping[str, Figure],
+    outcomes: Sequence[Outcome],
+    picture: str,
+    others: Mapping[str, Mapping[str, Figure]] | None = None,
+) -> str:
+    """Return the report as Markdown; ``others``: figures of the baselines by their names."""
+    kinds = Counter(outcome.kind for outcome in outcomes)
+    made_of = ", ".join(f"{number} {kind}" for kind, number in kinds.most_common())
+    return f"""# Blind test of the diagnosis
+
+{len(outcomes)} cases: {made_of}. Every figure with its 95 % interval.
+
+{markdown_table({"reached": figures, **(others or {})})}
+
+![Confusion matrix: what is there, and what was named first]({picture})
+"""

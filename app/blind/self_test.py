@@ -1,0 +1,100 @@
+"""The sealed self-test as the command line runs it: what is not done yet, then the score."""
+
+import sys
+from argparse import Namespace
+from contextlib import ExitStack
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from rotemina.app.blind.cases import BlindError, Cases, FolderCases, GeneratedCases
+from rotemina.app.blind.process import diagnose
+from rotemina.app.blind.run import BlindRun
+from rotemina.app.files import json_text
+from rotemina.sim.blind.intervals import Figure
+from rotemina.sim.blind.picture import draw_confusion
+from rotemina.sim.blind.scoring import Outcome, confusion, score
+from rotemina.sim.blind.table import page, plain_table
+from rotemina.sim.errors import InputError
+from rotemina.sim.whole_files import replaced
+
+FORMAT = "rotemina-blind 1"
+_CASES = 300
+
+
+def run_test(options: Namespace) -> None:
+    """Do what is not done yet, then score all that is."""
+    cases, folder = _cases(options)
+    blind = BlindRun(folder, cases)
+    ask = partial(diagnose, jobs=options.jobs)
+    pending = blind.pending(options.shard)
+    for number, name in enumerate(pending, start=1):
+        blind.do(name, ask)
+        print(f"{name}: done ({number} of {len(pending)})", file=sys.stderr)
+    blind.open_labels()
+    outcomes = blind.outcomes()
+    if not outcomes:
+        raise BlindError(f"{folder}: no case is done, so there is nothing to score")
+    _write(options, cases, outcomes)
+
+
+def _cases(options: Namespace) -> tuple[Cases, Path]:
+    if (options.source is None) != (options.labels is None):
+        raise InputError("--from DIR and --labels FILE belong together; give both or neither")
+    if options.source is not None:
+        if options.cases is not None:
+            raise InputError(
+                "--cases: with --from, all cases of the folder are scored; leave it out"
+            )
+        robot = _robot(options)
+        name = f"rotemina-blind-{options.source.resolve().name}"
+        return FolderCases(options.source, options.labels, robot), options.folder or Path(name)
+    number = _CASES if options.cases is None else options.cases
+    if number < 1 or options.seed < 0:
+        raise InputError(
+            f"--cases {number} --seed {options.seed}: at least 1 case, no seed below 0"
+        )
+    folder = options.folder or Path(f"rotemina-blind-{options.seed}")
+    return GeneratedCases(_robot(options), number, options.seed), folder
+
+
+def _robot(options: Namespace) -> str:
+    """Return what ``--robot`` takes, good in any folder."""
+    name = str(options.robot)
+    return str(Path(name).resolve()) if Path(name).is_file() else name
+
+
+def _write(options: Namespace, cases: Cases, outcomes: list[Outcome]) -> None:
+    figures = score(outcomes)
+    counts = confusion(outcomes)
+    text = json_text(_document(cases, outcomes, figures))
+    # All files appear together or none.
+    with ExitStack() as files:
+        if options.report is not None:
+            picture = options.report.with_suffix(".svg")
+            files.enter_context(replaced(options.report)).write(
+                page(figures, outcomes, picture.name).encode("utf-8")
+            )
+            draw_confusion(counts, files.enter_context(replaced(picture)))
+        if options.json not in (None, "-"):
+            files.enter_context(replaced(options.json)).write(text.encode("utf-8"))
+    print(text if options.json == "-" else plain_table(figures))
+
+
+def _document(cases: Cases, outcomes: list[Outcome], figures: dict[str, Figure]) -> dict[str, Any]:
+    return {
+        "format": FORMAT,
+        "cases": dict(cases.key),
+        "asked": len(cases.names),
+        "done": len(outcomes),
+        "figures": {key: figure.as_json() for key, figure in figures.items()},
+        "confusion": [
+            {"truth": truth, "named": told, "number": number}
+            for (truth, told), number in sorted(confusion(outcomes).items())
+        ],
+        "wrong": [
+            {"case": o.name, "label": dict(o.label), "answer": dict(o.answer)}
+            for o in outcomes
+            if not o.right
+        ],
+    }

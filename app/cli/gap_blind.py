@@ -1,0 +1,58 @@
+"""``rotemina gap blind``: the sealed self-test of the diagnosis, scored."""
+
+import argparse
+from pathlib import Path
+
+from rotemina.app.blind.shard import Shard
+from rotemina.app.cli.options import add_robot
+
+
+def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Add the subcommand."""
+    parser = verbs.add_parser(
+        "blind",
+        help="the sealed self-test of the diagnosis, scored",
+        description="Make cases by equations that the diagnosis does not know, seal their labels, "
+        "diagnose each in a process of its own that sees records alone, then open the labels and "
+        "score the answers. What is done is not done again: start it once more to go on.",
+    )
+    parser.add_argument("--cases", type=int, metavar="N", help="how many (default: 300)")
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the cases (default 0)")
+    parser.add_argument(
+        "--shard",
+        type=shard,
+        default=Shard(),
+        metavar="I/N",
+        help="do every N-th case from the I-th",
+    )
+    parser.add_argument("--from", dest="source", type=Path, metavar="DIR", help="cases of your own")
+    parser.add_argument("--labels", type=Path, metavar="FILE", help="their labels, as JSON")
+    parser.add_argument(
+        "--folder",
+        type=Path,
+        metavar="DIR",
+        help="where results go, one file a case (default: rotemina-blind-SEED in this folder)",
+    )
+    parser.add_argument("--json", metavar="OUT", help="write the figures as JSON ('-' prints them)")
+    parser.add_argument(
+        "--report", type=Path, metavar="OUT.md", help="write a page, and its picture beside it"
+    )
+    parser.add_argument("--jobs", type=int, metavar="N", help="how many processes a diagnosis uses")
+    add_robot(parser)
+    parser.set_defaults(run=run)
+
+
+def shard(text: str) -> Shard:
+    """Parse ``I/N``."""
+    index, slash, number = text.partition("/")
+    if not (slash and index.isdecimal() and number.isdecimal() and 1 <= int(index) <= int(number)):
+        raise argparse.ArgumentTypeError(f"{text!r}: must be I/N with 1 ≤ I ≤ N, such as 2/4")
+    return Shard(int(index), int(number))
+
+
+def run(options: argparse.Namespace) -> int:
+    """Do what is not done yet, then score all that is."""
+    from rotemina.app.blind.self_test import run_test  # takes its time to import
+
+    run_test(options)
+    return 0
