@@ -18,6 +18,7 @@ from rotemina.sim.gap.diagnosis import (
     Interval,
     Ranked,
     Shrinkage,
+    Verdict,
 )
 from rotemina.sim.gap.where import Place
 from rotemina.sim.records.record import Tap
@@ -57,7 +58,7 @@ def as_json(diagnosis: Diagnosis, files: Sequence[ExperimentFiles] = ()) -> Json
         "format": FORMAT,
         "verdict": str(diagnosis.verdict),
         "axes": {name: str(one.verdict) for name, one in axes.items()},
-        "where": _where(diagnosis.places),
+        "where": _where(diagnosis.places if diagnosis.verdict is not Verdict.NONE else ()),
         "causes": [_cause(cause) for cause in ordered_causes(diagnosis)],
         "shrinkage": [_shrinkage(each) for one in axes.values() for each in one.shrinkage],
         "candidates": {name: _candidates(one) for name, one in axes.items()},

@@ -115,6 +115,12 @@ def test_shares_sum_to_one_and_lie_in_their_intervals(made_diagnosis):
     assert (share, interval) == (1.0, (1.0, 1.0))
 
 
+def test_a_gap_that_is_no_matter_has_no_place(made_diagnosis):
+    small = replace(made_diagnosis.axes["thx"], verdict=Verdict.NONE, causes=())
+    form = as_json(replace(made_diagnosis, axes={"thx": small}))
+    assert (form["verdict"], form["where"], form["causes"]) == ("none", [], [])
+
+
 def test_causes_come_in_the_order_of_what_they_close(made_diagnosis):
     thx = made_diagnosis.axes["thx"]
     small = replace(thx.causes[0], effect="creep", gap_before=7e-7)
