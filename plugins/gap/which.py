@@ -11,7 +11,12 @@ from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.table import Table
 from rotemina.sim.gap.diagnosis import AxisDiagnosis, Cause, FittedParameter, Ranked
 from rotemina.sim.gap.report.quantities import amount, amounts, percent, percents
-from rotemina.sim.gap.report.words import VERDICTS, effect_title, listed
+from rotemina.sim.gap.report.words import (
+    AXIS_VERDICTS,
+    effect_title,
+    listed,
+    parameter_unit,
+)
 
 HEAD = ("candidate", "prob.", "left [floors]", "95 %")
 
@@ -67,7 +72,7 @@ def _row(ranked: Ranked) -> tuple[str, ...]:
 
 
 def _lines(one: AxisDiagnosis, answer: Answer) -> Iterator[str]:
-    yield f"{VERDICTS[one.verdict]}."
+    yield f"{AXIS_VERDICTS[one.verdict]}."
     for cause in one.causes:
         yield from _cause(cause, answer)
     yield from one.remarks
@@ -94,11 +99,11 @@ def _cause(cause: Cause, answer: Answer) -> Iterator[str]:
         rivals = [effect_title(effect).lower() for effect in cause.ambiguous_with]
         yield f"    These records cannot tell it from {listed(rivals, 'or')}."
     for one in cause.parameters:
-        yield f"    {_parameter(one)}"
+        yield f"    {_parameter(one, parameter_unit(one, cause, answer.records))}"
 
 
-def _parameter(one: FittedParameter) -> str:
-    text = f"{one.name.replace('_', ' ')}: {amount(one.value, one.unit)}"
+def _parameter(one: FittedParameter, unit: str) -> str:
+    text = f"{one.name.replace('_', ' ')}: {amount(one.value, unit)}"
     if one.interval is not None:
-        text += f" ({amounts(one.interval, one.unit)})"
+        text += f" ({amounts(one.interval, unit)})"
     return text if one.at_bound is None else f"{text}, at its {one.at_bound} bound"

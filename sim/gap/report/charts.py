@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from itertools import cycle
+from math import isfinite
 
 import numpy as np
 from markupsafe import Markup
@@ -18,6 +19,7 @@ from rotemina.sim.gap.report.words import effect_title
 
 _WIDTH = 10.0
 _BUCKETS = 500
+_MOST_RANKED = 14
 _LOGARITHMIC = 8.0  # ratio of the longest bar to the shortest from which their scale is so
 _RIVALS = ((Role.CORRECTED, "-"), (Role.REAL, "--"), (Role.THIRD, "-."), (Role.FOURTH, ":"))
 
@@ -28,8 +30,9 @@ def waterfall(shrinkage: Shrinkage, unit: str) -> Markup:
     bars = [("model as it is", shrinkage.raw), ("re-tuned", shrinkage.retuned)]
     bars += [(f"+ {short(effect_title(step.effect))}", step.rms) for step in shrinkage.steps]
     bars.append(("corrected", shrinkage.corrected))
+    bars = [(name, rms) for name, rms in bars if isfinite(rms)]
     lines = [(shrinkage.floor, Role.FLOOR, "noise floor")]
-    if shrinkage.ceiling is not None:
+    if shrinkage.ceiling is not None and isfinite(shrinkage.ceiling):
         lines.append((shrinkage.ceiling, Role.CEILING, "black-box model"))
 
     def draw(figure: Figure) -> None:
@@ -56,8 +59,15 @@ def waterfall(shrinkage: Shrinkage, unit: str) -> Markup:
     return picture(_WIDTH, 1.1 + 0.3 * len(bars), draw, f"Waterfall of the gap: {said}")
 
 
-def ranking(ranked: Sequence[Ranked]) -> Markup:
-    """Draw what each candidate leaves on data that its fit did not see, likeliest on top."""
+def ranking(candidates: Sequence[Ranked]) -> Markup | None:
+    """Draw what each candidate leaves on data that its fit did not see, likeliest on top.
+
+    One that could not be simulated has no place; None where none has.
+    """
+    sure = [one for one in candidates if isfinite(one.held_out_rms)]
+    ranked = [one for one in sure if all(map(isfinite, one.held_out_interval))][:_MOST_RANKED]
+    if not ranked:
+        return None
 
     def draw(figure: Figure) -> None:
         axes = figure.subplots()

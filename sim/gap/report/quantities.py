@@ -47,6 +47,11 @@ def unit_of(axis: str, tap: Tap, records: Sequence[Record]) -> str:
     return next((record.units[axis] for record in records if axis in record.axes), "")
 
 
+def named_unit(unit: str, source_unit: str) -> str:
+    """Return a parameter's unit with what it leaves open, that of the axis it comes from."""
+    return "" if unit == f"{source_unit}/…" else unit.replace("…", source_unit or "…")
+
+
 def amount(value: float | None, unit: str) -> str:
     """Return a value (SI) in the unit that suits it."""
     if value is None or not isfinite(value):

@@ -4,15 +4,28 @@ from collections.abc import Sequence
 
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.effects.registry import effect_named
-from rotemina.sim.gap.diagnosis import UNKNOWN, AxisDiagnosis, Cause, Diagnosis, Shrinkage, Verdict
-from rotemina.sim.gap.report.quantities import amount, percent, unit_of
-from rotemina.sim.records.record import Record
+from rotemina.sim.gap.diagnosis import (
+    UNKNOWN,
+    AxisDiagnosis,
+    Cause,
+    Diagnosis,
+    FittedParameter,
+    Shrinkage,
+    Verdict,
+)
+from rotemina.sim.gap.report.quantities import amount, named_unit, percent, unit_of
+from rotemina.sim.records.record import Record, Tap
 
 VERDICTS = {
     Verdict.NONE: "No gap: model and machine differ by no more than noise",
     Verdict.EXPLAINED: "Explained: the effects below account for the gap",
     Verdict.UNKNOWN: "Unknown: there is a gap that no effect of the catalogue explains",
     Verdict.INSUFFICIENT: "The records cannot tell: the excitation is insufficient",
+}
+AXIS_VERDICTS = {
+    **VERDICTS,
+    Verdict.NONE: "No gap of its own",
+    Verdict.EXPLAINED: "Explained",
 }
 
 
@@ -32,7 +45,7 @@ def summary(diagnosis: Diagnosis, records: Sequence[Record]) -> list[str]:
     sentences = [text for one in ordered for text in _of_axis(one, records)]
     quiet = [one.axis for one in ordered if one.verdict is Verdict.NONE]
     if quiet:
-        sentences.append(f"Nothing beyond the noise on {listed(quiet)}.")
+        sentences.append(f"Nothing of its own to explain on {listed(quiet)}.")
     return sentences
 
 
@@ -41,6 +54,13 @@ def listed(names: Sequence[str], word: str = "and") -> str:
     if len(names) < 2:
         return "".join(names)
     return f"{', '.join(names[:-1])} {word} {names[-1]}"
+
+
+def parameter_unit(parameter: FittedParameter, cause: Cause, records: Sequence[Record]) -> str:
+    """Return the unit of a parameter, also where it depends on another axis."""
+    source = cause.from_axis
+    source_unit = unit_of(source, Tap.MEAS, records) if source is not None else ""
+    return named_unit(parameter.unit, source_unit)
 
 
 def _of_axis(one: AxisDiagnosis, records: Sequence[Record]) -> list[str]:

@@ -175,7 +175,8 @@ def test_the_summary_says_in_words_what_was_found(page):
     assert (
         "thx: the model lacks hysteresis (91.3 % likely), or creep, which these records cannot "
         "tell from it. On data that no fit saw, its gap at meas shrinks from 33.3 µrad to 0.777 "
-        "µrad rms (noise floor 0.666 µrad): 97.5 % of it closes. Nothing beyond the noise on y."
+        "µrad rms (noise floor 0.666 µrad): 97.5 % of it closes. Nothing of its own to "
+        "explain on y."
     ) in page.text
 
 
@@ -233,3 +234,25 @@ def test_the_file_is_written_whole_or_not_at_all(tmp_path, healthy, records):
     with pytest.raises(FileWriteError, match="it is a folder"):
         write_report(healthy, records, tmp_path / "folder")
     assert [path.name for path in sorted(tmp_path.iterdir())] == ["folder", "report.html"]
+
+
+def test_what_could_not_be_worked_out_has_no_place_in_the_drawings(diagnosis, records):
+    one = diagnosis.axes["thx"]
+    nan, inf = float("nan"), float("inf")
+    open_ended = replace(
+        one,
+        shrinkage=(replace(one.shrinkage[0], corrected=nan, ceiling=nan, closed=nan),),
+        ranking=tuple(replace(each, held_out_rms=inf) for each in one.ranking),
+        causes=(
+            replace(
+                one.causes[0],
+                from_axis="y",
+                gap_after=nan,
+                parameters=(replace(one.causes[0].parameters[0], unit="rad/…", interval=None),),
+            ),
+        ),
+    )
+    page = Page(report_text(replace(diagnosis, axes={"thx": open_ended}), records))
+    assert "nan" not in page.text
+    assert "Candidates, likeliest first" not in " ".join(page.values("aria-label"))
+    assert "width 0.0001234 rad/m – 0.0001234 rad/m high" in page.text
