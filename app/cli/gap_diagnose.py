@@ -120,6 +120,11 @@ def _check_files(options: argparse.Namespace, document: Path | None) -> None:
     for output in (document, options.report):
         if output is None:
             continue
+        if not output.parent.is_dir():  # told before the work, not after it
+            raise InputError(
+                f"{output}: it cannot be written, there is no folder {output.parent}; make it, or "
+                "choose another"
+            )
         if any(_is_same(output, other) for other in taken):
             raise InputError(f"{output}: it is named twice; give each file a name of its own")
         taken.append(output)

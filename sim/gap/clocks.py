@@ -43,8 +43,8 @@ def check_clock(one: Labelled) -> Iterator[Caution]:
         )
     if len(leaps):
         yield one.caution(
-            f"Time leaps {len(leaps)} times in a record, by up to {intervals.max():.3g} s, while "
-            "all axes rest; the commands are taken as held meanwhile."
+            f"Time leaps {len(leaps)} times in a record, by up to {intervals.max():.3g} s, where "
+            "no axis is under way; the commands are taken as held meanwhile."
         )
     yield from _unsteady(one, intervals > least)
     _check_period(one)
@@ -55,11 +55,16 @@ def _others(count: int) -> str:
 
 
 def _under_way(record: Record, row: int) -> str | None:
-    """Return an axis whose command changes within two rows of the interval behind ``row``."""
-    around = slice(max(row - 1, 0), row + 3)
+    """Return an axis whose command goes on changing through the interval behind ``row``.
+
+    One that steps from hold to hold there may have been written sparsely on purpose.
+    """
     for axis in record.axes:
-        if record.has(axis, Tap.CMD) and np.ptp(record.signal(axis, Tap.CMD)[around]) > 0.0:
-            return axis
+        if record.has(axis, Tap.CMD):
+            around = record.signal(axis, Tap.CMD)[max(row - 1, 0) : row + 3]
+            across = record.signal(axis, Tap.CMD)[row : row + 2]
+            if np.diff(across).any() and np.count_nonzero(np.diff(around)) > 1:
+                return axis
     return None
 
 

@@ -212,10 +212,19 @@ def test_files_appear_together_or_none(asked, monkeypatch, part):
 
 def test_a_report_that_cannot_be_written_leaves_no_document(asked, capsys):
     write_measured()
-    asked_for = ["--report", "no/such/out.html", "--json", "out.json"]
+    Path("out.html").mkdir()
+    asked_for = ["--report", "out.html", "--json", "out.json"]
     assert main(["gap", "diagnose", "r.csv", *asked_for]) == 2
-    assert "no/such/out.html: it cannot be written" in capsys.readouterr().err
-    assert files() == ["r.csv"]
+    assert "out.html: it is a folder; name a file in it" in capsys.readouterr().err
+    assert files() == ["out.html", "r.csv"]
+
+
+def test_a_folder_that_is_missing_is_said_before_the_work(asked, capsys):
+    write_measured()
+    for option in ("--json", "--report"):
+        assert main(["gap", "diagnose", "r.csv", option, "no/such/out"]) == 2
+        assert "no/such/out: it cannot be written, there is no folder" in capsys.readouterr().err
+    assert not asked
 
 
 @pytest.mark.parametrize(

@@ -238,7 +238,18 @@ def test_time_that_leaps_under_way_is_refused_and_at_rest_told():
     assert "(and 1 more such leaps)" in refusal(part)
     at_rest = record.time_s + 0.25 * (record.time_s >= 3.9)
     [caution] = check(ROBOT, [timed(record, at_rest)])
-    assert caution.text.startswith("Time leaps 1 times in a record, by up to 0.251 s, while all")
+    assert caution.text.startswith("Time leaps 1 times in a record, by up to 0.251 s, where no")
+
+
+def test_holds_may_be_written_sparsely():
+    """Rows are left out while all axes hold, up to the row at which one steps on."""
+    time_s = np.arange(4000) / 1000.0
+    steps = 2e-5 + 1e-5 * (np.floor(time_s) % 2.0)
+    commands = Record.from_signals(time_s, {("zn", Tap.CMD): steps}, {"zn": "m"})
+    record = simulate(ROBOT, (), commands, np.random.default_rng(0))
+    kept = np.flatnonzero(time_s % 1.0 < 0.8)
+    sparse = Record(record.time_s[kept], record.columns, record.values[kept], record.units)
+    assert [one.text[:18] for one in check(ROBOT, [sparse])] == ["Time leaps 3 times"]
 
 
 def test_single_missing_rows_and_scattered_times_are_told():
