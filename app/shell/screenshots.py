@@ -4,6 +4,10 @@ import os
 import sys
 import tempfile
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rotemina.app.shell.main_window import MainWindow
 
 os.environ["QT_QPA_PLATFORM"] = "offscreen"
 
@@ -33,6 +37,7 @@ def main(folder: Path) -> int:
         window = make_window(MotionSession(Simulator(robot)), settings, Path(kept))
         window.show()
         window.workbench.start()
+        diagnose(window)
         play(window, example_for(robot))
         while window.workbench.busy:  # panels that work on what was played
             QApplication.processEvents()
@@ -45,6 +50,7 @@ def main(folder: Path) -> int:
             window.use_theme(theme)
             for width, height in SIZES:
                 window.resize(width, height)
+                window.docks["comparison"].raise_()
                 for _ in range(5):
                     QApplication.processEvents()
                 name = f"{width}x{height}-{theme}"
@@ -61,6 +67,31 @@ def main(folder: Path) -> int:
         window.hide()
     print(f"{count} pictures in {folder}")
     return 0
+
+
+def diagnose(window: "MainWindow") -> None:
+    """Let the gap page diagnose two records of a machine with hysteresis on one axis."""
+    import numpy as np
+    from PySide6.QtWidgets import QApplication
+
+    from rotemina.app.shell.workbench import Run
+    from rotemina.sim.comparison.comparison import compare
+    from rotemina.sim.excitation.generator import excite
+    from rotemina.sim.excitation.levels import Staircase
+    from rotemina.sim.excitation.swings import DecayingTriangle
+    from rotemina.sim.robot.model import AxisEffect
+    from rotemina.sim.simulation.simulation import simulate
+
+    robot, panel = window.workbench.robot, window.panels["gap"]
+    loop = AxisEffect(axis="thx", id="hysteresis")
+    for name, kind in (("swings", DecayingTriangle()), ("stairs", Staircase())):
+        asked = excite(robot, {"thx": kind, "thy": kind}).record
+        record = simulate(robot, [loop], asked, np.random.default_rng(len(name)))
+        panel.records.take(Run(f"{name}.csv", compare(robot, record)))
+    panel.diagnose()
+    while panel.diagnosing.running:
+        QApplication.processEvents()
+    panel.tabs.setCurrentIndex(2)  # how far the gap shrinks
 
 
 if __name__ == "__main__":
