@@ -63,7 +63,7 @@ def run(options: argparse.Namespace) -> int:
         diagnosis = diagnose(robot, records, seed=options.seed, jobs=jobs, listener=listener)
     suggestions = [] if document is None else _suggestions(diagnosis, records, document)
     text = json_text(as_json(diagnosis, [each.names for each in suggestions]))
-    told = text if options.json == "-" else summary(diagnosis)
+    told = text if options.json == "-" else summary(diagnosis, records)
     page = None if options.report is None else report(diagnosis, records, options.records)
     # All files appear together or none: a failure at one leaves the others' places alone.
     with ExitStack() as files:

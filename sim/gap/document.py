@@ -20,8 +20,10 @@ from rotemina.sim.gap.diagnosis import (
     Shrinkage,
     Verdict,
 )
+from rotemina.sim.gap.report.quantities import named_unit
 from rotemina.sim.gap.where import Place
 from rotemina.sim.records.record import Tap
+from rotemina.sim.robot.model import Robot
 from rotemina.sim.robot.writing import robot_text
 
 FORMAT = "rotemina-diagnosis 1"
@@ -59,7 +61,7 @@ def as_json(diagnosis: Diagnosis, files: Sequence[ExperimentFiles] = ()) -> Json
         "verdict": str(diagnosis.verdict),
         "axes": {name: str(one.verdict) for name, one in axes.items()},
         "where": _where(diagnosis.places if diagnosis.verdict is not Verdict.NONE else ()),
-        "causes": [_cause(cause) for cause in ordered_causes(diagnosis)],
+        "causes": [_cause(cause, diagnosis.robot) for cause in ordered_causes(diagnosis)],
         "shrinkage": [_shrinkage(each) for one in axes.values() for each in one.shrinkage],
         "candidates": {name: _candidates(one) for name, one in axes.items()},
         "next_experiments": [_experiment(one, names) for one, names in suggested],
@@ -125,7 +127,8 @@ def _where(places: Sequence[Place]) -> list[Json]:
     ]
 
 
-def _cause(cause: Cause) -> Json:
+def _cause(cause: Cause, robot: Robot) -> Json:
+    source_unit = robot.unit(cause.from_axis) if cause.from_axis is not None else None
     return {
         "axis": cause.axis,
         "effect": cause.effect,
@@ -139,7 +142,7 @@ def _cause(cause: Cause) -> Json:
         "closed": _number(cause.closed),
         "closed_interval": _interval(cause.closed_interval),
         "parameters": {one.name: _number(one.value) for one in cause.parameters},
-        "units": {one.name: one.unit for one in cause.parameters},
+        "units": {one.name: named_unit(one.unit, source_unit or "") for one in cause.parameters},
         "formulation": cause.formulation,
         "parameter_intervals": {one.name: _interval(one.interval) for one in cause.parameters},
         "at_bound": {one.name: one.at_bound for one in cause.parameters if one.at_bound},

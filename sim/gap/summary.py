@@ -1,6 +1,6 @@
 """A diagnosis in words: what a terminal shows."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import isfinite
 
 from rotemina.sim.gap.diagnosis import (
@@ -14,8 +14,10 @@ from rotemina.sim.gap.diagnosis import (
     Verdict,
 )
 from rotemina.sim.gap.document import ordered_causes, shares
-from rotemina.sim.records.record import VOLTAGE_TAPS, Tap
-from rotemina.sim.units import drawing_unit, symbol, to_unit
+from rotemina.sim.gap.report.quantities import amount, amounts, percent, percents, unit_of
+from rotemina.sim.gap.report.words import parameter_unit
+from rotemina.sim.gap.where import Place
+from rotemina.sim.records.record import Record
 
 _VERDICTS = {
     Verdict.NONE: "no gap: the model explains the records up to their noise",
@@ -24,88 +26,101 @@ _VERDICTS = {
     Verdict.INSUFFICIENT: "the records cannot tell",
 }
 _TITLES = {
-    Verdict.NONE: "no gap",
+    Verdict.NONE: "no gap of its own",
     Verdict.EXPLAINED: "explained",
     Verdict.UNKNOWN: "unknown effect",
     Verdict.INSUFFICIENT: "insufficient excitation",
 }
 
 
-def summary(diagnosis: Diagnosis) -> str:
-    """Return a diagnosis as text: verdict, where, which, how far, what next."""
-    return "\n".join(_lines(diagnosis))
+def summary(diagnosis: Diagnosis, records: Sequence[Record]) -> str:
+    """Return a diagnosis of records as text: verdict, where, which, how far, what next."""
+    return "\n".join(_lines(diagnosis, records))
 
 
-def _lines(diagnosis: Diagnosis) -> Iterator[str]:
+def _lines(diagnosis: Diagnosis, records: Sequence[Record]) -> Iterator[str]:
+    axes = diagnosis.axes.values()
     yield f"{diagnosis.robot.name}: {_VERDICTS[diagnosis.verdict]}"
-    for axis in diagnosis.axes.values():
+    for axis in axes:
         yield f"  {axis.axis}: {_TITLES[axis.verdict]}"
         yield from (f"    {remark}" for remark in axis.remarks)
-    places = diagnosis.places
-    if places:
-        yield "where the gap lies"
-    for place, (share, interval) in zip(places, shares(places), strict=True):
-        rms = _size(diagnosis, place.axis, place.tap, place.gap_rms)
-        floor = _size(diagnosis, place.axis, place.tap, place.noise_floor)
-        yield (
-            f"  {place.axis}.{place.tap}: {_percent(share, interval)} of it; rms {rms}, noise "
-            f"floor {floor}; {_worst(place.worst_band_hz, place.worst_regime)}".rstrip("; ")
-        )
-    causes = ordered_causes(diagnosis)
-    if causes:
-        yield "what causes it"
-    for cause in causes:
-        yield from _cause(diagnosis, cause)
-    steps = [each for axis in diagnosis.axes.values() for each in axis.shrinkage]
-    if steps:
-        yield "how far it shrinks, on data that no fit saw"
-    yield from (f"  {_shrinkage(diagnosis, each)}" for each in steps)
-    untested = [line for axis in diagnosis.axes.values() for line in _untested(axis)]
-    if untested:
-        yield "what these records cannot speak of"
-    yield from (f"  {line}" for line in untested)
-    if diagnosis.experiments:
-        yield "what would tell more"
-    for number, experiment in enumerate(diagnosis.experiments, start=1):
-        yield f"  experiment {number}, on {experiment.axis}: {experiment.why}"
+    places = diagnosis.places if diagnosis.verdict is not Verdict.NONE else ()
+    yield from _part(
+        "where the gap lies",
+        [
+            _place(place, share, interval, records)
+            for place, (share, interval) in zip(places, shares(places), strict=True)
+        ],
+    )
+    yield from _part(
+        "what causes it",
+        [line for cause in ordered_causes(diagnosis) for line in _cause(cause, records)],
+    )
+    yield from _part(
+        "how far it shrinks, rms on data that no fit saw",
+        [_shrinkage(each, records) for axis in axes for each in axis.shrinkage],
+    )
+    yield from _part(
+        "what these records cannot speak of", [line for axis in axes for line in _untested(axis)]
+    )
+    yield from _part(
+        "what would tell more",
+        [
+            f"experiment {number}, on {experiment.axis}: {experiment.why}"
+            for number, experiment in enumerate(diagnosis.experiments, start=1)
+        ],
+    )
 
 
-def _worst(band_hz: Interval | None, regime: str | None) -> str:
-    parts = []
-    if band_hz is not None:
-        parts.append(f"most between {band_hz[0]:.3g} and {band_hz[1]:.3g} Hz")
-    if regime is not None:
-        parts.append(f"largest in: {regime}")
-    return ", ".join(parts)
+def _part(title: str, lines: Sequence[str]) -> Iterator[str]:
+    if lines:
+        yield title
+        yield from (f"  {line}" for line in lines)
 
 
-def _cause(diagnosis: Diagnosis, cause: Cause) -> Iterator[str]:
+def _place(place: Place, share: float, interval: Interval, records: Sequence[Record]) -> str:
+    unit = unit_of(place.axis, place.tap, records)
+    text = (
+        f"{place.axis}.{place.tap}: {_percent(share, interval)} of it; rms "
+        f"{amount(place.gap_rms, unit)}, noise floor {amount(place.noise_floor, unit)}"
+    )
+    if place.worst_band_hz is not None:
+        low, high = place.worst_band_hz
+        text += f"; most between {low:.3g} and {high:.3g} Hz"
+    if place.worst_regime is not None:
+        text += f"; largest in: {place.worst_regime}"
+    return text
+
+
+def _cause(cause: Cause, records: Sequence[Record]) -> Iterator[str]:
     name = "an unknown effect" if cause.effect == UNKNOWN else cause.effect
     source = f" from {cause.from_axis}" if cause.from_axis is not None else ""
     stage = f" ({cause.stage})" if cause.stage is not None else ""
-    line = f"  {cause.axis}: {name}{source}{stage}, probability {cause.probability:.2f}"
+    text = f"{cause.axis}: {name}{source}{stage}, probability {cause.probability:.2f}"
     if cause.closed is not None:
-        line += f"; closes {_percent(cause.closed, cause.closed_interval)}"
-    line += f"; rms {_size(diagnosis, cause.axis, cause.tap, cause.gap_before)}"
+        text += f"; closes {_percent(cause.closed, cause.closed_interval)}"
+    unit = unit_of(cause.axis, cause.tap, records)
+    text += f"; rms {amount(cause.gap_before, unit)}"
     if isfinite(cause.gap_after):
-        after = _size(diagnosis, cause.axis, cause.tap, cause.gap_after)
-        line += f" without it, {after} with it"
-    yield line
+        text += f" without it, {amount(cause.gap_after, unit)} with it"
+    yield text
     if cause.ambiguous_with:
-        yield f"    cannot be told from: {', '.join(cause.ambiguous_with)}"
-    yield from (f"    {_parameter(one)}" for one in cause.parameters)
+        yield f"  cannot be told from: {', '.join(cause.ambiguous_with)}"
+    yield from (f"  {_parameter(one, cause, records)}" for one in cause.parameters)
 
 
-def _parameter(one: FittedParameter) -> str:
-    text = f"{one.name} = {one.value:.4g} {one.unit}".rstrip()
+def _parameter(one: FittedParameter, cause: Cause, records: Sequence[Record]) -> str:
+    unit = parameter_unit(one, cause, records)
+    text = f"{one.name} = {amount(one.value, unit)}"
     if one.interval is not None:
-        text += f" ({one.interval[0]:.4g} to {one.interval[1]:.4g})"
+        text += f" ({amounts(one.interval, unit)})"
     if one.at_bound is not None:
         text += f", at its {one.at_bound} bound"
     return text
 
 
-def _shrinkage(diagnosis: Diagnosis, each: Shrinkage) -> str:
+def _shrinkage(each: Shrinkage, records: Sequence[Record]) -> str:
+    unit = unit_of(each.axis, each.tap, records)
     figures = [
         ("as it is", each.raw),
         ("re-tuned", each.retuned),
@@ -113,15 +128,11 @@ def _shrinkage(diagnosis: Diagnosis, each: Shrinkage) -> str:
         ("black box", each.ceiling),
         ("floor", each.floor),
     ]
-    told = ", ".join(
-        f"{name} {_size(diagnosis, each.axis, each.tap, rms)}"
-        for name, rms in figures
-        if rms is not None
-    )
-    closed = ""
+    told = ", ".join(f"{name} {amount(rms, unit)}" for name, rms in figures if rms is not None)
+    text = f"{each.axis}.{each.tap}: {told}"
     if each.closed is not None:
-        closed = f"; closed {_percent(each.closed, each.closed_interval)}"
-    return f"{each.axis}.{each.tap}: {told}{closed}"
+        text += f"; closed {_percent(each.closed, each.closed_interval)}"
+    return text
 
 
 def _untested(axis: AxisDiagnosis) -> Iterator[str]:
@@ -133,17 +144,4 @@ def _untested(axis: AxisDiagnosis) -> Iterator[str]:
 
 
 def _percent(share: float, interval: Interval | None) -> str:
-    text = f"{100.0 * share:.3g} %"
-    if interval is not None:
-        text += f" ({100.0 * interval[0]:.3g} to {100.0 * interval[1]:.3g})"
-    return text
-
-
-def _size(diagnosis: Diagnosis, axis: str, tap: Tap, rms: float) -> str:
-    if not isfinite(rms):
-        return "not known"
-    si_unit = "V" if tap in VOLTAGE_TAPS else diagnosis.robot.unit(axis)
-    if si_unit is None:
-        return f"{rms:.4g} (SI)"
-    unit = drawing_unit(si_unit, rms)
-    return f"{to_unit(rms, unit):.4g} {symbol(unit)}"
+    return percent(share) if interval is None else f"{percent(share)} ({percents(interval)})"

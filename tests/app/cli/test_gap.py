@@ -61,23 +61,23 @@ def files():
 
 def test_diagnose_reads_all_records_and_prints_a_summary(asked, capsys):
     write_measured("a.csv")
-    write_measured("b.csv.gz", rate_hz=500.0, axes=("thx", "zn"), seed=1)
+    write_measured("b.csv.gz", rate_hz=500.0, axes=("thx", "zn", "y"), seed=1)
     assert main(["gap", "diagnose", "a.csv", "b.csv.gz", "--seed", "7", "--jobs", "2"]) == 0
     [call] = asked
     assert (call.robot, call.seed, call.jobs) == (ROBOT, 7, 2)
-    assert [record.axes for record in call.records] == [("thx",), ("thx", "zn")]
+    assert [record.axes for record in call.records] == [("thx",), ("thx", "zn", "y")]
     said = capsys.readouterr().out
     for words in (
         "RoTeMiNa: there is a gap that no known effect explains",
         "  thx: explained\n    What is left depends on time.",
-        "  thx.ref: 63.5 % (61 to 65.7) of it; rms 1.418 µrad, noise floor 0.1 µrad;",
-        "most between 0.5 and 4 Hz, largest in: reversal",
-        "  thx: hysteresis (actuator), probability 0.98; closes 98.5 % (97 to 99);",
+        "  thx.ref: 63.5 % (61 % … 65.7 %) of it; rms 1.418 µrad, noise floor 0.1 µrad;",
+        "; most between 0.5 and 4 Hz; largest in: reversal",
+        "  thx: hysteresis (actuator), probability 0.98; closes 98.5 % (97 % … 99 %);",
         "rms 41 µrad without it, 0.6 µrad with it",
         "    cannot be told from: creep",
-        "    width = 0.00011 rad (0.0001 to 0.00012)",
+        "    width = 110 µrad (100 µrad … 120 µrad)",
         "    shape = 4, at its high bound",
-        "  y: an unknown effect, probability 0.90;",
+        "  y: an unknown effect, probability 0.90; rms 80 nm\n",
         "  thx: contact, saturation: the axis stayed in mid-range",
         "  experiment 1, on thx: A step and a long rest",
     ):

@@ -9,7 +9,7 @@ import pytest
 from rotemina.app.files import json_text
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap import reading
-from rotemina.sim.gap.diagnosis import Diagnosis, Verdict
+from rotemina.sim.gap.diagnosis import Diagnosis, FittedParameter, Verdict
 from rotemina.sim.gap.document import ExperimentFiles, as_json, shares
 from rotemina.sim.gap.reading import read_document
 from rotemina.sim.robot.file import load_robot
@@ -113,6 +113,18 @@ def test_shares_sum_to_one_and_lie_in_their_intervals(made_diagnosis):
     only = {"thx": replace(made_diagnosis.axes["thx"], places=made_diagnosis.places[:1])}
     [(share, interval)] = shares(replace(made_diagnosis, axes=only).places)
     assert (share, interval) == (1.0, (1.0, 1.0))
+
+
+def test_units_of_a_coupling_name_both_axes(made_diagnosis):
+    thx = made_diagnosis.axes["thx"]
+    leak = FittedParameter("k", 12.0, "rad/…")
+    pace = FittedParameter("frequency", 80.0, "Hz")
+    coupled = replace(
+        thx.causes[0], effect="cross_coupling", from_axis="zn", parameters=(leak, pace)
+    )
+    axes = {"thx": replace(thx, causes=(coupled,))}
+    [cause] = as_json(replace(made_diagnosis, axes=axes))["causes"]
+    assert cause["units"] == {"k": "rad/m", "frequency": "Hz"}
 
 
 def test_a_gap_that_is_no_matter_has_no_place(made_diagnosis):
