@@ -9,13 +9,17 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from rotemina.sim.blind.case import draw_case
+from rotemina.sim.blind.case import Case, draw_case
 from rotemina.sim.blind.files import kinds, write_case
+from rotemina.sim.blind.force import ForceCase, draw_force_case
 from rotemina.sim.blind.sealing import Seal, digest, seal
 from rotemina.sim.errors import InputError
 from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import ForceAxis, PiezoAxis, Robot, StepperAxis
 
 VERDICTS = ("explained", "none", "unknown", "insufficient_excitation")
+
+_FORCE_ROBOT = "emps"
 
 Label = Mapping[str, Any]
 
@@ -67,6 +71,8 @@ class GeneratedCases(Cases):
 
     def __init__(self, robot: str, number: int, seed: int) -> None:
         self._robot_name, self._robot = robot, load_robot(robot)
+        _check_robot(self._robot, robot)
+        self._force = _moved_by_force(self._robot)
         self._plan = {f"case_{k:04d}": drawn for k, drawn in enumerate(kinds(number, seed))}
         self._labels: dict[str, Label] = {}
         super().__init__({"seed": seed, "robot": robot}, tuple(self._plan))
@@ -75,18 +81,40 @@ class GeneratedCases(Cases):
     def sealed(self, name: str, salt: str) -> Iterator[SealedCase]:
         """Draw the case and write its files for as long as the context lasts."""
         kind, effect, seed = self._plan[name]
-        case = draw_case(self._robot, kind, seed, effect)
+        robot_name, robot = self._robot_name, self._robot
+        case: Case | ForceCase
+        if kind == "force" or self._force:
+            if not self._force:
+                robot_name, robot = _FORCE_ROBOT, load_robot(_FORCE_ROBOT)
+            case = draw_force_case(robot, seed)
+        else:
+            case = draw_case(robot, kind, seed, effect)
         self._labels[name] = case.label()
         with TemporaryDirectory(prefix="rotemina-") as folder:
             place = Path(folder)
-            write_case(place, case, self._robot)
-            yield _laid_out(name, place, self._robot_name, seal(self._labels[name], salt))
+            write_case(place, case, robot)
+            yield _laid_out(name, place, robot_name, seal(self._labels[name], salt))
 
     def label(self, name: str, salt: str, sealed: Seal) -> Label:
         """Open the label, which must be the one that was sealed."""
         label = self._labels[name]
         sealed.check(label, salt, name)
         return label
+
+
+def _moved_by_force(robot: Robot) -> bool:
+    return any(isinstance(a, ForceAxis) and a.controller for a in robot.axes.values())
+
+
+def _check_robot(robot: Robot, name: str) -> None:
+    """Raise where the generator has no cases for a robot."""
+    staged = [robot.axes[axis] for stage in robot.stages.values() for axis in stage]
+    whole = [a for a in staged if isinstance(a, PiezoAxis | StepperAxis) and a.sensor and a.inertia]
+    if not _moved_by_force(robot) and not (staged and len(whole) == len(staged)):
+        raise BlindError(
+            f"--robot {name}: no cases can be made of it; the generator needs stages of piezo or "
+            "stepper axes with mass and sensor, or a force axis with a controller"
+        )
 
 
 class FolderCases(Cases):

@@ -38,10 +38,11 @@ def hysteresis(axis: Axis, rng: np.random.Generator) -> Part:
 
 def _preisach(axis: Axis, rng: np.random.Generator) -> Part:
     plane = draw_plane(rng)
-    ramp = np.concatenate([np.linspace(0.0, 1.0, 400), np.linspace(1.0, 0.0, 400)])
-    major = run_plane(plane.everett, ramp)
-    slope, rest = np.polyfit(ramp, major, 1)
-    width = float(np.max(major[400:][::-1] - major[:400]))
+    # The nominal gain is that of a wide loop in the middle of the range.
+    ramp = np.concatenate([[0.0], np.linspace(0.15, 0.85, 400), np.linspace(0.85, 0.15, 400)])
+    loop = run_plane(plane.everett, np.concatenate([ramp, ramp[1:401]]))[401:]
+    slope, rest = np.polyfit(np.concatenate([ramp[401:], ramp[1:401]]), loop, 1)
+    width = float(np.max(loop[:400][::-1] - loop[400:]))
 
     def act(values: FloatArray, course: Course, size: float) -> FloatArray:
         inputs = (values - axis.low) / axis.span

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -12,11 +12,8 @@ from rotemina.sim.blind.catalogue import CATALOGUE
 from rotemina.sim.blind.machine import Commands, Machine, Response, machine_of
 from rotemina.sim.blind.part import Axis, Part
 from rotemina.sim.blind.parts import draw_part
+from rotemina.sim.blind.trial import LEAST_FLOORS, MOST_FLOORS, Present, Trial, record_seed
 from rotemina.sim.robot.model import Robot
-
-LEAST_FLOORS = 1.5
-LEAST_SHARE = 0.06
-MOST_FLOORS = 300.0
 
 KINDS = (
     "healthy", "single", "double", "triple", "parameter", "poor", "unknown",
@@ -29,15 +26,6 @@ _TWINS = (
     "sensor_gain", "sensor_nonlinearity", "sensor_lag", "gain_error", "static_nonlinearity",
     "amplifier_lag",
 )  # fmt: skip
-_TRIES = 12
-
-
-class Present(NamedTuple):
-    """A part and what it adds to its axis' gap: in noise floors, and as a share of the power."""
-
-    part: Part
-    floors: float
-    share: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +58,7 @@ class Case:
             "effects": [] if self.kind == "poor" else effects,
             "hidden": effects if self.kind == "poor" else [],
             "kind": self.kind,
-            "floors": round(max((one.floors for one in self.present), default=0.0), 3),
+            "floors": round(max((one.gap for one in self.present), default=0.0), 3),
         }
 
 
@@ -111,8 +99,6 @@ def _attempt(
     if present is None:
         return None
     machine = machine.having([one.part for one in present])
-    shown = () if kind == "healthy" and rng.uniform() < 0.5 else tuple(present)
-    hidden = kind == "healthy"
     return Case(
         kind,
         machine,
@@ -121,7 +107,7 @@ def _attempt(
         rounded[-1],
         _taps(machine, rng),
         seed,
-        () if hidden else shown,
+        () if kind == "healthy" else tuple(present),
     )
 
 
@@ -143,10 +129,9 @@ def _as_written(robot: Robot, names: Sequence[str], commands: Commands) -> Comma
 
 def file_unit(robot: Robot, name: str) -> tuple[str, float]:
     """Return the unit in which files show an axis, and how many of it make the SI unit."""
-    axis = robot.axes[name]
-    if axis.unit == "rad" or (axis.unit is None and axis.kind == "piezo" and name != "zn"):
+    if robot.unit(name) == "rad":
         return "urad", 1e6
-    return ("mm", 1e3) if axis.kind == "stepper" else ("um", 1e6)
+    return ("mm", 1e3) if robot.axes[name].kind == "stepper" else ("um", 1e6)
 
 
 def significant(values: FloatArray, digits: int = 7) -> FloatArray:
@@ -183,7 +168,8 @@ def _present(
     trial = Trial(machine, tuple(training), int(rng.integers(2**31)))
     if kind == "healthy":
         return _slightly_off(trial, rng)
-    floors = float(np.exp(rng.uniform(np.log(LEAST_FLOORS * 1.1), np.log(MOST_FLOORS))))
+    least = 4.0 if kind == "poor" else 1.1 * LEAST_FLOORS
+    floors = float(np.exp(rng.uniform(np.log(least), np.log(MOST_FLOORS))))
     parts: list[Part] = []
     for axis, name in _places(machine.axes, kind, rng, effect, step=step):
         others = tuple(a for a in machine.axes if a is not axis)
@@ -224,7 +210,7 @@ def _places(
     return list(zip(places, chosen, strict=True))
 
 
-def _slightly_off(trial: "Trial", rng: np.random.Generator) -> list[Present] | None:
+def _slightly_off(trial: Trial, rng: np.random.Generator) -> list[Present] | None:
     """Return parameters that are off by less than shows, for half of the healthy machines."""
     if rng.uniform() < 0.5:
         return []
@@ -233,70 +219,6 @@ def _slightly_off(trial: "Trial", rng: np.random.Generator) -> list[Present] | N
     part = draw_part(name, axes[rng.integers(len(axes))], (), rng)
     sized = trial.sized(part, rng.uniform(0.05, 0.2), low=0.0, free=True)
     return None if sized is None else [Present(sized, 0.0, 0.0)]
-
-
-@dataclass(frozen=True, slots=True)
-class Trial:
-    """Runs of a machine over the training records, to see what a part does."""
-
-    machine: Machine
-    training: tuple[Commands, ...]
-    seed: int
-
-    def readings(self, parts: Sequence[Part]) -> list[FloatArray]:
-        """Return the noise-free readings (n, m) of each record."""
-        machine = self.machine.having(parts)
-        return [
-            machine.respond(c, record_seed(self.seed, k)).reading
-            for k, c in enumerate(self.training)
-        ]
-
-    def sized(
-        self, part: Part, floors: float, low: float = LEAST_FLOORS, *, free: bool = False
-    ) -> Part | None:
-        """Return the part, sized so that alone it makes about so many floors; None if it cannot."""
-        plain = self.readings([])
-        if free:
-            part = _unbound(part)
-        part = part.sized(np.sqrt(part.sizes[0] * part.sizes[1]))
-        for _ in range(4):
-            got = difference(self.readings([part]), plain, part.axis)
-            if 0.7 < got / floors < 1.4:
-                break
-            part = part.sized(part.size * float(np.clip(floors / max(got, 1e-9), 0.02, 50.0)))
-        got = difference(self.readings([part]), plain, part.axis)
-        return part if got >= low and got < 4.0 * MOST_FLOORS else None
-
-    def present(self, parts: list[Part]) -> list[Present] | None:
-        """Return what each part adds when all others are in; None if one does too little."""
-        whole, plain = self.readings(parts), self.readings([])
-        out = []
-        for part in parts:
-            rest = self.readings([other for other in parts if other is not part])
-            floors = difference(whole, rest, part.axis)
-            share = (floors / difference(whole, plain, part.axis)) ** 2
-            if floors < LEAST_FLOORS or share < LEAST_SHARE:
-                return None
-            out.append(Present(part, floors, share))
-        return out
-
-
-def _unbound(part: Part) -> Part:
-    from dataclasses import replace
-
-    return replace(part, sizes=(1e-9, part.sizes[1]))
-
-
-def record_seed(seed: int, number: int) -> int:
-    """Return the seed of one record's chance."""
-    return seed * 16 + number
-
-
-def difference(first: list[FloatArray], second: list[FloatArray], axis: Axis) -> float:
-    """Return the rms of the difference of two sets of readings, means removed, in floors."""
-    gaps = [a[:, axis.index] - b[:, axis.index] for a, b in zip(first, second, strict=True)]
-    power = sum(float(np.sum((gap - gap.mean()) ** 2)) for gap in gaps)
-    return float(np.sqrt(power / sum(len(gap) for gap in gaps)) / axis.floor)
 
 
 def measured(case: Case, commands: Commands, number: int) -> tuple[Response, FloatArray]:

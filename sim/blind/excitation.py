@@ -189,7 +189,8 @@ def held_out(
         x = _mixed(time_s, rng)
         if robot.axes[name].kind == "stepper":  # speed and acceleration are bound
             x = lagged(x, np.array([-8.0, -8.0, -8.0]), 1.0 / rate_hz)
-        columns.append(low + (high - low) * x)
+        busy = 0.003 * _tones(time_s, rng) * (time_s > time_s[-1] - 2.5)
+        columns.append(low + (high - low) * (x + busy))
     return Commands(1.0 / rate_hz, np.column_stack(columns))
 
 

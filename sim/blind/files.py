@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -10,11 +11,12 @@ import polars as pl
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.blind.case import Case, draw_case, file_unit, measured, significant
 from rotemina.sim.blind.catalogue import CATALOGUE
+from rotemina.sim.blind.force import ForceCase
 from rotemina.sim.blind.machine import Commands
 from rotemina.sim.records.writing import open_export
 from rotemina.sim.robot.model import PiezoAxis, Robot
 
-_HEAD = "# rotemina-record: 1\n# mode: open_loop\n"
+_HEAD = "# rotemina-record: 1\n# mode: {}\n"
 _VOLTAGE_NOISE = 0.003
 # In every hundred cases.
 _MIX = {
@@ -25,6 +27,7 @@ _MIX = {
     "parameter": 8,
     "poor": 8,
     "unknown": 10,
+    "force": 4,
 }
 
 
@@ -57,13 +60,14 @@ def write_cases(
 ) -> dict[str, dict[str, object]]:
     """Write cases into ``folder/case_0000`` …, labels to ``folder/labels.json``; return these.
 
-    ``only``: kinds to keep; ``effect``: makes every one a single case of that effect.
+    ``only``: kinds to keep; ``effect``: makes every one a single case of that effect. Cases of an
+    axis under force, which is another robot's, are left out.
     """
     labels: dict[str, dict[str, object]] = {}
     for k, (kind, wanted, case_seed) in enumerate(kinds(number, seed)):
         if effect is not None:
             kind, wanted = "single", effect
-        if only and kind not in only:
+        if kind == "force" or (only and kind not in only):
             continue
         name = f"case_{k:04d}"
         case = draw_case(robot, kind, case_seed, wanted)
@@ -73,36 +77,57 @@ def write_cases(
     return labels
 
 
-def write_case(folder: Path, case: Case, robot: Robot) -> None:
+def write_case(folder: Path, case: Case | ForceCase, robot: Robot) -> None:
     """Write one case's training records, and the commands and readings that are held out."""
     folder.mkdir(parents=True, exist_ok=True)
+    shown: tuple[str, ...]
+    withheld: tuple[str, ...]
+    if isinstance(case, ForceCase):
+        columns, mode = partial(_force_columns, case), "closed_loop"
+        shown, withheld = ("u", "meas"), ("u", "meas")
+    else:
+        columns, mode = partial(_columns, case, robot), "open_loop"
+        shown, withheld = case.taps, ("meas",)
     for number, commands in enumerate(case.training):
-        _write(folder / f"train_{number + 1}.csv.gz", case, robot, commands, number, case.taps)
-    last = len(case.training)
-    _write(folder / "test_commands.csv.gz", case, robot, case.held_out, last, ())
-    _write(folder / "test_measured.csv.gz", case, robot, case.held_out, last, ("meas",))
+        name = f"train_{number + 1}.csv.gz"
+        _write(folder / name, mode, commands, columns(commands, number, shown))
+    last = columns(case.held_out, len(case.training), withheld)
+    asked = {name: values for name, values in last.items() if ".cmd" in name}
+    _write(folder / "test_commands.csv.gz", mode, case.held_out, asked)
+    _write(folder / "test_measured.csv.gz", mode, case.held_out, last)
 
 
-def _write(
-    path: Path,
-    case: Case,
-    robot: Robot,
-    commands: Commands,
-    number: int,
-    taps: tuple[str, ...],
-) -> None:
-    columns = {"t [s]": np.round(np.arange(len(commands.values)) * commands.step_s, 9)}
-    signals = _signals(case, robot, commands, number) if taps else {}
+def _write(path: Path, mode: str, commands: Commands, columns: dict[str, FloatArray]) -> None:
+    time_s = np.round(np.arange(len(commands.values)) * commands.step_s, 9)
+    columns = {"t [s]": time_s, **columns}
+    with open_export(str(path)) as file:
+        file.write((_HEAD.format(mode) + ", ".join(columns) + "\n").encode())
+        pl.DataFrame(columns).write_csv(file, include_header=False)
+
+
+def _force_columns(
+    case: ForceCase, commands: Commands, number: int, taps: tuple[str, ...]
+) -> dict[str, FloatArray]:
+    u, reading = case.signals(commands, number)
+    return {
+        f"{case.name}.cmd [m]": commands.values[:, 0],
+        f"{case.name}.u [V]": significant(u),
+        f"{case.name}.meas [m]": significant(reading, 9),
+    }
+
+
+def _columns(
+    case: Case, robot: Robot, commands: Commands, number: int, taps: tuple[str, ...]
+) -> dict[str, FloatArray]:
+    columns: dict[str, FloatArray] = {}
+    signals = _signals(case, robot, commands, number)
     for i, name in enumerate(case.names):
         unit, per_si = file_unit(robot, name)
         columns[f"{name}.cmd [{unit}]"] = significant(commands.values[:, i] * per_si)
         for tap in taps:
             shown, factor = ("V", 1.0) if tap == "u" else (unit, per_si)
-            values = significant(signals[tap][:, i] * factor)
-            columns[f"{name}.{tap} [{shown}]"] = values
-    with open_export(str(path)) as file:
-        file.write((_HEAD + ", ".join(columns) + "\n").encode())
-        pl.DataFrame(columns).write_csv(file, include_header=False)
+            columns[f"{name}.{tap} [{shown}]"] = significant(signals[tap][:, i] * factor)
+    return columns
 
 
 def _signals(case: Case, robot: Robot, commands: Commands, number: int) -> dict[str, FloatArray]:

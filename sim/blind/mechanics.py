@@ -68,7 +68,7 @@ def _moved(
             force[i] = drive[i] * targets[k, i]
         for j in range(len(loads)):
             i = int(loads[j, 1])
-            force[i] += _load(
+            force[i] += load_force(
                 loads[j], memory[j], state[i], state[d + i], targets[k, i], drive[i], k, step_s
             )
         for i in range(2 * d):
@@ -83,7 +83,7 @@ def _moved(
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _load(
+def load_force(
     row: FloatArray,
     memory: FloatArray,
     q: float,
@@ -93,6 +93,7 @@ def _load(
     k: int,
     step_s: float,
 ) -> float:
+    """Return the force of one load at position q and speed v; its ``memory`` goes on a step."""
     code = int(row[0])
     if code == BACKLASH:
         return drive * (_play(target - q, row[2], row[3]) - (target - q))

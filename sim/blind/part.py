@@ -70,6 +70,12 @@ class Course:
         """Return the chance of one part in this record, the same at each call."""
         return np.random.default_rng((self.seed, part_seed))
 
+    def settled(self, values: FloatArray) -> FloatArray:
+        """Return ``values`` (n, …) as if their first sample had lasted since long ago."""
+        out = values.copy()
+        out[: self.lead] = values[self.lead]
+        return out
+
 
 # What `act` takes and returns depends on the stage:
 #   DRIVE, ACTUATOR, SENSOR  (n,) signal on the fine grid -> the same, changed

@@ -26,13 +26,15 @@ def speed_history_gain(axis: Axis, rng: np.random.Generator) -> Part:
 
 
 def _smoothed(values: FloatArray, course: Course) -> FloatArray:
-    return lagged(values, mode_poles(40.0, 0.8), course.step_s)
+    return lagged(course.settled(values), mode_poles(40.0, 0.8), course.step_s)
 
 
 def breathing_stiffness(axis: Axis, rng: np.random.Generator) -> Part:
     """Stiffness that rises and falls with time by itself; size is the share."""
     rate, phase = 2.0 * pi * rng.uniform(0.15, 2.5), rng.uniform(0.0, 2.0 * pi)
-    rest = axis.start + rng.uniform(0.3, 0.7) * axis.travel
+    # Within the small moves that most records of a stepper are.
+    within = (0.0, 0.03) if axis.kind == "stepper" else (0.3, 0.7)
+    rest = axis.start + rng.uniform(*within) * axis.travel
 
     def act(values: FloatArray, course: Course, size: float) -> FloatArray:
         return row(mechanics.BREATHING, axis, [size * axis.stiffness, rate, phase, rest])
@@ -46,7 +48,7 @@ def quadratic_mode(axis: Axis, rng: np.random.Generator) -> Part:
     at = rng.uniform(0.4, 0.6)
 
     def act(values: FloatArray, course: Course, size: float) -> FloatArray:
-        x = (values - axis.start) / axis.travel - at
+        x = (course.settled(values) - axis.start) / axis.travel - at
         curve = 4.0 * x**2
         swing = lagged(curve, poles, course.step_s) - curve
         return np.asarray(values + size * axis.travel * swing)
@@ -61,7 +63,7 @@ def wandering_detents(axis: Axis, rng: np.random.Generator) -> Part:
 
     def act(values: FloatArray, course: Course, size: float) -> FloatArray:
         time_s = np.arange(len(values)) * course.step_s
-        past = lagged(values, np.array([-1.0 / memory_s]), course.step_s)
+        past = lagged(course.settled(values), np.array([-1.0 / memory_s]), course.step_s)
         turn = (values - 0.7 * past) / period + drift_hz * time_s
         return np.asarray(values + size * np.sin(2.0 * pi * turn))
 
@@ -87,7 +89,9 @@ def weary_damping(axis: Axis, rng: np.random.Generator) -> Part:
     up, down = rng.uniform(0.1, 0.4), rng.uniform(0.8, 3.0)
 
     def act(values: FloatArray, course: Course, size: float) -> FloatArray:
-        return values - size * (values - _limping(values, course.step_s / up, course.step_s / down))
+        start = course.settled(values)
+        late = start - _limping(start, course.step_s / up, course.step_s / down)
+        return values - size * late
 
     return Part("unknown", axis, Stage.ACTUATOR, act, (1e-5, 0.1))
 
@@ -108,6 +112,7 @@ def product_of_axes(axis: Axis, rng: np.random.Generator, others: tuple[Axis, ..
     memory_s = rng.uniform(0.1, 1.0)
 
     def act(motion: FloatArray, course: Course, size: float) -> FloatArray:
+        motion = course.settled(motion)
         x = (motion[:, first.index] - first.start) / first.travel - 0.5
         y = (motion[:, axis.index] - axis.start) / axis.travel - 0.5
         z = (motion[:, second.index] - second.start) / second.travel - 0.5

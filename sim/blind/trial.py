@@ -1,0 +1,86 @@
+"""Runs of a machine that show what its parts do, and size them by it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.blind.machine import Commands, Machine
+from rotemina.sim.blind.part import Axis, Part
+
+LEAST_FLOORS = 1.5
+LEAST_SHARE = 0.06
+MOST_FLOORS = 300.0
+
+
+class Present(NamedTuple):
+    """A part and what it adds to its axis' gap: in noise floors, and as a share of the power.
+
+    ``gap`` is the whole gap of that axis in noise floors.
+    """
+
+    part: Part
+    floors: float
+    share: float
+    gap: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """Runs of a machine over the training records, to see what a part does."""
+
+    machine: Machine
+    training: tuple[Commands, ...]
+    seed: int
+
+    def readings(self, parts: Sequence[Part]) -> list[FloatArray]:
+        """Return the noise-free readings (n, m) of each record."""
+        machine = self.machine.having(parts)
+        return [
+            machine.respond(c, record_seed(self.seed, k)).reading
+            for k, c in enumerate(self.training)
+        ]
+
+    def sized(
+        self, part: Part, floors: float, low: float = LEAST_FLOORS, *, free: bool = False
+    ) -> Part | None:
+        """Return the part, sized so that alone it makes about so many floors; None if it cannot."""
+        plain = self.readings([])
+        if free:
+            part = replace(part, sizes=(1e-9, part.sizes[1]))
+        part = part.sized(np.sqrt(part.sizes[0] * part.sizes[1]))
+        for _ in range(4):
+            got = difference(self.readings([part]), plain, part.axis)
+            if 0.7 < got / floors < 1.4:
+                break
+            part = part.sized(part.size * float(np.clip(floors / max(got, 1e-9), 0.02, 50.0)))
+        got = difference(self.readings([part]), plain, part.axis)
+        return part if got >= low and got < 4.0 * MOST_FLOORS else None
+
+    def present(self, parts: list[Part]) -> list[Present] | None:
+        """Return what each part adds when all others are in; None if one does too little."""
+        whole, plain = self.readings(parts), self.readings([])
+        out = []
+        for part in parts:
+            rest = self.readings([other for other in parts if other is not part])
+            floors = difference(whole, rest, part.axis)
+            gap = difference(whole, plain, part.axis)
+            share = (floors / gap) ** 2
+            if floors < LEAST_FLOORS or share < LEAST_SHARE:
+                return None
+            out.append(Present(part, floors, share, gap))
+        return out
+
+
+def record_seed(seed: int, number: int) -> int:
+    """Return the seed of one record's chance."""
+    return seed * 16 + number
+
+
+def difference(first: list[FloatArray], second: list[FloatArray], axis: Axis) -> float:
+    """Return the rms of the difference of two sets of readings, means removed, in floors."""
+    gaps = [a[:, axis.index] - b[:, axis.index] for a, b in zip(first, second, strict=True)]
+    power = sum(float(np.sum((gap - gap.mean()) ** 2)) for gap in gaps)
+    return float(np.sqrt(power / sum(len(gap) for gap in gaps)) / axis.floor)
