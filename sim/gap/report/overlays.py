@@ -28,7 +28,7 @@ _SEGMENTS = 6  # of a record, for its frequency response
 _LONGEST = 8192
 _EXCITED = 1e-3  # of the largest input amplitude, from which a line is drawn
 _COHERENT = 0.5  # share of the output that must answer the command, for a line to be drawn
-_ANSWERS = (("real", Role.REAL, 1.8), ("model", Role.RAW, 1.0), ("corrected", Role.CORRECTED, 1.0))
+_ANSWERS = (("real", Role.REAL, 2.6), ("model", Role.RAW, 1.0), ("corrected", Role.CORRECTED, 1.0))
 
 
 def signals(traces: Sequence[Trace], buckets: int) -> Markup:

@@ -55,8 +55,8 @@ class Trace:
 
     @property
     def changed(self) -> bool:
-        """Whether anything was found that corrects the model."""
-        return self.corrected is not self.raw
+        """Whether anything was found that corrects the model of this axis."""
+        return not np.array_equal(self.corrected, self.raw)
 
     @property
     def before(self) -> FloatArray:
@@ -87,10 +87,9 @@ def traces(diagnosis: Diagnosis, axis: str, records: Sequence[Record]) -> tuple[
         (raw,) = evidence.response()
         (corrected,) = evidence.response(diagnosis.fitted) if diagnosis.fitted else (raw,)
         for tap, real in observation.real.items():
-            before = _beside(real, raw[tap])
-            after = _beside(real, corrected[tap]) if diagnosis.fitted else before
+            answers = _beside(real, raw[tap]), _beside(real, corrected[tap])
             floor = observation.floor[tap]
-            found.append(Trace(number, record, axis, tap, real, before, after, floor))
+            found.append(Trace(number, record, axis, tap, real, *answers, floor))
     return tuple(found)
 
 
