@@ -54,6 +54,11 @@ class Diagnosing(QObject):
         """Whether an answer is awaited."""
         return not self._stopped.is_set()
 
+    @property
+    def busy(self) -> bool:
+        """Whether a thread still works, be it on what was stopped."""
+        return self._background.busy
+
     def start(self, robot: Robot, names: Sequence[str], records: Sequence[Record]) -> None:
         """Diagnose records; what ran before is stopped."""
         self.stop()

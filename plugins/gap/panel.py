@@ -156,8 +156,9 @@ class GapPanel(Panel):
             self.workbench.notify(Level.WARNING, "There are no records to diagnose: choose some.")
             return
         names = [each.name for each in chosen]
+        doing = "waiting for the end of what was stopped" if self.diagnosing.busy else "reading"
         self.diagnosing.start(self.robots.robot, names, [each.record for each in chosen])
-        self._show_progress("reading", 0.0)
+        self._show_progress(doing, 0.0)
         self._show_state()
 
     def end(self) -> None:

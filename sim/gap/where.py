@@ -122,13 +122,14 @@ def _by_regime(axis: str, seen: Sequence[tuple[Observation, FloatArray]]) -> dic
     for observation, gap in seen:
         record = observation.record
         command = record.signal(axis, Tap.CMD)
-        for regime, own in regimes(record.time_s, command, _others_move(record, axis)).items():
+        for regime, own in regimes(record.time_s, command, others_move(record, axis)).items():
             squares[regime] += float(np.sum(gap[own] ** 2))
             rows[regime] += int(own.sum())
     return {regime: squares[regime] / rows[regime] - 1.0 for regime in Regime if rows[regime]}
 
 
-def _others_move(record: Record, axis: str) -> BoolArray:
+def others_move(record: Record, axis: str) -> BoolArray:
+    """Tell (n,) where another axis is under way."""
     moving = np.zeros(len(record.time_s), dtype=np.bool_)
     for other in record.axes:
         if other != axis and record.has(other, Tap.CMD):

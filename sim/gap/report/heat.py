@@ -6,10 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.fft import dct, idct
 
-from rotemina.sim.arrays import BoolArray, FloatArray
+from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.regimes import Regime, regimes
 from rotemina.sim.gap.report.traces import Trace
-from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.gap.where import others_move
+from rotemina.sim.records.record import Record
 
 _HALF_DECADES = (1.0, 3.0)  # bands begin at these parts of each decade
 _EVEN = 1e-3  # relative spread of sample intervals up to which a record counts as evenly sampled
@@ -51,7 +52,7 @@ def heat(traces: Sequence[Trace]) -> Heat | None:
     whole = 0
     for trace in even:
         parts = bands(trace.record.time_s, trace.before / trace.floor, edges_hz) ** 2
-        own = regimes(trace.record.time_s, trace.command, _others_move(trace.record, trace.axis))
+        own = regimes(trace.record.time_s, trace.command, others_move(trace.record, trace.axis))
         for place, regime in enumerate(Regime):
             squares[place] += parts[:, own[regime]].sum(axis=1)
             rows[place] += own[regime].sum()
@@ -97,13 +98,3 @@ def _is_even(record: Record) -> bool:
     if len(intervals) < _LEAST_ROWS:
         return False
     return float(np.ptp(intervals)) <= _EVEN * float(intervals.mean())
-
-
-def _others_move(record: Record, axis: str) -> BoolArray:
-    """Tell (n,) where another axis is under way."""
-    moving = np.zeros(len(record.time_s), dtype=np.bool_)
-    for other in record.axes:
-        if other != axis and record.has(other, Tap.CMD):
-            command = record.signal(other, Tap.CMD)
-            moving |= np.diff(command, prepend=command[0]) != 0.0
-    return moving

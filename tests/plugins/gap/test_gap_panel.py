@@ -185,9 +185,10 @@ def test_stop_works_at_once_and_what_comes_late_is_dropped(qtbot, chosen, stepwi
     assert chosen.start.isEnabled()  # although the work has not come to its next step yet
     assert not chosen.stop.isEnabled()
     assert chosen.doing.text() == "stopped"
+    click(qtbot, chosen.start)
+    assert chosen.doing.text() == "waiting for the end of what was stopped"
     stepwise.steps.release()
     qtbot.waitUntil(lambda: stepwise.ends == ["stopped"], timeout=LONG_MS)
-    click(qtbot, chosen.start)
     stepwise.steps.release(2)
     qtbot.waitUntil(lambda: chosen.answer is not None, timeout=LONG_MS)
     assert stepwise.ends == ["stopped", "answered"]
@@ -197,12 +198,12 @@ def test_an_answer_that_was_ready_when_it_was_stopped_is_not_shown(qtbot, window
     click(qtbot, chosen.start)
     qtbot.waitUntil(lambda: len(stepwise.calls) == 1, timeout=LONG_MS)
     stepwise.steps.release(2)
-    while chosen.diagnosing._background.busy:
+    while chosen.diagnosing.busy:
         if stepwise.ends:
             chosen.diagnosing._background.wait()
             click(qtbot, chosen.stop)
             break
-    qtbot.waitUntil(lambda: not chosen.diagnosing._background.busy, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: not chosen.diagnosing.busy, timeout=LONG_MS)
     assert chosen.answer is None
 
 
