@@ -64,6 +64,7 @@ class GapPanel(Panel):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
         self.answer: Answer | None = None
+        self._source: str | Path | None = None  # of the robot that the answer is about
         self.diagnosing = Diagnosing(self)
         self.robots, self.records = RobotChoice(workbench), RecordChoice(workbench)
         self._make_buttons()
@@ -169,7 +170,7 @@ class GapPanel(Panel):
 
     def take_answer(self, answer: Answer) -> None:
         """Show a diagnosis."""
-        self.answer = answer
+        self.answer, self._source = answer, self.robots.source
         self.axis.clear()
         for name in answer.diagnosis.axes:
             self.axis.addItem(label(name), name)
@@ -224,7 +225,7 @@ class GapPanel(Panel):
         """Write a robot file of the corrected model, and offer it to the running simulator."""
         answer = self.answer
         assert answer is not None
-        robot, effects = answer.diagnosis.robot, answer.diagnosis.fitted
+        robot, effects, source = answer.diagnosis.robot, answer.diagnosis.fitted, self._source
 
         def done(_: None) -> None:
             self.workbench.notify(Level.GOOD, f"Saved {path}")
@@ -233,7 +234,7 @@ class GapPanel(Panel):
         self.workbench.work(
             "gap twin",
             f"Writing {path.name} …",
-            lambda: write_text(path, twin_text(robot, effects)),
+            lambda: write_text(path, twin_text(robot, effects, source)),
             done,
         )
 

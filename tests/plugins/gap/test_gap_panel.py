@@ -21,6 +21,7 @@ from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.progress import Progress
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.writing import robot_text
 
 LONG_MS = 30_000
 WHERE, WHICH, FAR = range(3)
@@ -364,6 +365,19 @@ def test_the_twin_is_a_robot_file_that_the_simulator_takes_if_it_is_asked_to(
         qtbot.waitUntil(lambda: question(window) is None, timeout=LONG_MS)
         qtbot.waitUntil(lambda wanted=wanted: session.effects == wanted, timeout=LONG_MS)
     assert load_robot(tmp_path / "twin.toml").effects == diagnosis.fitted
+
+
+def test_the_twin_of_a_robot_file_keeps_its_comments(
+    qtbot, window, chosen, diagnosis, record, tmp_path
+):
+    text = "# our machine\n" + robot_text(window.workbench.robot)
+    (tmp_path / "ours.toml").write_text(text, "utf-8")
+    with qtbot.waitSignal(chosen.robots.changed, timeout=LONG_MS):
+        chosen.robots.load(tmp_path / "ours.toml")
+    chosen.take_answer(Answer.of(diagnosis, ["day one.csv"], [record]))
+    chosen.save_twin(tmp_path / "twin.toml")
+    saved(qtbot, window, tmp_path / "twin.toml")
+    assert (tmp_path / "twin.toml").read_text("utf-8").startswith("# our machine\n")
 
 
 def test_a_twin_of_another_robot_is_not_offered_to_this_simulator(
