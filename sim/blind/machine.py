@@ -16,7 +16,7 @@ from rotemina.sim.robot.model import PiezoAxis, Robot, StepperAxis
 _FINE_S = 5e-5
 _LEAD_S = 0.9
 _LEAD_RISE_S = 0.45
-_LEAD_TRAVEL_M = 5e-4  # of a stepper, whose memory is no longer than its backlash
+_LEAD_TRAVEL_M = 1.5e-4  # of a stepper: longer than its memory, slow enough not to coast
 
 
 class Commands(NamedTuple):

@@ -119,7 +119,10 @@ def _play(gap: float, half: float, soft: float) -> float:
 
 @numba.njit(cache=True, error_model="numpy")
 def _ramp(x: float, soft: float) -> float:
-    return float(0.5 * (x + np.sqrt(x * x + soft * soft)))
+    """Return 0 below -soft, x above soft, and a parabola between: nothing pulls within the band."""
+    if abs(x) < soft:
+        return (x + soft) ** 2 / (4.0 * soft)
+    return max(x, 0.0)
 
 
 @numba.njit(cache=True, error_model="numpy")

@@ -1,0 +1,205 @@
+"""The generator's machine without parts is the nominal plant; its parts do what they are named."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from rotemina.sim.blind.actuator import creep, hysteresis, lost_steps
+from rotemina.sim.blind.filters import lagged, mode_poles
+from rotemina.sim.blind.force import Loop, run_loop
+from rotemina.sim.blind.loads import backlash, contact, flexible_mode, friction
+from rotemina.sim.blind.machine import Commands, machine_of
+from rotemina.sim.blind.mechanics import ROW
+from rotemina.sim.blind.part import Course
+from rotemina.sim.blind.preisach import draw_plane, run_plane
+from rotemina.sim.blind.sensing import encoder_interpolation, sensor_lag
+from rotemina.sim.plant.response import nominal_response
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.file import load_robot
+
+ROBOT = load_robot("rotemina")
+
+
+def machine(names, commands):
+    columns = zip(names, commands.values.T, strict=True)
+    travels = {name: np.array([column.min(), column.max()]) for name, column in columns}
+    return machine_of(ROBOT, names, travels)
+
+
+def stepper_commands(*positions_mm):
+    """Moves of 0.3 s, each followed by a hold of 0.3 s; the first position is held throughout."""
+    places = [positions_mm[0], *positions_mm]
+    moves = [np.concatenate([np.linspace(a, b, 300), np.full(300, b)]) for a, b in pairwise(places)]
+    column = np.concatenate(moves) * 1e-3
+    others = np.full((len(column), 2), 0.03)
+    return Commands(1e-3, np.column_stack([column, others]))
+
+
+def piezo_commands(shares, step_s=1e-3):
+    spans = [ROBOT.axes[name].span for name in ("thx", "thy", "zn")]
+    return Commands(step_s, np.outer(shares, spans))
+
+
+def swing(number=3000, hertz=1.3, step_s=1e-3):
+    return 0.5 - 0.3 * np.cos(2.0 * np.pi * hertz * np.arange(number) * step_s)
+
+
+@pytest.mark.parametrize("names", [("x", "y", "z"), ("thx", "thy", "zn")])
+def test_a_machine_without_parts_is_the_nominal_plant(names):
+    rng = np.random.default_rng(4)
+    shares = swing(2000)[:, None] + 0.01 * rng.normal(size=(2000, 3))
+    values = shares * [1e-3 if name in "xyz" else ROBOT.axes[name].span for name in names]
+    commands = Commands(1e-3, values)
+    signals = {(name, Tap.CMD): values[:, i] for i, name in enumerate(names)}
+    record = Record.from_signals(
+        np.arange(2000) * 1e-3, signals, {name: ROBOT.unit(name) for name in names}
+    )
+    theirs = nominal_response(ROBOT, record)
+    ours = machine(names, commands).respond(commands, 0)
+    for i, name in enumerate(names):
+        gap = ours.reading[:, i] - theirs.signal(name, Tap.MEAS)
+        assert np.abs(gap).max() < 1e-3 * ROBOT.axes[name].sensor.noise_floor
+
+
+def test_a_loop_without_imperfections_is_the_nominal_one():
+    robot = load_robot("emps")
+    x = np.minimum(np.arange(3000) / 1500.0, 1.0)
+    command = 0.02 + 0.1 * x**3 * (10.0 - 15.0 * x + 6.0 * x**2)
+    record = Record.from_signals(
+        np.arange(3000) * 1e-3, {("q", Tap.CMD): command}, {"q": "m"}, {"mode": "closed_loop"}
+    )
+    theirs = nominal_response(robot, record)
+    u, reading = run_loop(robot.axes["q"], Loop(np.zeros(ROW)), command, np.zeros(3000))
+    assert np.abs(u - theirs.signal("q", Tap.U)).max() < 1e-6
+    assert np.abs(reading - theirs.signal("q", Tap.MEAS)).max() < 1e-10
+
+
+@pytest.fixture
+def axis():
+    return machine(("x", "y", "z"), stepper_commands(30.0, 30.1)).axes[0]
+
+
+@pytest.fixture
+def piezo():
+    return machine(("thx", "thy", "zn"), piezo_commands(swing())).axes[0]
+
+
+def test_a_preisach_plane_remembers_turns_and_forgets_those_that_were_passed():
+    plane = draw_plane(np.random.default_rng(1))
+    out = run_plane(plane.everett, np.array([0.0, 1.0, 0.3, 0.6, 0.4, 0.6, 0.8, 1.0, 0.0]))
+    assert out[0] == 0.0
+    assert out[1] == pytest.approx(1.0)
+    assert out[5] == pytest.approx(out[3])  # a minor loop closes
+    assert out[7] == pytest.approx(out[1])
+    assert out[8] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_preisach_plane_lags_behind_and_knows_no_rate():
+    plane = draw_plane(np.random.default_rng(2))
+    slow = np.concatenate([np.linspace(0, 0.9, 901), np.linspace(0.9, 0.1, 801)])
+    quick = slow[::10]
+    out = run_plane(plane.everett, slow)
+    assert np.allclose(run_plane(plane.everett, quick), out[::10], atol=1e-12)
+    up, down = out[500], out[901 + 400]
+    assert slow[500] == pytest.approx(slow[901 + 400])
+    assert down > up + 0.01
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_hysteresis_is_as_wide_as_its_size_says_and_independent_of_rate(piezo, seed):
+    part = hysteresis(piezo, np.random.default_rng(seed))
+    ramp = np.concatenate([np.linspace(0, 1, 801), np.linspace(1, 0, 801)])
+    ramp = piezo.low + piezo.span * np.concatenate([ramp, ramp])
+    out = part.act(ramp, Course(5e-5, 20, 0, 0), 0.1)
+    assert np.allclose(part.act(ramp[::2], Course(5e-5, 20, 0, 0), 0.1), out[::2], atol=1e-7)
+    up, down = out[1602 : 1602 + 801], out[1602 + 801 :][::-1]
+    assert 0.02 < np.max(down - up) / piezo.span < 0.25
+
+
+def test_creep_adds_its_share_per_decade_and_starts_from_rest(piezo):
+    part = creep(piezo, np.random.default_rng(3))
+    step_s = 1e-3
+    values = np.where(np.arange(40_000) < 5000, 0.3, 0.7) * piezo.span
+    out = part.act(values, Course(step_s, 1, 2000, 0), 0.02) - values
+    assert np.all(out[:5000] == 0.0)
+    decade = out[5000 + 20_000] - out[5000 + 2000]
+    assert decade / (0.4 * piezo.span) == pytest.approx(0.02, rel=0.4)
+
+
+def test_lost_steps_are_multiples_of_four_full_steps(axis):
+    part = lost_steps(axis, np.random.default_rng(0))
+    course = Course(1e-3, 1, 100, 7)
+    values = np.interp(np.arange(4000), [500, 600, 2000, 2100], [0.03, 0.031, 0.031, 0.03])
+    lost = (values - part.act(values, course, 2.0)) / (4.0 * axis.full_step)
+    assert np.allclose(lost, np.round(lost), atol=1e-6)
+    assert len(np.unique(np.round(lost))) > 1
+    assert np.array_equal(part.act(values, course, 2.0), part.act(values, course, 2.0))
+
+
+def test_backlash_leaves_the_axis_half_its_width_behind(axis):
+    commands = stepper_commands(30.0, 30.02, 30.0, 30.02)
+    plain = machine(("x", "y", "z"), commands)
+    part = backlash(plain.axes[0], np.random.default_rng(0)).sized(4e-6)
+    late = plain.having([part]).respond(commands, 0).motion[:, 0] - commands.values[:, 0]
+    assert late[590] == pytest.approx(-2e-6, rel=0.25)  # after a rise, long ago
+    assert late[1190] == pytest.approx(-2e-6, rel=0.25)
+    assert late[1790] == pytest.approx(2e-6, rel=0.25)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_friction_holds_the_axis_within_its_force_over_the_stiffness(axis, seed):
+    commands = stepper_commands(30.0, 30.02, 30.0, 30.02)
+    plain = machine(("x", "y", "z"), commands)
+    part = friction(plain.axes[0], np.random.default_rng(seed)).sized(40.0)
+    off = plain.having([part]).respond(commands, 0).motion[:, 0] - commands.values[:, 0]
+    at_rest = np.abs(off[[590, 1190, 1790, 2390]])
+    assert np.all(at_rest < 1.7 * 40.0 / axis.stiffness)
+    assert np.ptp(off[[1190, 1790]]) > 0.2 * 40.0 / axis.stiffness
+
+
+def test_contact_pushes_on_one_side_alone(piezo):
+    commands = piezo_commands(swing())
+    plain = machine(("thx", "thy", "zn"), commands)
+    part = contact(plain.axes[2], np.random.default_rng(1)).sized(0.5)
+    at, side = part.act(np.zeros(0), Course(1e-3, 1, 0, 0), 0.5)[[2, 5]]
+    gap = (plain.having([part]).respond(commands, 0).motion - plain.respond(commands, 0).motion)[
+        :, 2
+    ]
+    free = side * (commands.values[:, 2] - at) < -0.02 * piezo.span
+    touching = side * (commands.values[:, 2] - at) > 0.05 * plain.axes[2].span
+    assert np.abs(gap[free]).max() < 1e-2 * np.abs(gap).max()
+    assert np.all(side * gap[touching] < 0.0)
+
+
+def test_a_flexible_mode_rings_and_leaves_the_static_gain(piezo):
+    commands = piezo_commands(np.repeat([0.3, 0.6], 2000))
+    plain = machine(("thx", "thy", "zn"), commands)
+    part = flexible_mode(plain.axes[0], np.random.default_rng(1)).sized(0.2)
+    gap = (plain.having([part]).respond(commands, 0).motion - plain.respond(commands, 0).motion)[
+        :, 0
+    ]
+    assert np.abs(gap[2000:2100]).max() > 100.0 * np.abs(gap[-50:]).max()
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_sensor_lags_a_ramp_by_its_size(axis, seed):
+    part = sensor_lag(axis, np.random.default_rng(seed))
+    ramp = np.arange(60_000) * 1e-8
+    late = ramp - part.act(ramp, Course(5e-5, 20, 0, 0), 2e-3)
+    assert late[-1] == pytest.approx(2e-3 / 5e-5 * 1e-8, rel=1e-3)
+
+
+def test_an_encoder_errs_with_the_period_of_its_grating(axis):
+    part = encoder_interpolation(axis, np.random.default_rng(0))
+    position = np.linspace(0.0, 80e-6, 80_001)
+    error = part.act(position, Course(1e-3, 1, 0, 0), 0.1) - position
+    assert np.allclose(error[:40_000], error[40_000:80_000], atol=1e-12)
+    assert 1e-8 < np.abs(error).max() < 3e-6
+
+
+def test_a_filter_begins_at_rest_and_ends_at_its_input():
+    values = np.concatenate([np.full(500, 2.0), np.full(30_000, 3.0)])
+    out = lagged(values, mode_poles(20.0, 0.5), 5e-5)
+    assert np.allclose(out[:500], 2.0, atol=1e-9)
+    assert out[-1] == pytest.approx(3.0, rel=1e-6)
