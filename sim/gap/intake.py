@@ -13,12 +13,14 @@ from rotemina.sim.gap.caution import Caution, Labelled
 from rotemina.sim.gap.clocks import check_clock
 from rotemina.sim.gap.copies import check_copies
 from rotemina.sim.gap.errors import GapError
+from rotemina.sim.gap.following import check_following
 from rotemina.sim.gap.scales import check_scales
 from rotemina.sim.gap.stuck import check_sensors
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import ForceAxis, Robot
 
 LEAST_ROWS = 100  # of a record
+LEAST_IN_ALL = 500  # rows of all records that measure an axis
 _MEASURED = (Tap.U, Tap.REF, Tap.MEAS)
 
 
@@ -57,12 +59,14 @@ def check(
         cautions += check_clock(one)
         cautions += check_scales(robot, one)
         cautions += check_sensors(robot, one)
+        check_following(robot, one)
     check_copies(labelled)
     if not any(_is_measured(one.record, axis) for one in labelled for axis in one.record.axes):
         raise GapError(
             f"{_listed(labelled)}: no measured channel (u, ref or meas) but only commands; "
             "give records of the real machine"
         )
+    _check_length(robot, labelled)
     cautions += _missing(robot, records)
     return tuple(cautions)
 
@@ -113,6 +117,18 @@ def _check_drive(robot: Robot, one: Labelled, axis: str) -> None:
     )
 
 
+def _check_length(robot: Robot, records: Sequence[Labelled]) -> None:
+    """Refuse axes of which so little was measured that any rich effect would fit it."""
+    for axis in robot.axes:
+        own = [one for one in records if _is_measured(one.record, axis)]
+        rows = sum(len(one.record.time_s) for one in own)
+        if 0 < rows < LEAST_IN_ALL:
+            raise GapError(
+                f"{_listed(own)}: {rows} rows in all measure axis {axis!r}; a diagnosis needs "
+                f"{LEAST_IN_ALL} or more: leave its columns out, or record longer"
+            )
+
+
 def _is_measured(record: Record, axis: str) -> bool:
     return any(record.has(axis, tap) for tap in _MEASURED)
 
@@ -133,7 +149,9 @@ def _missing(robot: Robot, records: Sequence[Record]) -> Iterator[Caution]:
                 axis,
             )
         if Tap.MEAS not in taps:
-            yield Caution("The axis' own sensor was not recorded: nothing is said of it.", axis)
+            yield Caution(
+                "The axis' own sensor was not recorded: nothing is said of that sensor.", axis
+            )
         elif Tap.REF not in taps:
             yield Caution(
                 "No independent reference (ref) was recorded: effects of the sensor cannot be told "

@@ -1,28 +1,21 @@
-"""Units of records: what is off by a factor that no effect explains.
-
-Readings are compared with commands where both are slow: by means over blocks that are long beside
-the axis' own period, in which its dynamics have averaged out.
-"""
+"""Units of records: what is off by a factor that no effect explains."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import permutations
-from math import log, pi
+from math import log
 
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.caution import Caution, Labelled
 from rotemina.sim.gap.errors import GapError
+from rotemina.sim.gap.slow_motion import SlowMotion, follows_command, under_controller
 from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.model import Axis, ForceAxis, PiezoAxis, Robot, StepperAxis
+from rotemina.sim.robot.model import Axis, PiezoAxis, Robot
 from rotemina.sim.trajectory.wording import readable
 from rotemina.sim.units import per_si, units_of
 
-_PERIODS = 10.0  # of the axis, in one block
-_ROWS = 20  # in one block, at least
-_BLOCKS = 10  # in a record, at least
-_SLOW_SHARE = 0.1  # of a command's variance, that blocks must keep
 _ALIKE = 0.95  # correlation from which a reading follows its command
 _PLAUSIBLE = 3.0  # gains between this and its inverse may have other causes
 _FAR = log(10.0)  # factors beyond this are no accident, even when a gain error comes on top
@@ -81,11 +74,14 @@ def _check_command(robot: Robot, one: Labelled, axis: str) -> Iterator[Caution]:
 
 def _check_readings(robot: Robot, one: Labelled, axis: str) -> Iterator[Caution]:
     described = robot.axes[axis]
+    motion = SlowMotion.of(described, one.record, axis)
+    if motion is None:
+        return
     for tap in (Tap.U, Tap.REF, Tap.MEAS):
-        if not one.record.has(axis, tap):
-            continue
         expected = _expected(described, one.record, tap)
-        gain = None if expected is None else _slow_gain(described, one.record, axis, tap, expected)
+        if expected is None or not one.record.has(axis, tap):
+            continue
+        gain = _slow_gain(motion, one.record.signal(axis, tap), expected)
         if gain is None:
             continue
         if tap is Tap.U:
@@ -109,33 +105,18 @@ def _check_readings(robot: Robot, one: Labelled, axis: str) -> Iterator[Caution]
 def _expected(described: Axis, record: Record, tap: Tap) -> float | None:
     """Return what a slow signal is for a command of 1, or None where that is not known."""
     if tap is Tap.U:
-        known = isinstance(described, PiezoAxis) and not _under_controller(described, record)
-        return 1.0 / described.gain if known and isinstance(described, PiezoAxis) else None
-    if isinstance(described, ForceAxis) and not _under_controller(described, record):
-        return None
-    return 1.0
+        if not isinstance(described, PiezoAxis) or under_controller(described, record):
+            return None
+        return 1.0 / described.gain
+    return 1.0 if follows_command(described, record) else None
 
 
-def _under_controller(described: Axis, record: Record) -> bool:
-    if isinstance(described, StepperAxis):
-        return False
-    return record.closed_loop and described.controller is not None
-
-
-def _slow_gain(
-    described: Axis, record: Record, axis: str, tap: Tap, expected: float
-) -> float | None:
+def _slow_gain(motion: SlowMotion, signal: FloatArray, expected: float) -> float | None:
     """Return slow signal over expected one, or None where the one does not follow the other."""
-    command, signal = record.signal(axis, Tap.CMD), record.signal(axis, tap)
-    step_s = float(np.median(np.diff(record.time_s)))
-    rows = max(round(_PERIODS * _own_period_s(described, record) / step_s), _ROWS)
-    if len(command) < _BLOCKS * rows:
-        return None
-    slow, read = (_centred(_block_means(x, rows)) for x in (command, signal))
-    if np.var(slow) <= _SLOW_SHARE * np.var(command) or not np.any(read):
-        return None
+    slow, read = motion.command, motion.read(signal)
+    size = float(np.std(slow) * np.std(read))
     product = float(np.mean(slow * read))
-    if abs(product) < _ALIKE * float(np.std(slow) * np.std(read)):
+    if size == 0.0 or abs(product) < _ALIKE * size:
         return None
     return product / float(np.var(slow)) / expected
 
@@ -150,21 +131,6 @@ def _moves_with_another(record: Record, axis: str) -> bool:
             if abs(float(own @ command)) > _TOGETHER * size > 0.0:
                 return True
     return False
-
-
-def _own_period_s(described: Axis, record: Record) -> float:
-    if not isinstance(described, StepperAxis) and _under_controller(described, record):
-        assert described.controller is not None
-        return 2.0 * pi / described.controller.kp
-    inertia = described.inertia
-    if inertia is None or inertia.stiffness == 0.0:
-        return 0.0
-    return 2.0 * pi * float(np.sqrt(inertia.mass / inertia.stiffness))
-
-
-def _block_means(signal: FloatArray, rows: int) -> FloatArray:
-    blocks = len(signal) // rows
-    return np.asarray(signal[: blocks * rows].reshape(blocks, rows).mean(axis=1))
 
 
 def _centred(signal: FloatArray) -> FloatArray:

@@ -136,6 +136,10 @@ def test_an_axis_that_never_moved_is_told_and_not_refused():
             [lambda: measured(rows=99)],
             "record 1 (99 rows, 0.098 s): 99 rows; a diagnosis needs 100 rows",
         ),
+        (
+            [lambda: measured(rows=250), lambda: measured(rows=249, seed=1)],
+            "499 rows in all measure axis 'x'; a diagnosis needs 500 or more",
+        ),
         ([make_commands], "no measured channel (u, ref or meas) but only commands"),
     ],
 )
@@ -306,6 +310,25 @@ def held(signal, begin, end):
     signal = signal.copy()
     signal[begin:end] = signal[begin]
     return signal
+
+
+def test_an_axis_that_does_not_answer_is_refused():
+    record = measured()
+    floating = 3e-5 + 1e-6 * np.random.default_rng(0).standard_normal(4000)
+    silent = changed(record, {("zn", Tap.REF): None, ("zn", Tap.MEAS): floating})
+    said = refusal(silent, names=["a.csv"])
+    assert said.startswith("a.csv: zn.meas does not follow zn.cmd (its gain is ")
+    assert said.endswith("switch the axis on, or leave its columns out")
+
+
+def test_channels_that_are_swapped_are_refused():
+    record = measured(axes=("thx", "thy"))
+    swapped = {
+        ("thx", Tap.MEAS): record.signal("thy", Tap.MEAS),
+        ("thy", Tap.MEAS): record.signal("thx", Tap.MEAS),
+    }
+    said = refusal(changed(record, swapped))
+    assert "thx.meas does not follow thx.cmd but thy.cmd: channels may be swapped" in said
 
 
 def test_dropouts_pass_and_a_long_one_is_refused():
