@@ -47,6 +47,15 @@ class Answer:
         return unit_of(axis, tap, self.records)
 
     @property
+    def units(self) -> dict[str, str]:
+        """SI units of all axes that the records or the robot know."""
+        robot = self.diagnosis.robot
+        known = {name: unit for name in robot.axes if (unit := robot.unit(name))}
+        return {
+            name: unit for record in self.records for name, unit in record.units.items()
+        } | known
+
+    @property
     def first_axis(self) -> str:
         """The axis with most to say."""
         said = [cause.axis for cause in self.diagnosis.causes]

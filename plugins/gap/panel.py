@@ -38,6 +38,7 @@ from rotemina.sim.gap.document import as_json
 from rotemina.sim.gap.report.page import write_report
 from rotemina.sim.gap.report.quantities import percent
 from rotemina.sim.gap.report.words import VERDICTS, effect_title, listed, summary
+from rotemina.sim.gap.suggestion import suggestion
 from rotemina.sim.gap.twin import twin_text
 
 EMPTY = (
@@ -108,6 +109,8 @@ class GapPanel(Panel):
         self.verdict = QLabel()
         self.verdict.setTextFormat(Qt.TextFormat.PlainText)
         self.verdict.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.plan = QPushButton("Plan experiment")
+        self.plan.setToolTip("Take the motion in hand that would tell rivals apart, to play it")
         self.axis = QComboBox()
         self.axis.setAccessibleName("Axis")
 
@@ -123,6 +126,7 @@ class GapPanel(Panel):
         head.setSpacing(8)
         head.addWidget(self.tabs)
         head.addWidget(self.verdict, 1)
+        head.addWidget(self.plan)
         head.addWidget(self.axis)
         outer = QVBoxLayout(self)
         outer.setContentsMargins(10, 6, 10, 6)
@@ -138,6 +142,7 @@ class GapPanel(Panel):
         self.twin.clicked.connect(self._ask_twin)
         self.report.clicked.connect(self._ask_report)
         self.save.clicked.connect(self._ask_save)
+        self.plan.clicked.connect(self.plan_experiment)
         self.robots.changed.connect(self.records.use_robot)
         self.records.changed.connect(self._show_state)
         self.tabs.currentChanged.connect(lambda _: self._show_state())
@@ -200,6 +205,7 @@ class GapPanel(Panel):
         for button in (self.report, self.save):
             button.setEnabled(done)
         self.twin.setEnabled(self.answer is not None and bool(self.answer.diagnosis.fitted))
+        self.plan.setVisible(self.answer is not None and bool(self.answer.diagnosis.experiments))
         self.tabs.setVisible(done)
         self.views.setCurrentIndex(self.tabs.currentIndex() if done else len(VIEWS))
         self.axis.setVisible(done and self.views.currentWidget() is not self.where)
@@ -220,6 +226,16 @@ class GapPanel(Panel):
             view.set_theme(theme)
 
     # --- what comes of it -------------------------------------------------------------------------
+
+    def plan_experiment(self) -> None:
+        """Take the suggested experiment in hand: that of the axis in sight, or else the first."""
+        assert self.answer is not None
+        experiments = self.answer.diagnosis.experiments
+        axis = self.axis.currentData()
+        number = next((n for n, one in enumerate(experiments) if one.axis == axis), 0)
+        made = suggestion(experiments[number], number + 1, "gap", self.answer.units)
+        name = made.names.commands
+        self.workbench.plan_trajectory(name, made.records[name])
 
     def save_twin(self, path: Path) -> None:
         """Write a robot file of the corrected model, and offer it to the running simulator."""

@@ -117,7 +117,7 @@ def warmth(floors: float) -> float:
 
 
 def _few(value: float) -> str:
-    return f"{float(f'{value:.2g}'):g}"
+    return "< 0.01" if 0.0 < value < 0.01 else f"{float(f'{value:.2g}'):g}"
 
 
 def _row(

@@ -108,7 +108,7 @@ def _environment() -> Environment:
         listed=listed,
         axis_verdict=lambda verdict: AXIS_VERDICTS[Verdict(verdict)],
         hertz=lambda edges: " … ".join(f"{edge:.3g}" for edge in edges) + " Hz",
-        few=lambda value: f"{float(f'{value:.2g}'):g}",
+        few=_few,
         warmth=_warmth,
     )
     return environment
@@ -116,6 +116,11 @@ def _environment() -> Environment:
 
 def _resource(name: str) -> str:
     return resources.files("rotemina.sim.gap.report").joinpath(name).read_text("utf-8")
+
+
+def _few(value: float) -> str:
+    """Return a number above 0 in two digits."""
+    return "< 0.01" if 0.0 < value < 0.01 else f"{float(f'{value:.2g}'):g}"
 
 
 def _warmth(floors: float) -> str:

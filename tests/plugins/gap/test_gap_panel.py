@@ -16,9 +16,11 @@ from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.diagnosing import StoppedError, said
 from rotemina.plugins.gap.where import warmth
 from rotemina.sim.comparison.comparison import compare
+from rotemina.sim.gap.diagnosis import Experiment
 from rotemina.sim.gap.document import as_json
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.progress import Progress
+from rotemina.sim.records.record import Tap
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.writing import robot_text
@@ -313,6 +315,25 @@ def test_another_theme_recolours_everything(window, answered):
             assert not answered.grab().toImage().isNull()
     quiet = answered.workbench.theme.quiet
     assert answered.which.ranking.item(1, 0).foreground().color().name() == quiet
+
+
+def test_a_suggested_experiment_is_taken_in_hand(qtbot, window, answered, diagnosis, record):
+    assert answered.plan.isHidden()
+    command = record.signal("thx", Tap.CMD)
+    experiment = Experiment(
+        axis="thx",
+        splits=("hysteresis", "creep"),
+        why="A long hold parts them.",
+        time_s=tuple(record.time_s),
+        commands={"thx": tuple(command)},
+        predictions={"hysteresis": tuple(command), "creep": tuple(command)},
+    )
+    suggested = replace(diagnosis, experiments=(experiment,))
+    answered.take_answer(Answer.of(suggested, ["day one.csv"], [record]))
+    assert "Next experiment: A long hold parts them." in answered.which.text.toPlainText()
+    with qtbot.waitSignal(window.workbench.plan_changed, timeout=LONG_MS):
+        click(qtbot, answered.plan)
+    assert window.workbench.plan.trajectory.signal("thx", Tap.CMD) == pytest.approx(command)
 
 
 # --- acting -----------------------------------------------------------------------------------
