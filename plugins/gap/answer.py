@@ -51,9 +51,8 @@ class Answer:
         """SI units of all axes that the records or the robot know."""
         robot = self.diagnosis.robot
         known = {name: unit for name in robot.axes if (unit := robot.unit(name))}
-        return {
-            name: unit for record in self.records for name, unit in record.units.items()
-        } | known
+        seen = {name: unit for record in self.records for name, unit in record.units.items()}
+        return seen | known
 
     @property
     def first_axis(self) -> str:

@@ -91,7 +91,7 @@ class WhereView(QSplitter):
         self.heat.set_head(())
 
     def _draw(self, heat: Heat) -> None:
-        edges = [_few(edge) for edge in heat.edges_hz]
+        edges = [f"{edge:g}" for edge in heat.edges_hz]
         self.heat.set_head(("while", "share", *edges[:-1]))
         for column, (low, high) in enumerate(pairwise(edges), start=_BANDS):
             self.heat.horizontalHeaderItem(column).setToolTip(f"{low} to {high} Hz")
@@ -130,7 +130,7 @@ def _row(
         percent(share[0]) if share is not None else "noise",
         amount(place.gap_rms, unit),
         amount(place.noise_floor, unit),
-        NOTHING if band is None else f"{_few(band[0])}…{_few(band[1])} Hz",
+        NOTHING if band is None else f"{band[0]:.2g}…{band[1]:.2g} Hz",
         str(place.worst_regime or NOTHING),
         percents(share[1]) if share is not None else NOTHING,
     )

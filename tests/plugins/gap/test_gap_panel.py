@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QMessageBox
 
 from rotemina.app.shell.workbench import Run
 from rotemina.plugins.gap import diagnosing as module
+from rotemina.plugins.gap import panel as panel_module
 from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.diagnosing import StoppedError, said
 from rotemina.plugins.gap.where import warmth
@@ -356,6 +357,7 @@ def test_the_report_is_written_and_opened(qtbot, window, answered, tmp_path, mon
 
 def test_a_report_that_nothing_opens_is_told(qtbot, window, answered, tmp_path, monkeypatch):
     monkeypatch.setattr(QDesktopServices, "openUrl", lambda _url: False)
+    monkeypatch.setattr(panel_module, "write_report", lambda *_: None)
     answered.save_report(tmp_path / "gap.html")
     qtbot.waitUntil(lambda: "open it in a browser" in newest(window), timeout=LONG_MS)
 
