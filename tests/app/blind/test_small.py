@@ -1,0 +1,23 @@
+"""A small blind test with the real diagnosis, from the command line to its page."""
+
+import json
+
+import pytest
+
+from rotemina.app.cli.main import main
+
+CASES = 6
+
+
+@pytest.mark.slow
+def test_a_few_sealed_cases_are_diagnosed_and_scored(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    words = ["gap", "blind", "--cases", str(CASES), "--seed", "41", "--folder", "run"]
+    assert main([*words, "--shard", "1/2"]) == 0
+    assert main([*words, "--json", "score.json", "--report", "page.md"]) == 0
+    assert capsys.readouterr().err.count("done (") == CASES
+    score = json.loads((tmp_path / "score.json").read_text())
+    assert score["done"] == score["asked"] == CASES
+    assert all(case["answer"]["verdict"] != "failed" for case in score["wrong"])
+    assert score["figures"]["false_accusations"]["value"] in (None, 0.0)
+    assert "confusion" in (tmp_path / "page.md").read_text().lower()
