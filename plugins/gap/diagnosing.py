@@ -5,7 +5,7 @@ import time
 from collections.abc import Sequence
 from threading import Event
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject, QTimer, Signal
 
 from rotemina.app.shell.background import Background
 from rotemina.plugins.gap.answer import Answer
@@ -16,6 +16,7 @@ from rotemina.sim.robot.model import Robot
 
 _FIRST_GUESS_S = 1.0  # before which nothing is said of the time left
 _FIRST_GUESS_SHARE = 0.02
+_RETELL_MS = 500
 
 
 class StoppedError(Exception):
@@ -47,7 +48,10 @@ class Diagnosing(QObject):
         self._stopped = Event()
         self._stopped.set()
         self._began_s = 0.0
-        self._heard.connect(self._tell)
+        self._step: tuple[Progress, float] | None = None  # the last, and when it came
+        self._clock = QTimer(self, interval=_RETELL_MS)
+        self._clock.timeout.connect(self._tell)
+        self._heard.connect(self._hear)
 
     @property
     def running(self) -> bool:
@@ -65,7 +69,8 @@ class Diagnosing(QObject):
         self._number += 1
         number = self._number
         stopped = self._stopped = Event()
-        self._began_s = time.monotonic()
+        self._began_s, self._step = time.monotonic(), None
+        self._clock.start()
 
         def listen(progress: Progress) -> None:
             if stopped.is_set():
@@ -91,6 +96,7 @@ class Diagnosing(QObject):
     def stop(self) -> None:
         """Want no answer any more; the work ends at its next step, and nobody waits for it."""
         self._stopped.set()
+        self._clock.stop()
 
     def close(self) -> None:
         """Stop, and wait until the thread is free."""
@@ -100,19 +106,25 @@ class Diagnosing(QObject):
     def _is_wanted(self, number: int) -> bool:
         return number == self._number and self.running
 
-    def _tell(self, number: int, progress: Progress) -> None:
+    def _hear(self, number: int, progress: Progress) -> None:
         if self._is_wanted(number):
-            elapsed_s = time.monotonic() - self._began_s
-            self.progressed.emit(said(progress, elapsed_s), progress.share)
+            self._step = progress, time.monotonic() - self._began_s
+            self._tell()
+
+    def _tell(self) -> None:
+        if self._step is not None:
+            progress, at_s = self._step
+            text = said(progress, at_s, time.monotonic() - self._began_s)
+            self.progressed.emit(text, progress.share)
 
     def _end(self, number: int, answer: Answer | None) -> None:
         if self._is_wanted(number):
-            self._stopped.set()
+            self.stop()
             self.finished.emit(answer)
 
     def _fail(self, number: int, message: str) -> None:
         if self._is_wanted(number):
-            self._stopped.set()
+            self.stop()
             self.failed.emit(message)
 
 
@@ -124,12 +136,15 @@ def diagnose(robot: Robot, records: Sequence[Record], listener: Listener) -> Dia
     return method.diagnose(robot, records, jobs=jobs, listener=listener)
 
 
-def said(progress: Progress, elapsed_s: float) -> str:
-    """Return what is done now and how long the rest may take."""
+def said(progress: Progress, at_s: float, now_s: float) -> str:
+    """Return what is done since ``at_s``, for how long all has run, and what the rest may take."""
     text = " ".join(
         part for part in (progress.stage, progress.axis, progress.candidate) if part is not None
     )
-    if elapsed_s < _FIRST_GUESS_S or progress.share < _FIRST_GUESS_SHARE:
+    if now_s < _FIRST_GUESS_S:
         return text
-    left_s = elapsed_s * (1.0 / progress.share - 1.0)
-    return f"{text}, about {left_s:.0f} s left"
+    text += f", {now_s:.0f} s"
+    if progress.share < _FIRST_GUESS_SHARE:
+        return text
+    left_s = at_s / progress.share - now_s
+    return f"{text}, about {left_s:.0f} s left" if left_s >= 1.0 else text

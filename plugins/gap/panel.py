@@ -84,6 +84,7 @@ class GapPanel(Panel):
         self.progress = QProgressBar()
         self.progress.setRange(0, 1000)
         self.progress.setTextVisible(False)
+        self.progress.setMinimumWidth(40)
         self.progress.setMaximumWidth(110)
         self.doing = QLabel()
         self.doing.setTextFormat(Qt.TextFormat.PlainText)

@@ -32,6 +32,7 @@ class RobotChoice(QComboBox):
         self.setToolTip("The model whose gap is looked for")
         self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.setMinimumContentsLength(11)
+        self.setMinimumWidth(80)  # where the window is narrow, a name is cut rather than the row
         self.addItem(f"{workbench.robot.name} (in use)", None)
         for name in shipped_robots():
             self.addItem(name, name)

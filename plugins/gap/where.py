@@ -130,7 +130,7 @@ def _row(
         percent(share[0]) if share is not None else "noise",
         amount(place.gap_rms, unit),
         amount(place.noise_floor, unit),
-        NOTHING if band is None else f"{band[0]:.2g}…{band[1]:.2g} Hz",
+        NOTHING if band is None else f"{band[0]:.3g}…{band[1]:.3g} Hz",
         str(place.worst_regime or NOTHING),
         percents(share[1]) if share is not None else NOTHING,
     )
