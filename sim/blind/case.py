@@ -15,17 +15,32 @@ from rotemina.sim.blind.parts import draw_part
 from rotemina.sim.blind.trial import LEAST_FLOORS, MOST_FLOORS, Present, Trial, record_seed
 from rotemina.sim.robot.model import Robot
 
-KINDS = (
-    "healthy", "single", "double", "triple", "parameter", "poor", "unknown",
-)  # fmt: skip
 _PARAMETERS = ("gain_error", "resonance_mismatch")
 # At one frequency and amplitude, or in one step, each of these is any of the others.
-_POOR_SINE = ("delay", "amplifier_lag", "gain_error", "creep", "hysteresis", "sensor_gain")
-_POOR_STEP = ("gain_error", "static_nonlinearity", "sensor_gain", "thermal_drift")
-_TWINS = (
-    "sensor_gain", "sensor_nonlinearity", "sensor_lag", "gain_error", "static_nonlinearity",
+_POOR_SINE = (
+    "delay",
     "amplifier_lag",
-)  # fmt: skip
+    "gain_error",
+    "creep",
+    "hysteresis",
+    "sensor_gain",
+    "sensor_lag",
+)
+_POOR_STEP = (
+    "gain_error",
+    "static_nonlinearity",
+    "sensor_gain",
+    "sensor_nonlinearity",
+    "hysteresis",
+)
+_TWINS = (
+    "sensor_gain",
+    "sensor_nonlinearity",
+    "sensor_lag",
+    "gain_error",
+    "static_nonlinearity",
+    "amplifier_lag",
+)
 
 
 @dataclass(frozen=True, slots=True)
