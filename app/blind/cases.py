@@ -71,7 +71,7 @@ class GeneratedCases(Cases):
 
     def __init__(self, robot: str, number: int, seed: int) -> None:
         self._robot_name, self._robot = robot, load_robot(robot)
-        _check_robot(self._robot, robot)
+        check_robot(self._robot, robot)
         self._force = _moved_by_force(self._robot)
         self._plan = {f"case_{k:04d}": drawn for k, drawn in enumerate(kinds(number, seed))}
         self._labels: dict[str, Label] = {}
@@ -106,7 +106,7 @@ def _moved_by_force(robot: Robot) -> bool:
     return any(isinstance(a, ForceAxis) and a.controller for a in robot.axes.values())
 
 
-def _check_robot(robot: Robot, name: str) -> None:
+def check_robot(robot: Robot, name: str) -> None:
     """Raise where the generator has no cases for a robot."""
     staged = [robot.axes[axis] for stage in robot.stages.values() for axis in stage]
     whole = [a for a in staged if isinstance(a, PiezoAxis | StepperAxis) and a.sensor and a.inertia]

@@ -3,6 +3,7 @@
 import json
 import secrets
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,7 @@ FORMAT = "rotemina-blind-result 1"
 _KEPT = ("axis", "effect", "from_axis", "probability", "ambiguous_with", "closed")
 
 Ask = Callable[[SealedCase], Answer]
+Contest = Callable[[SealedCase], Mapping[str, Any]]
 
 
 class BlindRun:
@@ -49,10 +51,11 @@ class BlindRun:
         """Return the cases of a shard that have no result yet."""
         return [name for name in shard.of(self._cases.names) if not self._result(name).exists()]
 
-    def do(self, name: str, ask: Ask) -> None:
+    def do(self, name: str, ask: Ask, contest: Contest | None = None) -> None:
         """Seal a case's label, ask the diagnosis, hash its answer, then open the label.
 
-        Labels that share a file stay closed until :meth:`open_labels`.
+        Labels that share a file stay closed until :meth:`open_labels`. ``contest``: what others
+        than the diagnosis say of the case, by their names.
         """
         salt = secrets.token_hex(16)
         with self._cases.sealed(name, salt) as case:
@@ -60,6 +63,7 @@ class BlindRun:
             write_text(self._folder / "commitments" / f"{name}.json", json_text(commitment))
             answer = ask(case)
             gaps = _gaps(case, answer)
+            others = {} if contest is None else contest(case)
         result = {
             "format": FORMAT,
             "case": name,
@@ -68,6 +72,7 @@ class BlindRun:
             "answer_sha256": answer.sha256,
             "answer": _compact(answer.document),
             "seconds": round(answer.seconds, 3),
+            "others": dict(others),
             "held_out": {axis: list(gap) for axis, gap in gaps.items()},
         }
         if not self._cases.one_file:
@@ -85,6 +90,14 @@ class BlindRun:
     def outcomes(self) -> list[Outcome]:
         """Return all that is done and opened, whichever shard did it."""
         return [_outcome(result) for _, result in self._results() if "label" in result]
+
+    def outcomes_of(self, other: str) -> list[Outcome]:
+        """Return the outcomes of another contestant, for the cases that it was asked."""
+        return [
+            replace(_outcome(result), answer=result["others"][other], closure=None)
+            for _, result in self._results()
+            if "label" in result and other in result["others"]
+        ]
 
     def _results(self) -> Iterator[tuple[Path, dict[str, Any]]]:
         for path in sorted((self._folder / "results").glob("*.json")):

@@ -7,15 +7,18 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from rotemina.app.blind.cases import BlindError, Cases, FolderCases, GeneratedCases
+from rotemina.app.blind.cases import BlindError, Cases, FolderCases, GeneratedCases, check_robot
+from rotemina.app.blind.classifier import classifier_for
+from rotemina.app.blind.naive import CONTESTANTS, contest
 from rotemina.app.blind.process import diagnose
-from rotemina.app.blind.run import BlindRun
+from rotemina.app.blind.run import BlindRun, Contest
 from rotemina.app.files import json_text
 from rotemina.sim.blind.intervals import Figure
 from rotemina.sim.blind.picture import draw_confusion
 from rotemina.sim.blind.scoring import Outcome, confusion, score
 from rotemina.sim.blind.table import page, plain_table
 from rotemina.sim.errors import InputError
+from rotemina.sim.robot.file import load_robot
 from rotemina.sim.whole_files import replaced
 
 FORMAT = "rotemina-blind 1"
@@ -27,15 +30,24 @@ def run_test(options: Namespace) -> None:
     cases, folder = _cases(options)
     blind = BlindRun(folder, cases)
     ask = partial(diagnose, jobs=options.jobs)
+    others_too = _contest(options, folder) if options.naive else None
     pending = blind.pending(options.shard)
     for number, name in enumerate(pending, start=1):
-        blind.do(name, ask)
+        blind.do(name, ask, others_too)
         print(f"{name}: done ({number} of {len(pending)})", file=sys.stderr)
     blind.open_labels()
     outcomes = blind.outcomes()
     if not outcomes:
         raise BlindError(f"{folder}: no case is done, so there is nothing to score")
-    _write(options, cases, outcomes)
+    others = {title: blind.outcomes_of(name) for name, title in CONTESTANTS.items()}
+    _write(options, cases, outcomes, {title: o for title, o in others.items() if o})
+
+
+def _contest(options: Namespace, folder: Path) -> Contest:
+    """Return the naive contestants; the one that learns does so on cases of its own."""
+    robot = load_robot(options.robot)
+    check_robot(robot, options.robot)
+    return partial(contest, classifier=classifier_for(robot, folder / "classifier.npz"))
 
 
 def _cases(options: Namespace) -> tuple[Cases, Path]:
@@ -64,16 +76,22 @@ def _robot(options: Namespace) -> str:
     return str(Path(name).resolve()) if Path(name).is_file() else name
 
 
-def _write(options: Namespace, cases: Cases, outcomes: list[Outcome]) -> None:
+def _write(
+    options: Namespace,
+    cases: Cases,
+    outcomes: list[Outcome],
+    others: dict[str, list[Outcome]],
+) -> None:
     figures = score(outcomes)
+    rivals = {title: _names(score(theirs)) for title, theirs in others.items()}
     counts = confusion(outcomes)
-    text = json_text(_document(cases, outcomes, figures))
+    text = json_text(_document(cases, outcomes, figures, rivals))
     # All files appear together or none.
     with ExitStack() as files:
         if options.report is not None:
             picture = options.report.with_suffix(".svg")
             files.enter_context(replaced(options.report)).write(
-                page(figures, outcomes, picture.name).encode("utf-8")
+                page(figures, outcomes, picture.name, rivals).encode("utf-8")
             )
             draw_confusion(counts, files.enter_context(replaced(picture)))
         if options.json not in (None, "-"):
@@ -81,13 +99,19 @@ def _write(options: Namespace, cases: Cases, outcomes: list[Outcome]) -> None:
     print(text if options.json == "-" else plain_table(figures))
 
 
-def _document(cases: Cases, outcomes: list[Outcome], figures: dict[str, Figure]) -> dict[str, Any]:
+def _document(
+    cases: Cases,
+    outcomes: list[Outcome],
+    figures: dict[str, Figure],
+    rivals: dict[str, dict[str, Figure]],
+) -> dict[str, Any]:
     return {
         "format": FORMAT,
         "cases": dict(cases.key),
         "asked": len(cases.names),
         "done": len(outcomes),
-        "figures": {key: figure.as_json() for key, figure in figures.items()},
+        "figures": _shown(figures),
+        "naive": {title: _shown(theirs) for title, theirs in rivals.items()},
         "confusion": [
             {"truth": truth, "named": told, "number": number}
             for (truth, told), number in sorted(confusion(outcomes).items())
@@ -98,3 +122,12 @@ def _document(cases: Cases, outcomes: list[Outcome], figures: dict[str, Figure])
             if not o.right
         ],
     }
+
+
+def _names(figures: dict[str, Figure]) -> dict[str, Figure]:
+    """Keep what tells how causes are named: naive methods predict nothing, and are not timed."""
+    return {k: f for k, f in figures.items() if not k.startswith(("closure", "seconds"))}
+
+
+def _shown(figures: dict[str, Figure]) -> dict[str, Any]:
+    return {key: figure.as_json() for key, figure in figures.items()}

@@ -38,6 +38,11 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "--report", type=Path, metavar="OUT.md", help="write a page, and its picture beside it"
     )
     parser.add_argument("--jobs", type=int, metavar="N", help="how many processes a diagnosis uses")
+    parser.add_argument(
+        "--naive",
+        action="store_true",
+        help="let three naive methods answer the same cases, for comparison (takes longer)",
+    )
     add_robot(parser)
     parser.set_defaults(run=run)
 
