@@ -91,12 +91,19 @@ def _thresholds() -> FloatArray:
     return 0.5 * (np.arange(PLAYS) + 0.5) / PLAYS
 
 
-def _played(weights: FloatArray, facts: Facts) -> tuple[float, ...]:
+def _fine_thresholds() -> FloatArray:
+    """Return thresholds over the range that lie closer where they are small.
+
+    A real loop leaves its turning points steeply, and most of its loops are small ones.
+    """
+    return 0.5 * ((np.arange(PLAYS) + 0.5) / PLAYS) ** 2
+
+
+def _played(weights: FloatArray, thresholds: FloatArray, facts: Facts) -> tuple[float, ...]:
     """Return the numbers of plays; w₀ such that the gain from end to end is 1.
 
     There and back a play of threshold r moves by 2 r less than its input.
     """
-    thresholds = _thresholds()
     direct = 1.0 - float(np.sum(weights * (1.0 - 2.0 * thresholds)))
     return (facts.low, direct, *(facts.span * thresholds), *weights)
 
@@ -112,11 +119,12 @@ def _spread(values: Values, facts: Facts) -> tuple[float, ...]:
     weights = thresholds ** (values["shape"] - 1.0)
     widths = np.minimum(2.0 * thresholds, 1.0 - 2.0 * thresholds)
     weights *= values["width"] / facts.span / float(np.sum(weights * widths))
-    return _played(weights, facts)
+    return _played(weights, thresholds, facts)
 
 
 def _single(values: Values, facts: Facts) -> tuple[float, ...]:
-    return _played(np.array([values[f"weight_{i + 1}"] for i in range(PLAYS)]), facts)
+    weights = np.array([values[f"weight_{i + 1}"] for i in range(PLAYS)])
+    return _played(weights, _fine_thresholds(), facts)
 
 
 def _bent(values: Values, facts: Facts) -> tuple[float, ...]:
@@ -200,15 +208,15 @@ HYSTERESIS = Effect(
         ),
         Formulation(
             name="ten_plays",
-            equation="y = w₀ x + Σ wᵢ Pᵢ(x), every wᵢ by itself, rᵢ = (i − ½)/20 of the range",
+            equation="y = w₀ x + Σ wᵢ Pᵢ(x), every wᵢ by itself, rᵢ = ((i − ½)/10)²/2 of the range",
             source="Kuhnen, European Journal of Control 9 (2003) 407–418",
             parameters=tuple(
                 Parameter(
                     f"weight_{i}",
-                    f"w{i}, of the play with threshold {(i - 0.5) / 20:g}",
+                    f"w{i}, of the play with threshold {((i - 0.5) / 10) ** 2 / 2:g}",
                     "",
                     0.0,
-                    0.6,
+                    2.0,
                     0.04,
                 )
                 for i in range(1, PLAYS + 1)

@@ -4,40 +4,44 @@ from dataclasses import replace
 
 from rotemina.sim.gap.baseline import GAIN, baseline
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.fit import fit, held_out
-from rotemina.sim.gap.models import Explanation
-from rotemina.sim.gap.selection import LEAST_SHARE
+from rotemina.sim.gap.fit import fit
+from rotemina.sim.gap.models import Explanation, explanation
+from rotemina.sim.gap.selection import LEAST_POWER, LEAST_SHARE
 from rotemina.sim.robot.model import AxisEffect
 
 _BRINGS_ALONG = {"hysteresis": (GAIN,)}  # what the shape of a loop cannot be told from
 
 
-def attributed(evidence: Evidence, raw: float, explanation: Explanation) -> Explanation:
+def attributed(evidence: Evidence, bare: Explanation, explained: Explanation) -> Explanation:
     """Return the explanation with those own parameters as causes that alone close their share.
 
     What does not is left where it was, as a small re-tuning that the causes bring along.
     """
-    named = {cause.id for cause in explanation.causes}
+    named = {cause.id for cause in explained.causes}
     own = [one for one in baseline(evidence) if one.id not in named]
     brought = {name for cause in named for name in _BRINGS_ALONG.get(cause, ())}
-    found = list(explanation.causes)
-    alone = {one.id: _score_without(evidence, explanation, one.id) for one in own}
+    found = list(explained.causes)
+    without = {one.id: _without(evidence, explained, one.id) for one in own}
     for one in own:
-        closes = alone[one.id] - explanation.score >= LEAST_SHARE * (raw - 1.0)
-        if closes and one.id not in brought:
-            found.append(_fitted(explanation, one.id))
+        if one.id not in brought and _closes(bare, without[one.id], explained):
+            found.append(_fitted(explained, one.id))
     if not found and own:
         # Either would do: the one without which most is left.
-        most = max(own, key=lambda one: alone[one.id])
-        found.append(_fitted(explanation, most.id))
-    return replace(explanation, causes=tuple(found))
+        most = max(own, key=lambda one: without[one.id].score)
+        found.append(_fitted(explained, most.id))
+    return replace(explained, causes=tuple(found))
 
 
-def _score_without(evidence: Evidence, explanation: Explanation, name: str) -> float:
-    others = [one for one in explanation.fit.effects if one.id != name]
-    fitted = fit(evidence, others, most_steps=6)
-    left = held_out(evidence, fitted)
-    return float((left**2).mean())
+def _closes(bare: Explanation, before: Explanation, after: Explanation) -> bool:
+    return any(
+        before.by_tap[tap] - left >= max(LEAST_SHARE * (bare.by_tap[tap] - 1.0), LEAST_POWER)
+        for tap, left in after.by_tap.items()
+    )
+
+
+def _without(evidence: Evidence, explained: Explanation, name: str) -> Explanation:
+    others = [one for one in explained.fit.effects if one.id != name]
+    return explanation(evidence, len(explained.causes), fit(evidence, others, most_steps=6))
 
 
 def _fitted(explanation: Explanation, name: str) -> AxisEffect:

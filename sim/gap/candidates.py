@@ -5,6 +5,7 @@ outliers are found by what they leave behind, and so are events such as lost ste
 """
 
 from collections.abc import Iterator, Sequence
+from math import isfinite
 
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.errors import EffectError
@@ -28,6 +29,38 @@ def candidates(evidence: Evidence) -> tuple[AxisEffect, ...]:
         if effect.id not in _EVENTS:
             found += _formulations(evidence, effect, sources if effect.coupled else [None])
     return tuple(found)
+
+
+def scouts(evidence: Evidence, own: Sequence[AxisEffect]) -> list[AxisEffect]:
+    """Return the candidates that are looked at first: what is quick to simulate.
+
+    Of an effect that has no such formulation, the usual one.
+    """
+    quick = [one for one in own if not is_slow(evidence, one)]
+    seen = {(one.id, one.from_axis) for one in quick}
+    for one in own:
+        if (one.id, one.from_axis) not in seen:
+            seen.add((one.id, one.from_axis))
+            quick.append(one)
+    return quick
+
+
+def siblings(chosen: Sequence[AxisEffect], own: Sequence[AxisEffect]) -> list[AxisEffect]:
+    """Return the other formulations of chosen effects among the candidates."""
+    effects = {(one.id, one.from_axis) for one in chosen}
+    known = {(one.id, one.from_axis, one.formulation) for one in chosen}
+    return [
+        one
+        for one in own
+        if (one.id, one.from_axis) in effects
+        and (one.id, one.from_axis, one.formulation) not in known
+    ]
+
+
+def is_slow(evidence: Evidence, candidate: AxisEffect) -> bool:
+    """Tell whether a candidate needs steps finer than the records'."""
+    attached = Attached.of(evidence.robot, candidate)
+    return bool(isfinite(attached.formulation.inner_step_s(attached.values, attached.facts)))
 
 
 def _formulations(

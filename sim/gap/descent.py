@@ -16,7 +16,8 @@ from rotemina.sim.arrays import BoolArray, FloatArray
 
 _STEP = 1e-3  # of a parameter, for its derivative
 _DAMPING = 1e-3  # at first, of the diagonal
-_TRIES = 6  # of damping a step until it goes down
+_LEAST_DAMPING = 1e-9
+_TRIES = 5  # of damping a step until it goes down
 _ENOUGH = 1e-3  # relative gain of a step below which no further one is worth its runs
 _TINY = 1e-12
 
@@ -54,24 +55,14 @@ def descend(
     return Descent(x, left, jacobian)
 
 
-def bounded_step(
-    jacobian: FloatArray,
-    left: FloatArray,
-    x: FloatArray,
-    low: FloatArray,
-    high: FloatArray,
-    damping: float,
-) -> FloatArray:
-    """Return where one damped Gauss-Newton step leads, within bounds."""
-    hessian, slope = jacobian.T @ jacobian, jacobian.T @ left
-    free = _free(x, slope, low, high)
-    diagonal = np.diag(hessian)[free]
-    damped = hessian[np.ix_(free, free)] + np.diag(
-        damping * diagonal + _TINY * diagonal.max(initial=1.0)
-    )
-    after = x.copy()
-    after[free] -= np.linalg.solve(damped, slope[free])
-    return np.asarray(np.clip(after, low, high))
+def one_step(
+    residual: Residual, start: FloatArray, low: FloatArray, high: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return where one step down from ``start`` (p,) leads, and the residual (n,) there."""
+    x = np.clip(start, low, high)
+    left = residual(x)
+    step = _step(residual, x, left, _slopes(residual, x, left, high), low, high, _DAMPING)
+    return (x, left) if step is None else step[:2]
 
 
 def _step(
@@ -85,11 +76,18 @@ def _step(
 ) -> tuple[FloatArray, FloatArray, float] | None:
     """Return x, residual and damping after a step that goes down; None where none does."""
     before = float(left @ left)
+    slope = jacobian.T @ left
+    free = _free(x, slope, low, high)
+    hessian = (jacobian.T @ jacobian)[np.ix_(free, free)]
+    diagonal = np.diag(hessian)
+    still = _TINY * diagonal.max(initial=1.0)  # what no row speaks of stays
     for _ in range(_TRIES):
-        after = bounded_step(jacobian, left, x, low, high, damping)
+        after = x.copy()
+        after[free] -= np.linalg.solve(hessian + np.diag(damping * diagonal + still), slope[free])
+        after = np.clip(after, low, high)
         then = residual(after)
         if float(then @ then) < before:
-            return after, then, max(damping / 10.0, 1e-9)
+            return after, then, max(damping / 10.0, _LEAST_DAMPING)
         damping *= 10.0
     return None
 

@@ -3,7 +3,7 @@
 The constant part of a difference is no evidence: the offset of a record is a nuisance.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple, Self
 
@@ -56,13 +56,21 @@ class Observation:
         return tuple(self.real)
 
 
+def _unheard() -> None:
+    """Do nothing."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Evidence:
-    """All records that speak of one axis of a robot, whose own effects are part of the model."""
+    """All records that speak of one axis of a robot, whose own effects are part of the model.
+
+    ``heartbeat`` is called before every simulation; what it raises ends what is under way.
+    """
 
     robot: Robot
     axis: str
     observations: tuple[Observation, ...]
+    heartbeat: Callable[[], None] = _unheard
     _runs: dict[tuple[int, tuple[str, ...]], Run] = field(default_factory=dict)
     _own: dict[tuple[int, Tap], FloatArray] = field(default_factory=dict)
 
@@ -94,7 +102,11 @@ class Evidence:
 
     def with_model(self, robot: Robot) -> "Evidence":
         """Return the same evidence beside another model of the machine."""
-        return Evidence(robot, self.axis, self.observations)
+        return Evidence(robot, self.axis, self.observations, self.heartbeat)
+
+    def with_observations(self, observations: Sequence[Observation]) -> "Evidence":
+        """Return evidence of other observations of the same axis."""
+        return Evidence(self.robot, self.axis, tuple(observations), self.heartbeat)
 
     @property
     def parts(self) -> list[Part]:
@@ -147,6 +159,7 @@ class Evidence:
         EffectError, PlantError
             If it cannot be simulated.
         """
+        self.heartbeat()
         robot = replace(self.robot, effects=(*self.robot.effects, *effects))
         plants: dict[bool, Plant] = {}
         answers: list[Signals] = []

@@ -1,12 +1,13 @@
 """One axis examined: screened, fitted, selected, judged."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.formulation import Stage
+from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.attribution import attributed
 from rotemina.sim.gap.blocks import drawn_means
 from rotemina.sim.gap.diagnosis import (
@@ -17,11 +18,19 @@ from rotemina.sim.gap.diagnosis import (
     Ranked,
     Verdict,
 )
+from rotemina.sim.gap.disturbances import Disturbance, by_effect, set_aside, wander
 from rotemina.sim.gap.evidence import Evidence, block_rows
-from rotemina.sim.gap.models import Explanation
+from rotemina.sim.gap.models import Explanation, mean_squares, untouched
 from rotemina.sim.gap.probe import Probe, probed
 from rotemina.sim.gap.rivals import Key, Rival, not_ruled_out, paired_blocks, rivals
-from rotemina.sim.gap.selection import Selection, select
+from rotemina.sim.gap.selection import (
+    CLEARLY,
+    LEAST_POWER,
+    LEAST_SHARE,
+    NOTICED,
+    Selection,
+    select,
+)
 from rotemina.sim.gap.shrinkage import at_tap, closing, floor_of, rms, shrinkage
 from rotemina.sim.gap.verdict import closed, decide
 from rotemina.sim.gap.where import Place
@@ -29,6 +38,9 @@ from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
 _SURE = 1.96  # standard deviations of a 95 % interval
+_GAP = 1.5  # mean square over the floor from which there is something to explain
+_NOT_NOISE = 0.6  # of a raised floor's power: a fit that leaves less shows that it was no noise
+_SURE_OF_DISTURBANCES = 0.95
 _RANKED = 8  # rivals that are listed
 
 Told = Callable[[str, str | None], None]
@@ -36,9 +48,13 @@ Told = Callable[[str, str | None], None]
 
 @dataclass(frozen=True, eq=False)
 class Examination:
-    """What was found on an axis, before it is put into words."""
+    """What was found on an axis, before it is put into words.
+
+    ``evidence`` is without what was set aside; ``disturbances`` are what of that counts.
+    """
 
     evidence: Evidence
+    disturbances: tuple[Disturbance, ...]
     selection: Selection
     best: Explanation
     verdict: Verdict
@@ -48,20 +64,73 @@ class Examination:
     @property
     def fitted(self) -> tuple[AxisEffect, ...]:
         """What corrects the model: the causes and the small re-tuning that they bring along."""
-        if self.verdict is not Verdict.EXPLAINED:
+        if self.verdict is not Verdict.EXPLAINED or not self.best.causes:
             return ()
         return tuple(one for one in self.best.fit.effects if _acts(one))
 
 
-def examine(evidence: Evidence, told: Told, *, jobs: int = 1) -> Examination:
+def examine(whole: Evidence, told: Told, *, jobs: int = 1) -> Examination:
     """Look for the causes of an axis' gap."""
-    selection = select(evidence, told, jobs=jobs)
+    evidence, aside = set_aside(whole)
+    selection, best = _explained(evidence, told, jobs)
+    raised = [one for one in aside if one.effect == "sensor_noise"]
+    if raised and best.fit.cost < _NOT_NOISE:
+        # What seemed noise was explained: the sensor is as good as declared.
+        aside = tuple(one for one in aside if one.effect != "sensor_noise")
+        evidence = evidence.with_observations(
+            [
+                replace(own, floor=was.floor)
+                for own, was in zip(evidence.observations, whole.observations, strict=True)
+            ]
+        )
+        selection, best = _explained(evidence, told, jobs)
     told("deciding", None)
-    best = attributed(evidence, selection.raw, selection.best)
+    drift = wander(evidence, best.fit.residual)
+    disturbances = _counting(whole, evidence, best, [*aside, *([drift] if drift else [])])
     ranked = {key: rivals(evidence, best, selection.tried, key) for key in best.ids}
     ambiguous = [not_ruled_out(ranked[key], key) for key in best.ids]
-    verdict = decide(selection.raw, best, ambiguous)
-    return Examination(evidence, selection, best, verdict, ranked, probed(evidence, best.held_out))
+    power = sum(one.power for one in disturbances)
+    wandered = sum(one.power for one in disturbances if one.effect == "sensor_drift")
+    verdict = decide(selection.raw + power - wandered, max(best.score - wandered, 1.0), ambiguous)
+    if verdict is Verdict.EXPLAINED and not disturbances and not best.causes:
+        verdict = Verdict.NONE
+    return Examination(
+        evidence,
+        disturbances,
+        selection,
+        best,
+        verdict,
+        ranked,
+        probed(evidence, best.held_out),
+    )
+
+
+def _explained(evidence: Evidence, told: Told, jobs: int) -> tuple[Selection, Explanation]:
+    """Return the selection, and the best explanation with its own parameters as causes."""
+    bare = untouched(evidence)
+    if max(bare.by_tap.values()) < _GAP:
+        return Selection(bare, bare, bare, ()), bare
+    selection = select(evidence, told, jobs=jobs)
+    return selection, attributed(evidence, selection.bare, selection.best)
+
+
+def _counting(
+    whole: Evidence, evidence: Evidence, best: Explanation, found: Sequence[Disturbance]
+) -> tuple[Disturbance, ...]:
+    """Return the disturbances that are a cause: each closes its share, or clearly what is left."""
+    raw = mean_squares(whole, whole.residual())
+    by_tap = {
+        tap: mean
+        + sum(one.power for one in found if one.tap is tap and one.effect != "sensor_drift")
+        for tap, mean in best.by_tap.items()
+    }
+    counting = []
+    for one in by_effect(found):
+        left = by_tap[one.tap] - 1.0
+        share = one.power >= LEAST_SHARE * (raw[one.tap] - 1.0)
+        if one.power >= LEAST_POWER and (share or one.power >= CLEARLY * left):
+            counting.append(one)
+    return tuple(counting)
 
 
 def told_of(
@@ -70,14 +139,14 @@ def told_of(
     """Put an examination into words and numbers."""
     evidence, best = examination.evidence, examination.best
     explained = examination.verdict is Verdict.EXPLAINED
+    causes: list[Cause] = []
     if explained:
         causes = [_cause(examination, number, rng) for number in range(len(best.causes))]
-        causes.sort(key=lambda one: -(one.closed or 0.0))
+        causes += [_disturbance(examination, one) for one in examination.disturbances]
+        causes.sort(key=lambda one: -one.gap_before)
     elif examination.verdict is Verdict.UNKNOWN:
         causes = [_unknown(examination, places, rng)]
-    else:
-        causes = []
-    shown = best if explained else replace(examination.selection.retuned)
+    shown = best if explained else examination.selection.retuned
     return AxisDiagnosis(
         axis=evidence.axis,
         verdict=examination.verdict,
@@ -118,6 +187,30 @@ def _cause(examination: Examination, number: int, rng: np.random.Generator) -> C
         closed=share,
         closed_interval=interval,
         parameters=_parameters(evidence, best, asked),
+    )
+
+
+def _disturbance(examination: Examination, one: Disturbance) -> Cause:
+    evidence, best = examination.evidence, examination.best
+    floor = floor_of(evidence, one.tap)
+    left = best.by_tap[one.tap]
+    if one.effect == "sensor_drift":
+        left = max(left - one.power, 1.0)
+    before = left + one.power
+    share = closed(before, left)
+    return Cause(
+        axis=evidence.axis,
+        effect=one.effect,
+        formulation=None,
+        stage=effect_named(one.effect).stage.value,
+        tap=one.tap,
+        from_axis=None,
+        probability=_SURE_OF_DISTURBANCES,
+        ambiguous_with=(),
+        gap_before=floor * float(np.sqrt(before)),
+        gap_after=floor * float(np.sqrt(left)),
+        closed=share,
+        closed_interval=(share, share),
     )
 
 
@@ -210,10 +303,14 @@ def _ranking(examination: Examination, rng: np.random.Generator) -> tuple[Ranked
 
 def _remarks(examination: Examination) -> tuple[str, ...]:
     best, probe = examination.best, examination.probe
-    if best.score <= 2.0 or not probe.depends_on:
-        return ()
+    said = tuple(one.note for one in examination.disturbances)
+    if best.score <= NOTICED or not probe.depends_on:
+        return said
     groups = ", ".join(f"{name} ({share:.0%})" for name, share in probe.depends_on[:3])
-    return (f"What is left depends on {groups}, as far as simple features predict it.",)
+    return (
+        *said,
+        f"What is left depends on {groups}, as far as simple features predict it.",
+    )
 
 
 def _acts(effect: AxisEffect) -> bool:

@@ -86,6 +86,11 @@ class Fit:
         """Orthonormal directions (rows, parameters) in which the fit can still give way."""
         return np.linalg.qr(self.jacobian)[0]
 
+    @cached_property
+    def beside(self) -> FloatArray:
+        """What is left (rows,) that the fit could not take away even so."""
+        return np.asarray(self.residual - self.basis @ (self.basis.T @ self.residual))
+
     def deviation(self, numbers: IntArray) -> FloatArray:
         """Return the standard deviation (parameters,) of ``x``, infinite where nothing tells.
 

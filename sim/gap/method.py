@@ -121,9 +121,15 @@ class _Run:
         context = [e for other, one in self.examined.items() if other != name for e in one.fitted]
         evidence = evidence.with_model(_with(self.robot, context))
         steps = {"screening": 0.0, "fitting": 0.3, "deciding": 0.9}
+        latest = Progress("screening", name, None, begin)
 
         def told(stage: str, candidate: str | None) -> None:
-            self._tell(stage, name, candidate, begin + share * steps[stage])
+            nonlocal latest
+            done = max(latest.share, begin + share * steps[stage])
+            latest = Progress(stage, name, candidate, done)
+            self.listener(latest)
+
+        evidence = replace(evidence, heartbeat=lambda: self.listener(latest))
 
         before = float(np.mean(self._bare(name).residual() ** 2))
         now = float(np.mean(evidence.residual() ** 2))

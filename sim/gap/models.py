@@ -1,6 +1,6 @@
 """Explanations of an axis' gap: causes, fitted together with the model's own parameters."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -10,7 +10,10 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.baseline import baseline
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import Fit, fit, held_out
+from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
+
+MOST_STEPS = 12
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,11 +28,14 @@ class Explanation:
         Of the causes and then of the model's own parameters, as far as they are no causes.
     held_out : (rows,)
         What is left of each record by a fit to the others.
+    by_tap : mapping of Tap to float
+        Its mean square over the floor, tap by tap.
     """
 
     causes: tuple[AxisEffect, ...]
     fit: Fit
     held_out: FloatArray
+    by_tap: Mapping[Tap, float]
 
     @cached_property
     def score(self) -> float:
@@ -43,11 +49,38 @@ class Explanation:
 
 
 def explain(
-    evidence: Evidence, causes: Sequence[AxisEffect], *, most_steps: int = 12
+    evidence: Evidence, causes: Sequence[AxisEffect], *, most_steps: int = MOST_STEPS
 ) -> Explanation:
     """Fit causes, from the parameters that they name on, together with the model's own."""
-    fitted = fit(evidence, beside(evidence, causes), most_steps=most_steps)
-    return Explanation(fitted.effects[: len(causes)], fitted, held_out(evidence, fitted))
+    return explanation(evidence, len(causes), sketched(evidence, causes, most_steps))
+
+
+def sketched(evidence: Evidence, causes: Sequence[AxisEffect], most_steps: int) -> Fit:
+    """Return a fit of causes together with the model's own parameters, after so many steps."""
+    return fit(evidence, beside(evidence, causes), most_steps=most_steps)
+
+
+def explanation(evidence: Evidence, causes: int, fitted: Fit) -> Explanation:
+    """Judge a fit whose first few effects are causes on data that it did not see."""
+    left = held_out(evidence, fitted)
+    return Explanation(fitted.effects[:causes], fitted, left, mean_squares(evidence, left))
+
+
+def untouched(evidence: Evidence) -> Explanation:
+    """Return the model as it stands, with what its own parameters could do."""
+    bare = sketched(evidence, (), 0)
+    return Explanation((), bare, bare.residual, mean_squares(evidence, bare.residual))
+
+
+def mean_squares(evidence: Evidence, left: FloatArray) -> dict[Tap, float]:
+    """Return the mean square of a residual (rows,), tap by tap."""
+    rows: dict[Tap, list[slice]] = {}
+    for part in evidence.parts:
+        rows.setdefault(part.tap, []).append(part.rows)
+    return {
+        tap: float(np.mean(np.concatenate([left[one] for one in own]) ** 2))
+        for tap, own in rows.items()
+    }
 
 
 def beside(evidence: Evidence, causes: Sequence[AxisEffect]) -> list[AxisEffect]:

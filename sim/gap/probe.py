@@ -6,11 +6,12 @@ shows what any model could reach at best (the ceiling of a diagnosis).
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from scipy.signal import lfilter
 
-from rotemina.sim.arrays import FloatArray
+from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import folds
@@ -18,6 +19,7 @@ from rotemina.sim.records.record import Record, Tap
 
 _SETTLING_S = (0.003, 0.03, 0.3, 3.0)  # time constants of what follows a command late
 _RIDGE = 1e-3  # of the features' power
+_TINY = 1e-12
 _LEAST_GAIN = 0.05  # of what is left, that a group of features must predict to be named
 
 
@@ -42,34 +44,64 @@ class Probe:
 def probed(evidence: Evidence, residual: FloatArray) -> Probe:
     """Try to predict a residual (rows,) over the floor from features of the commands."""
     groups = _features(evidence)
-    power = float(np.mean(residual**2))
-    left = _unpredicted(evidence, residual, list(groups.values()))
+    features = np.hstack(list(groups.values()))
+    learned = [_Learned.of(features, residual, out) for _, out in folds(evidence)]
+    every = list(range(features.shape[1]))
+    left = _unpredicted(features, residual, learned, every)
     alone = {
-        name: 1.0 - float(np.mean(_unpredicted(evidence, residual, [own]) ** 2)) / power
-        for name, own in groups.items()
+        name: 1.0 - _score(_unpredicted(features, residual, learned, columns)) / _score(residual)
+        for name, columns in _columns(groups).items()
     }
     named = sorted(alone.items(), key=lambda pair: -pair[1])
     return Probe(left, tuple((name, share) for name, share in named if share >= _LEAST_GAIN))
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Learned:
+    """What the rows of a fold, ``out`` (rows,), say of features: gram (m, m) and moments (m,)."""
+
+    out: BoolArray
+    gram: FloatArray
+    moments: FloatArray
+
+    @classmethod
+    def of(cls, features: FloatArray, residual: FloatArray, out: BoolArray) -> Self:
+        own = features[out]
+        return cls(out, own.T @ own, own.T @ residual[out])
+
+
 def _unpredicted(
-    evidence: Evidence, residual: FloatArray, groups: Sequence[FloatArray]
+    features: FloatArray, residual: FloatArray, learned: Sequence[_Learned], columns: Sequence[int]
 ) -> FloatArray:
-    """Return what ridge regression on features leaves of each fold by fitting the others.
+    """Return what ridge regression on some features leaves of each fold by fitting the others.
 
     A prediction worse than none is left out: the black box then has nothing to say there.
     """
-    features = np.hstack(groups)
     left = residual.copy()
-    for _, out in folds(evidence):
-        known = features[~out]
-        gram = known.T @ known
-        gram += _RIDGE * np.diag(np.diag(gram)) + 1e-12 * np.trace(gram) * np.eye(len(gram))
-        weights = np.linalg.solve(gram, known.T @ residual[~out])
-        then = residual[out] - features[out] @ weights
-        if float(then @ then) < float(residual[out] @ residual[out]):
-            left[out] = then
+    some = np.ix_(columns, columns)
+    gram = sum((one.gram[some] for one in learned), np.zeros((len(columns), len(columns))))
+    moments = sum((one.moments[columns] for one in learned), np.zeros(len(columns)))
+    for one in learned:
+        known = gram - one.gram[some]
+        known += np.diag(_RIDGE * np.diag(gram)) + _TINY * np.trace(gram) * np.eye(len(gram))
+        weights = np.linalg.solve(known, moments - one.moments[columns])
+        then = residual[one.out] - features[one.out][:, columns] @ weights
+        if float(then @ then) < float(residual[one.out] @ residual[one.out]):
+            left[one.out] = then
     return left
+
+
+def _columns(groups: Mapping[str, FloatArray]) -> dict[str, list[int]]:
+    """Return which columns of all features each group has."""
+    found, begin = {}, 0
+    for name, own in groups.items():
+        found[name] = list(range(begin, begin + own.shape[1]))
+        begin += own.shape[1]
+    return found
+
+
+def _score(left: FloatArray) -> float:
+    return float(np.mean(left**2))
 
 
 def _features(evidence: Evidence) -> Mapping[str, FloatArray]:

@@ -15,6 +15,8 @@ _POWER = 2.0  # of what is left: how fast a rival loses with what it leaves
 _SLACK = 0.03  # of the floor's power, which two scores at the floor differ by chance
 _SURE = 3.0  # standard errors from which a difference counts in full
 _SAME = 0.2  # of the likeliest one's probability, from which a rival is not ruled out
+_SIMPLER = 3.0  # times likelier, on a tie, for each parameter less
+_MOST_MORE = 3  # parameters that count so
 _PRIOR: Mapping[str, float] = {  # others: 1
     "sensor_gain": 0.5,
     "sensor_nonlinearity": 0.5,
@@ -51,7 +53,13 @@ def rivals(
         (own,) = [key for key in keys if key not in others] or [cause]
         if own != cause:
             found.append((own, one))
-    weights = np.array([_weight(evidence, best, one) * _prior(key[0]) for key, one in found])
+    least = min(len(one.fit.free) for _, one in found)
+    weights = np.array(
+        [
+            _weight(evidence, best, one) * _prior(key[0], len(one.fit.free) - least)
+            for key, one in found
+        ]
+    )
     shares = weights / weights.sum()
     ranked = sorted(zip(found, shares, strict=True), key=lambda pair: -pair[1])
     return tuple(Rival(key[0], key[1], float(share), one) for (key, one), share in ranked)
@@ -68,8 +76,9 @@ def not_ruled_out(ranked: Sequence[Rival], cause: Key) -> tuple[str, ...]:
     return tuple(dict.fromkeys(names))
 
 
-def _prior(effect: str) -> float:
-    return _PRIOR.get(effect, 1.0)
+def _prior(effect: str, more_parameters: int) -> float:
+    """Return how likely an effect is before any record: the simpler one on a tie."""
+    return _PRIOR.get(effect, 1.0) * _SIMPLER ** -min(more_parameters, _MOST_MORE)
 
 
 def _weight(evidence: Evidence, best: Explanation, other: Explanation) -> float:

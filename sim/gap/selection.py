@@ -6,15 +6,24 @@ from dataclasses import dataclass
 from joblib import Parallel, delayed
 
 from rotemina.sim.gap.baseline import GAIN, RESONANCE
-from rotemina.sim.gap.candidates import candidates
+from rotemina.sim.gap.candidates import candidates, scouts, siblings
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.fit import fit
-from rotemina.sim.gap.models import Explanation, beside, explain
+from rotemina.sim.gap.fit import Fit, fit
+from rotemina.sim.gap.models import (
+    MOST_STEPS,
+    Explanation,
+    explain,
+    explanation,
+    sketched,
+    untouched,
+)
 from rotemina.sim.gap.screening import Screened, screen
+from rotemina.sim.gap.verdict import closed
 from rotemina.sim.robot.model import AxisEffect
 
 MOST_CAUSES = 3
 LEAST_SHARE = 0.03  # of the gap's power, that a cause must close
+LEAST_POWER = 0.2  # in floors squared, that a cause must close
 CLEARLY = 0.8  # of what others leave: so much closed counts, however small a share of the gap
 NOTICED = 2.0  # mean square over the floor from which what others leave may have a cause
 _FITTED = 6  # effects that are fitted in full after screening
@@ -22,6 +31,9 @@ _FITTED_LATER = 4
 _BEAM = 2  # explanations that are extended
 _ALSO = 4.0  # times the score of the best, up to which another is extended
 _HOPELESS = 30.0  # times the cost of the best candidate
+_WORTH_GOING_ON = (0.25, 0.5, 1.0)  # share closed by one, two causes, to look for another
+_SKETCHED = 3  # steps after which attempts are compared
+_BEHIND = 6.0  # times the cost of the best, from which an attempt is given up
 _LEAST_PROMISE = 0.5  # of the score: a best candidate that leaves more is no clear cause
 
 Told = Callable[[str, str | None], None]
@@ -31,14 +43,19 @@ Told = Callable[[str, str | None], None]
 class Selection:
     """What was tried on an axis, and what was found.
 
-    ``raw`` is the mean square of the gap over the floor; ``retuned`` the explanation without
-    causes, by the model's own parameters; ``tried`` holds all explanations, best first.
+    ``bare`` is the model as it stands; ``retuned`` the explanation without causes, by the model's
+    own parameters; ``tried`` holds all explanations, best first.
     """
 
-    raw: float
+    bare: Explanation
     retuned: Explanation
     best: Explanation
     tried: tuple[Explanation, ...]
+
+    @property
+    def raw(self) -> float:
+        """Mean square of the gap over the floor."""
+        return self.bare.score
 
 
 def select(evidence: Evidence, told: Told, *, jobs: int = 1) -> Selection:
@@ -47,62 +64,102 @@ def select(evidence: Evidence, told: Told, *, jobs: int = 1) -> Selection:
     ``told`` hears stage and candidate.
     """
     own = [one for one in candidates(evidence) if one.id not in (GAIN, RESONANCE)]
-    bare = fit(evidence, beside(evidence, ()), most_steps=0)
-    raw = bare.cost
+    bare = untouched(evidence)
     retuned = explain(evidence, ())
-    best, beam, tried = retuned, [Explanation((), bare, bare.residual)], [retuned]
+    best, beam, tried = retuned, [bare], [retuned]
     for level in range(MOST_CAUSES):
         found: list[Explanation] = []
         for begun in beam:
-            found += _extended(evidence, begun, own, raw, told, jobs)
-        found = _unique([*found, *([retuned] if level == 0 else [])])
-        tried += [one for one in found if one is not retuned]
-        if not found or not (level == 0 or enters(raw, best.score, found[0].score)):
+            found += _extended(evidence, begun, own, bare, told, jobs)
+        found = _unique(found)
+        tried += found
+        if not found or not enters(bare, best, found[0]):
             break
         best = found[0]
         beam = [one for one in found[:_BEAM] if one.score < _ALSO * best.score]
-        if best.score < NOTICED:
+        if best.score < NOTICED or closed(bare.score, best.score) < _WORTH_GOING_ON[level]:
             break
-    simplest = _simplified(evidence, raw, best)
-    return Selection(raw, retuned, simplest, tuple(sorted(tried, key=lambda one: one.score)))
+    simplest = _simplified(evidence, bare, best)
+    return Selection(bare, retuned, simplest, tuple(sorted(tried, key=lambda one: one.score)))
 
 
-def enters(raw: float, before: float, after: float) -> bool:
-    """Tell whether a cause that lowers the mean square over the floor by this much is one."""
-    closed = before - after
-    share = closed >= LEAST_SHARE * (raw - 1.0)
-    clear = before >= NOTICED and closed >= CLEARLY * (before - 1.0)
+def enters(bare: Explanation, before: Explanation, after: Explanation) -> bool:
+    """Tell whether what lowers the gap of any tap from ``before`` to ``after`` is a cause.
+
+    It closes its share of the gap of the ``bare`` model, or clearly most of what was left.
+    """
+    return any(
+        _closes(bare.by_tap[tap], before.by_tap[tap], left) for tap, left in after.by_tap.items()
+    )
+
+
+def _closes(raw: float, before: float, after: float) -> bool:
+    closing = before - after
+    share = closing >= max(LEAST_SHARE * (raw - 1.0), LEAST_POWER)
+    clear = before >= NOTICED and closing >= CLEARLY * (before - 1.0)
     return share or clear
+
+
+def _is_little(bare: Explanation, begun: Explanation) -> bool:
+    """Tell whether no single further cause can close its share of any tap's gap."""
+    return all(
+        left - 1.0 < max(LEAST_SHARE * (bare.by_tap[tap] - 1.0), LEAST_POWER)
+        for tap, left in begun.by_tap.items()
+    )
 
 
 def _extended(
     evidence: Evidence,
     begun: Explanation,
     own: Sequence[AxisEffect],
-    raw: float,
+    bare: Explanation,
     told: Told,
     jobs: int,
 ) -> list[Explanation]:
     """Return explanations with one more cause each."""
     named = set(begun.ids)
-    scouts = [one for one in own if (one.id, one.from_axis) not in named]
+    free = [one for one in own if (one.id, one.from_axis) not in named]
+    # No single further cause closes its share where less than that is left; only one that takes
+    # nearly all of it away is looked for then, and that shows at once.
+    little = bool(begun.causes) and _is_little(bare, begun)
     told("screening", None)
-    screened: list[Screened] = Parallel(n_jobs=jobs, prefer="threads")(
-        delayed(screen)(evidence, begun.fit, one) for one in scouts
-    )
-    least = min(one.cost for one in screened)
-    if begun.causes:
-        # No single further cause closes its share where less than that is left.
-        small = begun.score - 1.0 < LEAST_SHARE * (raw - 1.0)
-        if small and least > _LEAST_PROMISE * begun.score:
-            return []
-    chosen = _chosen(screened, _FITTED_LATER if begun.causes else _FITTED)
+    first = scouts(evidence, free)
+    screened = _screened(evidence, begun.fit, first, jobs, briefly=little)
+    if little and min(one.cost for one in screened) > _LEAST_PROMISE * begun.score:
+        return []
+    most = _FITTED_LATER if begun.causes else _FITTED
+    chosen = _chosen(screened, most)
+    others = [one for one in siblings(chosen, free) if one not in first]
+    chosen += [one.effect for one in _screened(evidence, begun.fit, others, jobs, briefly=True)]
     told("fitting", chosen[0].id)
+    return _fitted(evidence, [[*begun.causes, one] for one in chosen], jobs)
+
+
+def _screened(
+    evidence: Evidence, fitted: Fit, some: Sequence[AxisEffect], jobs: int, *, briefly: bool
+) -> list[Screened]:
     return list(
         Parallel(n_jobs=jobs, prefer="threads")(
-            delayed(explain)(evidence, [*begun.causes, one]) for one in chosen
+            delayed(screen)(evidence, fitted, one, briefly=briefly) for one in some
         )
     )
+
+
+def _fitted(
+    evidence: Evidence, attempts: Sequence[Sequence[AxisEffect]], jobs: int
+) -> list[Explanation]:
+    """Fit sets of causes; those that are far behind after a few steps are given up."""
+    number = len(attempts[0])
+    sketches: list[Fit] = Parallel(n_jobs=jobs, prefer="threads")(
+        delayed(sketched)(evidence, causes, _SKETCHED) for causes in attempts
+    )
+    least = min(one.cost for one in sketches)
+    ahead = [one for one in sketches if one.cost <= _BEHIND * least]
+    done: list[Fit] = Parallel(n_jobs=jobs, prefer="threads")(
+        delayed(fit)(evidence, one.effects, most_steps=MOST_STEPS - _SKETCHED) for one in ahead
+    )
+    behind = [one for one in sketches if one.cost > _BEHIND * least]
+    return [explanation(evidence, number, one) for one in (*done, *behind)]
 
 
 def _chosen(screened: Sequence[Screened], most: int) -> list[AxisEffect]:
@@ -130,7 +187,7 @@ def _unique(found: Sequence[Explanation]) -> list[Explanation]:
     return list(best.values())
 
 
-def _simplified(evidence: Evidence, raw: float, best: Explanation) -> Explanation:
+def _simplified(evidence: Evidence, bare: Explanation, best: Explanation) -> Explanation:
     """Take out, one after the other, causes without which the others do as well."""
     while len(best.causes) > 1:
         without = [
@@ -138,7 +195,7 @@ def _simplified(evidence: Evidence, raw: float, best: Explanation) -> Explanatio
             for cause in best.causes
         ]
         least = min(without, key=lambda one: one.score)
-        if enters(raw, least.score, best.score):
+        if enters(bare, least, best):
             break
         best = least
     return best

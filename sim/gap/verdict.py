@@ -3,24 +3,23 @@
 from collections.abc import Sequence
 
 from rotemina.sim.gap.diagnosis import Verdict
-from rotemina.sim.gap.models import Explanation
 
 _MOST_LEFT = 0.5  # of the gap's power, that an explanation may leave
 _MOST_RIVALS = 4  # from which a record cannot tell
 
 
-def decide(raw: float, best: Explanation, ambiguous: Sequence[Sequence[str]]) -> Verdict:
+def decide(raw: float, left: float, ambiguous: Sequence[Sequence[str]]) -> Verdict:
     """Return the verdict on an axis that has a gap.
 
     Parameters
     ----------
-    raw : float
-        Mean square of the gap over the floor.
-    best : Explanation
+    raw, left : float
+        Mean square over the floor of the gap, and of what the best explanation leaves of it on
+        data that it did not see.
     ambiguous : sequence of sequence of str
         For each cause, the effects that cannot be told from it.
     """
-    if closed(raw, best.score) < 1.0 - _MOST_LEFT:
+    if closed(raw, left) < 1.0 - _MOST_LEFT:
         return Verdict.UNKNOWN
     if any(len(others) >= _MOST_RIVALS for others in ambiguous):
         return Verdict.INSUFFICIENT

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rotemina.sim.effects.facts import Facts
-from rotemina.sim.effects.hysteresis import HYSTERESIS, WIDTH, bouc_wen
+from rotemina.sim.effects.hysteresis import HYSTERESIS, bouc_wen
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -48,14 +48,6 @@ def test_the_loop_from_end_to_end_has_its_width_and_a_gain_of_one(formulation, s
     assert width_at_middle(0, 1, formulation, **own) == pytest.approx(0.15, rel=1e-9)
     y = followed(through(0, 1, 0), formulation, **own)
     assert y[200] - y[400] == pytest.approx(1.0, rel=1e-9)
-
-
-def test_the_preset_of_the_single_weights_is_that_of_the_usual_formulation():
-    assert WIDTH.typical == 0.1
-    path = through(0.2, 0.9, 0.1, 0.5)
-    np.testing.assert_allclose(
-        followed(path, "ten_plays"), followed(path, "prandtl_ishlinskii"), atol=1e-12
-    )
 
 
 def test_a_long_bouc_wen_loop_has_its_width():

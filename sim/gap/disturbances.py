@@ -1,0 +1,305 @@
+"""What does not follow from the commands: outliers, lost steps, coarse steps, noise, vibration.
+
+None of it can be predicted sample by sample, so it is not fitted as the other effects are. It is
+found by what it leaves behind, and set aside so that it misleads no fit: outliers are left out,
+jumps taken back, vibration becomes a nuisance of each record, and noise raises the floor.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from rotemina.sim.arrays import BoolArray, FloatArray
+from rotemina.sim.effects.facts import Facts
+from rotemina.sim.gap.coarseness import coarse_step
+from rotemina.sim.gap.evidence import Evidence, Observation, Signals
+from rotemina.sim.gap.excursions import excursions
+from rotemina.sim.gap.jumps import jumps
+from rotemina.sim.gap.tones import tone_signals, tones
+from rotemina.sim.gap.wander import wandering
+from rotemina.sim.gap.whiteness import noise_level
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.model import StepperAxis
+
+_MORE_NOISE = 1.3  # floors from which noise is more than declared
+_SETTLED_S = 0.3  # after which a held axis rests
+_AROUND_A_JUMP_S = 0.03
+_SEEN_BY_REF = 0.3  # of a wander, that the reference may see of what is left
+_SAME_TONE = 0.02  # relative difference of frequencies that are one
+
+
+@dataclass(frozen=True, slots=True)
+class Disturbance:
+    """Something that chance or time alone decides.
+
+    ``power`` is what it adds to the mean square of the gap at the tap, in declared floors;
+    ``note`` a whole sentence.
+    """
+
+    effect: str
+    tap: Tap
+    power: float
+    note: str
+
+
+def set_aside(evidence: Evidence) -> tuple[Evidence, tuple[Disturbance, ...]]:
+    """Return evidence without what commands do not cause, and what that was."""
+    found: list[Disturbance] = []
+    for step in (_without_jumps, _without_tones, _without_excursions, _with_true_floors):
+        evidence, own = step(evidence)
+        found += own
+    return evidence, tuple(found)
+
+
+def _without_jumps(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
+    axis = evidence.robot.axes[evidence.axis]
+    if not isinstance(axis, StepperAxis):
+        return evidence, []
+    quantum = 4.0 * Facts.of(axis).full_step
+    observations, count = [], 0
+    power: dict[Tap, float] = {}
+    for observation, gaps in zip(evidence.observations, evidence.gaps(), strict=True):
+        tap = next(iter(gaps), None)
+        found = [] if tap is None else _jumps(observation, gaps, tap, quantum)
+        if found and tap is not None:
+            before = gaps[tap]
+            observation = _taken_back(observation, found)
+            after = evidence.with_observations([observation]).gaps()[0][tap]
+            power[tap] = power.get(tap, 0.0) + float(np.sum(before**2) - np.sum(after**2))
+            count += len(found)
+        observations.append(observation)
+    if not count:
+        return evidence, []
+    note = f"{count} sudden jumps by whole multiples of four full steps were taken back."
+    return evidence.with_observations(observations), [
+        Disturbance("lost_steps", tap, total / _rows(evidence, tap), note)
+        for tap, total in power.items()
+    ]
+
+
+def wander(evidence: Evidence, left: FloatArray) -> Disturbance | None:
+    """Return how far a sensor wanders, by what the best explanation leaves (rows,)."""
+    total, rows = 0.0, 0
+    for part in evidence.parts:
+        if part.tap is not Tap.MEAS:
+            continue
+        record = evidence.observations[part.record].record
+        own = wandering(record.time_s, left[part.rows], resting(record))
+        rows += part.rows.stop - part.rows.start
+        total += 0.0 if own is None else own * (part.rows.stop - part.rows.start)
+    if total == 0.0 or _true_motion_left(evidence, left) > _SEEN_BY_REF * total / rows:
+        return None
+    note = "The reading wanders slowly, at rest as well, whatever the axis does."
+    return Disturbance("sensor_drift", Tap.MEAS, total / rows, note)
+
+
+def _true_motion_left(evidence: Evidence, left: FloatArray) -> float:
+    """Return the power that is left at the reference, in floors of the sensor."""
+    power, rows = 0.0, 0
+    for part in evidence.parts:
+        floors = evidence.observations[part.record].floor
+        if part.tap is Tap.REF and Tap.MEAS in floors:
+            share = floors[Tap.REF] / floors[Tap.MEAS]
+            power += share**2 * float(np.sum(left[part.rows] ** 2))
+            rows += part.rows.stop - part.rows.start
+    return power / rows if rows else 0.0
+
+
+def _jumps(
+    observation: Observation, gaps: Signals, tap: Tap, quantum: float
+) -> list[tuple[int, float]]:
+    """Return rows and sizes, SI, of the jumps in a record."""
+    floor = observation.floor[tap]
+    found = jumps(observation.record.time_s, gaps[tap], quantum / floor)
+    return [(row, size * floor) for row, size in found]
+
+
+def _taken_back(observation: Observation, found: Sequence[tuple[int, float]]) -> Observation:
+    time_s = observation.record.time_s
+    offset = np.zeros(len(time_s))
+    kept = np.ones(len(time_s), dtype=np.bool_)
+    for row, size in found:
+        offset[row:] += size
+        kept &= np.abs(time_s - time_s[row]) > _AROUND_A_JUMP_S
+    moved = {tap: s if tap is Tap.U else s - offset for tap, s in observation.real.items()}
+    masks = dict(observation.kept)
+    for tap in moved:
+        if tap is not Tap.U:
+            masks[tap] = _kept(observation, tap) & kept
+    return replace(observation, real=moved, kept=masks)
+
+
+def _without_excursions(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
+    observations, power, count = [], 0.0, 0
+    for observation, gaps in zip(evidence.observations, evidence.gaps(), strict=True):
+        if Tap.MEAS in gaps:
+            gap = _sensor_gap(observation, gaps)
+            command = observation.record.signal(evidence.axis, Tap.CMD)
+            found = excursions(
+                observation.record.time_s, gap, command / observation.floor[Tap.MEAS]
+            )
+            kept = _kept(observation, Tap.MEAS)
+            found &= kept
+            if found.any():
+                around = float(np.median(gap))
+                power += float(np.sum((gap[found] - around) ** 2))
+                count += int(np.sum(np.diff(found.astype(np.int8), prepend=0) == 1))
+                masks = {**observation.kept, Tap.MEAS: kept & ~found}
+                observation = replace(observation, kept=masks)
+        observations.append(observation)
+    if not count:
+        return evidence, []
+    note = f"{count} spikes or dropouts of the sensor were left out."
+    share = power / _rows(evidence, Tap.MEAS)
+    return evidence.with_observations(observations), [
+        Disturbance("sensor_outliers", Tap.MEAS, share, note)
+    ]
+
+
+def _without_tones(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
+    by_record: list[list[float]] = []
+    gaps = evidence.gaps()
+    taps = [next((tap for tap in (Tap.REF, Tap.MEAS) if tap in gap), None) for gap in gaps]
+    for observation, gap, tap in zip(evidence.observations, gaps, taps, strict=True):
+        if tap is None:
+            return evidence, []
+        kept = _kept(observation, tap)
+        record = observation.record
+        still = resting(record) & kept
+        left = np.where(kept, gap[tap], 0.0)
+        by_record.append(tones(record.time_s, left, still))
+    shared = _shared(by_record)
+    if not shared:
+        return evidence, []
+    observations = []
+    for number, observation in enumerate(evidence.observations):
+        own = [lines[number] for lines in shared]
+        signals = tone_signals(observation.record.time_s, own)
+        observations.append(replace(observation, nuisance=signals))
+    quiet = evidence.with_observations(observations)
+    before, after = evidence.residual(), quiet.residual()
+    listed = ", ".join(f"{np.mean(lines):.4g} Hz" for lines in shared)
+    note = f"A vibration of {listed}, whatever the axis did, was set aside."
+    return quiet, [
+        Disturbance("vibration", tap, power, note)
+        for tap in dict.fromkeys(one for one in taps if one is not None)
+        for power in (_power(evidence, before, tap) - _power(evidence, after, tap),)
+    ]
+
+
+def _shared(by_record: Sequence[Sequence[float]]) -> list[list[float]]:
+    """Return lines that all records have, each with its frequency in every record."""
+    shared = []
+    for line in by_record[0] if by_record else []:
+        alike = [min(own, key=lambda other: abs(other - line), default=0.0) for own in by_record]
+        if all(abs(other - line) <= max(_SAME_TONE * line, 0.3) for other in alike):
+            shared.append(alike)
+    return shared
+
+
+def _with_true_floors(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
+    """Raise the floor of a sensor that is coarser or noisier than declared."""
+    gaps, answers = evidence.gaps(), evidence.response()
+    steps, levels, rows = [], [], []
+    for observation, gap, answer in zip(evidence.observations, gaps, answers, strict=True):
+        if Tap.MEAS not in gap:
+            continue
+        kept = _kept(observation, Tap.MEAS)
+        steps.append(_coarse(evidence, observation, answer, kept))
+        levels.append(noise_level(_sensor_gap(observation, gap)[kept]))
+        rows.append(int(kept.sum()))
+    if not levels:
+        return evidence, []
+    floor = _floor(evidence, Tap.MEAS)
+    coarse = [step for step in steps if step is not None]
+    level = float(np.sqrt(np.average(np.square(levels), weights=rows)))
+    if len(coarse) > len(steps) / 2:
+        step = float(np.median(coarse))
+        power = (step / floor) ** 2 / 12.0
+        note = f"The sensor reads in steps of {step:.3g}."
+        return _raised(evidence, np.sqrt(1.0 + power)), [
+            Disturbance("sensor_quantization", Tap.MEAS, power, note)
+        ]
+    if level > _MORE_NOISE:
+        note = f"The sensor is {level:.3g} times as noisy as declared."
+        return _raised(evidence, level), [
+            Disturbance("sensor_noise", Tap.MEAS, level**2 - 1.0, note)
+        ]
+    return evidence, []
+
+
+def _coarse(
+    evidence: Evidence, observation: Observation, answer: Signals, kept: BoolArray
+) -> float | None:
+    sensor = evidence.robot.axes[evidence.axis].sensor
+    reading = observation.real[Tap.MEAS][kept]
+    expected = _noisy(answer[Tap.MEAS][kept], 0.0 if sensor is None else sensor.noise_rms)
+    finest = observation.floor[Tap.MEAS]
+    if sensor is not None and sensor.resolution:
+        finest = max(finest, sensor.resolution)
+        expected = np.rint(expected / sensor.resolution) * sensor.resolution
+    return coarse_step(reading, expected, finest)
+
+
+def _noisy(reading: FloatArray, noise_rms: float) -> FloatArray:
+    """Return what a sensor as noisy as declared might read."""
+    rng = np.random.default_rng(0)  # any noise will do, but always the same
+    return np.asarray(reading + noise_rms * rng.standard_normal(len(reading)))
+
+
+def _raised(evidence: Evidence, times: float) -> Evidence:
+    return evidence.with_observations(
+        [
+            replace(one, floor={**one.floor, Tap.MEAS: one.floor[Tap.MEAS] * times})
+            if Tap.MEAS in one.floor
+            else one
+            for one in evidence.observations
+        ]
+    )
+
+
+def _sensor_gap(observation: Observation, gaps: Signals) -> FloatArray:
+    """Return what the sensor says more (n,) than the reference, or than the model; in floors."""
+    if Tap.REF not in observation.real:
+        return gaps[Tap.MEAS]
+    apart = observation.real[Tap.MEAS] - observation.real[Tap.REF]
+    return np.asarray((apart - np.median(apart)) / observation.floor[Tap.MEAS])
+
+
+def _kept(observation: Observation, tap: Tap) -> BoolArray:
+    kept = observation.kept.get(tap)
+    return np.ones(len(observation.real[tap]), dtype=np.bool_) if kept is None else kept
+
+
+def resting(record: Record) -> BoolArray:
+    """Return where (n,) every axis has been held for a while."""
+    rows = len(record.time_s)
+    last = np.full(rows, -np.inf)
+    for axis in record.axes:
+        if record.has(axis, Tap.CMD):
+            command = record.signal(axis, Tap.CMD)
+            moved = np.where(np.diff(command, prepend=command[0]) != 0.0, np.arange(rows), -1)
+            latest = np.maximum.accumulate(moved)
+            last = np.maximum(last, np.where(latest >= 0, record.time_s[latest], -np.inf))
+    return np.asarray(record.time_s - last > _SETTLED_S)
+
+
+def _power(evidence: Evidence, residual: FloatArray, tap: Tap) -> float:
+    rows = [part.rows for part in evidence.parts if part.tap is tap]
+    return float(np.mean(np.concatenate([residual[own] for own in rows]) ** 2))
+
+
+def _rows(evidence: Evidence, tap: Tap) -> int:
+    return sum(len(o.real[tap]) for o in evidence.observations if tap in o.real)
+
+
+def _floor(evidence: Evidence, tap: Tap) -> float:
+    floors = [o.floor[tap] for o in evidence.observations if tap in o.floor]
+    return float(np.sqrt(np.mean(np.square(floors))))
+
+
+def by_effect(found: Sequence[Disturbance]) -> Iterator[Disturbance]:
+    """Give one disturbance of each effect, at the tap where it shows first."""
+    seen: Mapping[str, Disturbance] = {one.effect: one for one in reversed(found)}
+    yield from seen.values()

@@ -1,0 +1,38 @@
+"""How much of a gap is noise: the level of its spectrum where nothing else is."""
+
+import numpy as np
+from scipy.signal import welch
+
+from rotemina.sim.arrays import FloatArray
+
+_SEGMENT_ROWS = 512
+_MEDIAN = 0.6931  # of the power of a line of white noise, over its mean
+_PIECES = 6  # of a record, of which the quietest tells of its noise
+_BANDS = 4
+_FLAT = 2.0  # of the second band over the last one
+_LEAST_ROWS = 256
+
+
+def noise_level(gap: FloatArray) -> float:
+    """Return the rms of the white noise in a gap (n,), in its unit.
+
+    The median over frequency of the spectrum of the quietest part of it: lines, slow motion and
+    what the command does leave most frequencies alone most of the time.
+    """
+    pieces = np.array_split(gap, min(_PIECES, max(len(gap) // _LEAST_ROWS, 1)))
+    return float(np.sqrt(min(_level(piece) for piece in pieces)))
+
+
+def _level(gap: FloatArray) -> float:
+    """Return the power of what is white: the least of the levels of several bands.
+
+    0 where the spectrum falls even where slow motion has no part in it, as a wander's does.
+    """
+    rows = min(_SEGMENT_ROWS, len(gap))
+    _, power = welch(gap, nperseg=rows)
+    segments = max(2 * len(gap) // rows - 1, 1)
+    bias = _MEDIAN + (1.0 - _MEDIAN) * (1.0 - 1.0 / np.sqrt(segments))
+    levels = [float(np.median(band)) for band in np.array_split(power[1:], _BANDS)]
+    if levels[1] > _FLAT * levels[-1]:
+        return 0.0
+    return float(min(levels) / bias / 2.0)
