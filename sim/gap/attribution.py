@@ -1,14 +1,16 @@
 """Which of the model's own parameters, re-tuned along with the causes, is a cause itself."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
-from rotemina.sim.gap.baseline import GAIN, baseline
+from rotemina.sim.gap.baseline import GAIN, OWN, baseline
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import fit
 from rotemina.sim.gap.models import Explanation, explanation
 from rotemina.sim.gap.selection import LEAST_POWER, LEAST_SHARE
 from rotemina.sim.robot.model import AxisEffect
 
+_REFITTED = 5
 _BRINGS_ALONG = {"hysteresis": (GAIN,)}  # what the shape of a loop cannot be told from
 
 
@@ -17,6 +19,8 @@ def attributed(evidence: Evidence, bare: Explanation, explained: Explanation) ->
 
     What does not is left where it was, as a small re-tuning that the causes bring along.
     """
+    if explained is bare:
+        return bare
     named = {cause.id for cause in explained.causes}
     own = [one for one in baseline(evidence) if one.id not in named]
     brought = {name for cause in named for name in _BRINGS_ALONG.get(cause, ())}
@@ -30,6 +34,31 @@ def attributed(evidence: Evidence, bare: Explanation, explained: Explanation) ->
         most = max(own, key=lambda one: without[one.id].score)
         found.append(_fitted(explained, most.id))
     return replace(explained, causes=tuple(found))
+
+
+def without_own(
+    evidence: Evidence,
+    best: Explanation,
+    tried: Sequence[Explanation],
+    cause: tuple[str, str | None],
+) -> list[Explanation]:
+    """Return what was tried, fitted without the model's own parameter if that is the cause.
+
+    It takes part in every fit, so that any explanation beside it would do as well.
+    """
+    if cause[0] not in OWN:
+        return list(tried)
+    others = [one for one in best.causes if (one.id, one.from_axis) != cause and one.id not in OWN]
+    rivals = [
+        one
+        for one in tried
+        if len(one.causes) == len(others) + 1 and all(own.id not in OWN for own in one.causes)
+    ]
+    return [
+        replace(refitted, causes=refitted.fit.effects[: len(one.causes)])
+        for one in sorted(rivals, key=lambda one: one.score)[:_REFITTED]
+        for refitted in (_without(evidence, one, cause[0]),)
+    ]
 
 
 def _closes(bare: Explanation, before: Explanation, after: Explanation) -> bool:

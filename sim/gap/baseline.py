@@ -4,6 +4,7 @@ from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.robot.model import AxisEffect, ForceAxis
 
 GAIN, RESONANCE = "gain_error", "resonance_mismatch"
+OWN = (GAIN, RESONANCE)  # effects that are no more than other numbers of the model
 
 
 def baseline(evidence: Evidence) -> tuple[AxisEffect, ...]:

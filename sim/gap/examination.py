@@ -8,7 +8,7 @@ import numpy as np
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.formulation import Stage
 from rotemina.sim.effects.registry import effect_named
-from rotemina.sim.gap.attribution import attributed
+from rotemina.sim.gap.attribution import attributed, without_own
 from rotemina.sim.gap.blocks import drawn_means
 from rotemina.sim.gap.diagnosis import (
     UNKNOWN,
@@ -22,6 +22,7 @@ from rotemina.sim.gap.disturbances import Disturbance, by_effect, set_aside, wan
 from rotemina.sim.gap.evidence import Evidence, block_rows
 from rotemina.sim.gap.models import Explanation, mean_squares, untouched
 from rotemina.sim.gap.probe import Probe, probed
+from rotemina.sim.gap.richness import is_poor
 from rotemina.sim.gap.rivals import Key, Rival, not_ruled_out, paired_blocks, rivals
 from rotemina.sim.gap.selection import (
     CLEARLY,
@@ -39,6 +40,7 @@ from rotemina.sim.robot.model import AxisEffect
 
 _SURE = 1.96  # standard deviations of a 95 % interval
 _GAP = 1.5  # mean square over the floor from which there is something to explain
+_NEAR = 4.0  # times the best score, up to which a re-tuning alone is a rival
 _NOT_NOISE = 0.6  # of a raised floor's power: a fit that leaves less shows that it was no noise
 _SURE_OF_DISTURBANCES = 0.95
 _RANKED = 8  # rivals that are listed
@@ -87,13 +89,17 @@ def examine(whole: Evidence, told: Told, *, jobs: int = 1) -> Examination:
     told("deciding", None)
     drift = wander(evidence, best.fit.residual)
     disturbances = _counting(whole, evidence, best, [*aside, *([drift] if drift else [])])
-    ranked = {key: rivals(evidence, best, selection.tried, key) for key in best.ids}
+    tried = _with_retuned(evidence, selection, best)
+    ranked = {
+        key: rivals(evidence, best, without_own(evidence, best, tried, key), key)
+        for key in best.ids
+    }
     ambiguous = [not_ruled_out(ranked[key], key) for key in best.ids]
     power = sum(one.power for one in disturbances)
     wandered = sum(one.power for one in disturbances if one.effect == "sensor_drift")
     verdict = decide(selection.raw + power - wandered, max(best.score - wandered, 1.0), ambiguous)
-    if verdict is Verdict.EXPLAINED and not disturbances and not best.causes:
-        verdict = Verdict.NONE
+    if is_poor(whole) and verdict is not Verdict.NONE and not disturbances:
+        verdict = Verdict.INSUFFICIENT
     return Examination(
         evidence,
         disturbances,
@@ -112,6 +118,17 @@ def _explained(evidence: Evidence, told: Told, jobs: int) -> tuple[Selection, Ex
         return Selection(bare, bare, bare, ()), bare
     selection = select(evidence, told, jobs=jobs)
     return selection, attributed(evidence, selection.bare, selection.best)
+
+
+def _with_retuned(
+    evidence: Evidence, selection: Selection, best: Explanation
+) -> tuple[Explanation, ...]:
+    """Return what was tried, the model's own parameters by name if they come near."""
+    if not selection.tried or selection.retuned.score > _NEAR * best.score:
+        return selection.tried
+    named = attributed(evidence, selection.bare, selection.retuned)
+    others = [one for one in selection.tried if one is not selection.retuned]
+    return (*others, replace(named, causes=named.causes[:1]))
 
 
 def _counting(

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.gap.baseline import OWN
 from rotemina.sim.gap.blocks import Blocks
 from rotemina.sim.gap.evidence import Evidence, block_rows
 from rotemina.sim.gap.models import Explanation
@@ -43,12 +44,15 @@ class Rival:
 def rivals(
     evidence: Evidence, best: Explanation, tried: Sequence[Explanation], cause: Key
 ) -> tuple[Rival, ...]:
-    """Return what was tried in the place of a cause, and the cause itself, likeliest first."""
-    others = [key for key in best.ids if key != cause]
+    """Return what was tried in the place of a cause, and the cause itself, likeliest first.
+
+    The model's own parameters take part in all of them, causes or not.
+    """
+    others = [key for key in best.ids if key != cause and key[0] not in OWN]
     found = [(cause, best)]
     for one in tried:
-        keys = list(one.ids)
-        if one is best or len(keys) != len(best.ids) or any(key not in keys for key in others):
+        keys = [key for key in one.ids if key[0] not in OWN or not others]
+        if one is best or len(keys) != len(others) + 1 or any(key not in keys for key in others):
             continue
         (own,) = [key for key in keys if key not in others] or [cause]
         if own != cause:

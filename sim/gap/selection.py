@@ -66,7 +66,8 @@ def select(evidence: Evidence, told: Told, *, jobs: int = 1) -> Selection:
     own = [one for one in candidates(evidence) if one.id not in (GAIN, RESONANCE)]
     bare = untouched(evidence)
     retuned = explain(evidence, ())
-    best, beam, tried = retuned, [bare], [retuned]
+    best = retuned if enters(bare, bare, retuned) else bare
+    beam, tried = [bare], [retuned]
     for level in range(MOST_CAUSES):
         found: list[Explanation] = []
         for begun in beam:

@@ -1,0 +1,41 @@
+"""Whether records move an axis in enough different ways to tell effects apart."""
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.records.record import Tap
+
+_LEVELS = 2  # positions between which an axis only ever went, that tell too little
+_STILL = 1e-3  # of the range of a command, within which positions are one
+_LINE = 0.99  # of a command's power in one line: a single sine
+_LINES = 3  # spectral lines on either side that belong to one, behind a window
+
+
+def is_poor(evidence: Evidence) -> bool:
+    """Tell whether an axis was only ever held, stepped once, or moved by one same sine."""
+    commands = [o.record.signal(evidence.axis, Tap.CMD) for o in evidence.observations]
+    low, high = min(c.min() for c in commands), max(c.max() for c in commands)
+    if high == low:
+        return True
+    levels = np.unique(np.rint((np.concatenate(commands) - low) / (_STILL * (high - low))))
+    if len(levels) <= _LEVELS:
+        return True
+    sines = [
+        _sine(o.record.time_s, c) for o, c in zip(evidence.observations, commands, strict=True)
+    ]
+    if any(sine is None for sine in sines):
+        return False
+    rates, sizes = (np.array(values) for values in zip(*(s for s in sines if s), strict=True))
+    return bool(np.ptp(rates) < 0.1 * rates.max() and np.ptp(sizes) < 0.1 * sizes.max())
+
+
+def _sine(time_s: FloatArray, command: FloatArray) -> tuple[float, float] | None:
+    """Return frequency and size of a command that is one sine; None if it is not."""
+    centred = (command - command.mean()) * np.hanning(len(command))
+    power = np.abs(np.fft.rfft(centred)) ** 2
+    best = int(np.argmax(power))
+    own = power[max(best - _LINES, 0) : best + _LINES + 1].sum()
+    if own < _LINE * power.sum():
+        return None
+    return best / float(time_s[-1] - time_s[0]), float(np.std(command))
