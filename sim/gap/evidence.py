@@ -10,19 +10,18 @@ from typing import NamedTuple, Self
 import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
-from rotemina.sim.comparison.noise_floor import noise_floor
 from rotemina.sim.gap.blocks import block_numbers
 from rotemina.sim.gap.errors import GapError
+from rotemina.sim.gap.floors import floors
 from rotemina.sim.plant.history import measured_start, steady_start
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.response import check_axes, run_of
 from rotemina.sim.plant.run import Run
 from rotemina.sim.plant.state import PlantState
 from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.model import AxisEffect, Robot, StepperAxis
+from rotemina.sim.robot.model import AxisEffect, Robot
 
 _TAPS = (Tap.U, Tap.REF, Tap.MEAS)
-_GRID_ROWS = 20_000  # in which the steps of a signal are looked for
 
 Signals = Mapping[Tap, FloatArray]
 
@@ -225,37 +224,8 @@ def _start(plant: Plant, record: Record, run: Run) -> PlantState:
 
 
 def _observe(robot: Robot, axis: str, record: Record) -> Observation:
-    real: dict[Tap, FloatArray] = {}
-    floors: dict[Tap, float] = {}
-    for tap in _TAPS:
-        if not record.has(axis, tap) or (tap is Tap.U and not _answers_u(robot, axis, record)):
-            continue
-        floor = noise_floor(robot, record, axis, tap).rms
-        if floor is None:
-            continue
-        signal = record.signal(axis, tap)
-        if tap is not Tap.MEAS:  # that a sensor reads in coarser steps than declared is an effect
-            floor = float(np.hypot(floor, _grid(signal) / np.sqrt(12.0)))
-        real[tap], floors[tap] = signal, floor
-    return Observation(record, real, floors)
-
-
-def _answers_u(robot: Robot, axis: str, record: Record) -> bool:
-    """Whether ``u`` is an answer of the model, and does not drive it."""
-    described = robot.axes[axis]
-    if isinstance(described, StepperAxis):
-        return False
-    return described.kind == "piezo" or record.closed_loop
-
-
-def _grid(signal: FloatArray) -> float:
-    """Return the step in which a signal was written down, 0 where there is none."""
-    levels = np.unique(signal[:_GRID_ROWS])
-    if len(levels) < 3:
-        return 0.0
-    step = float(np.diff(levels).min())
-    off = levels / step - np.rint(levels / step)
-    return step if float(np.abs(off).max()) < 0.05 else 0.0
+    floor = floors(robot, record, axis)
+    return Observation(record, {tap: record.signal(axis, tap) for tap in floor}, floor)
 
 
 def _own_signals(observation: Observation, kept: BoolArray | None, rows: int) -> FloatArray:

@@ -1,0 +1,53 @@
+"""Noise floors where no sensor is declared."""
+
+import numpy as np
+import pytest
+
+from rotemina.sim.gap.floors import floors, unforetold
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.file import load_robot
+
+TIME_S = np.arange(5000) * 1e-3
+
+
+def test_noise_is_told_from_motion_and_from_steps():
+    noise = np.random.default_rng(0).standard_normal(5000)
+    smooth = 1e3 * np.sin(2.0 * np.pi * 3.0 * TIME_S)
+    leaps = 50.0 * (np.floor(TIME_S) % 2.0)
+    assert unforetold(noise + smooth + leaps) == pytest.approx(1.0, rel=0.1)
+
+
+def test_what_was_computed_has_no_noise():
+    assert unforetold(np.zeros(5000)) is None
+    assert unforetold(np.ones(5000)) is None
+
+
+def test_too_few_rows_tell_nothing():
+    assert unforetold(np.random.default_rng(0).standard_normal(300)) is None
+
+
+def measured(axis, mode):
+    rng = np.random.default_rng(1)
+    path = 0.1 + 0.05 * np.sin(2.0 * np.pi * TIME_S)
+    return Record.from_signals(
+        TIME_S,
+        {
+            (axis, Tap.CMD): path,
+            (axis, Tap.U): 1e-2 * rng.standard_normal(5000),
+            (axis, Tap.MEAS): path + 1e-7 * rng.standard_normal(5000),
+        },
+        {axis: "m"},
+        {"mode": mode},
+    )
+
+
+def test_under_a_controller_without_declared_sensor_the_effort_speaks_alone():
+    found = floors(load_robot("emps"), measured("q", "closed_loop"), "q")
+    assert list(found) == [Tap.U]
+    assert found[Tap.U] == pytest.approx(1e-2, rel=0.1)
+
+
+def test_an_effort_that_drives_the_model_is_no_answer():
+    found = floors(load_robot("emps"), measured("q", "open_loop"), "q")
+    assert list(found) == [Tap.MEAS]
+    assert found[Tap.MEAS] == pytest.approx(1e-7, rel=0.1)
