@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from rotemina.sim.gap.caution import remarks
 from rotemina.sim.gap.diagnosis import AxisDiagnosis, Diagnosis, Verdict
@@ -59,7 +60,9 @@ def diagnose(
     """
     cautions = check(robot, records)
     run = _Run(robot, _in_order(records), np.random.default_rng(seed), jobs, listener)
-    axes = run.diagnosed()
+    # Threads of the linear algebra library only get in the way of matrices as narrow as these.
+    with threadpool_limits(limits=1):
+        axes = run.diagnosed()
     cautioned = {
         name: replace(one, remarks=(*one.remarks, *remarks(cautions, name)))
         for name, one in axes.items()

@@ -9,7 +9,7 @@ from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.effects.attachment import Attached, attached_effects
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.effects.formulation import Change, Force, Late, Motion, Part, Skew
-from rotemina.sim.plant.group import Group, PlacedPart, groups_of, static_groups_of
+from rotemina.sim.plant.group import Group, PlacedPart, coupled_axes, groups_of, static_groups_of
 from rotemina.sim.plant.lead import is_led
 from rotemina.sim.plant.machine import (
     Machine,
@@ -118,7 +118,7 @@ def assemble(robot: Robot, only: Collection[str] | None = None) -> Assembly:
 def _joined(robot: Robot, effects: Sequence[Attached], only: Collection[str]) -> set[str]:
     """Return ``only`` and every axis that moves them or moves with them."""
     joined = set(only)
-    groups = [set(group.axes) for group in groups_of(robot)]
+    groups = coupled_axes(robot)
     while True:
         sources = {one.asked.from_axis for one in effects if one.asked.axis in joined}
         more = joined | {name for name in sources if name is not None}

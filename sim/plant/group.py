@@ -121,6 +121,13 @@ def groups_of(robot: Robot, parts: Sequence[PlacedPart] = ()) -> tuple[Group, ..
     )
 
 
+def coupled_axes(robot: Robot) -> list[set[str]]:
+    """Return the sets of axes with dynamics that are coupled."""
+    names, mass, damping, stiffness = inertia_matrices(robot)
+    coupled = (mass != 0) | (damping != 0) | (stiffness != 0)
+    return [{names[i] for i in members} for members in _connected(coupled)]
+
+
 def static_groups_of(robot: Robot, parts: Sequence[PlacedPart] = ()) -> tuple[Group, ...]:
     """Return a group for each static axis, in the robot's order."""
     return tuple(_static(name, a, parts) for name, a in robot.axes.items() if a.static)

@@ -150,21 +150,29 @@ def step_matrices(group: Group, lengths_s: FloatArray) -> tuple[FloatArray, Floa
     return np.ascontiguousarray(exact[:, :, :states]), np.ascontiguousarray(exact[:, :, states:])
 
 
-@lru_cache(maxsize=512)
 def _step(group: Group, length_s: float) -> FloatArray:
+    """Return the rows of ``exp(A h)`` that are states."""
+    size = len(group.generator)
+    return _exponential(group.generator.tobytes(), size, length_s)[: group.states]
+
+
+@lru_cache(maxsize=1024)
+def _exponential(numbers: bytes, size: int, length_s: float) -> FloatArray:
     """Return ``exp(A h)``: power series of a part of the step, squared up to the whole.
 
     Without the linear solves of a Padé approximation, which a parallel linear algebra library
-    makes slow for matrices as small as these.
+    makes slow for matrices as small as these. Kept by the numbers in A, as a fit makes the same
+    plant over and over.
     """
-    balanced, (scale, _) = matrix_balance(group.generator, permute=False, separate=True)
+    generator = np.frombuffer(numbers).reshape(size, size)
+    balanced, (scale, _) = matrix_balance(generator, permute=False, separate=True)
     doublings = max(int(np.ceil(np.log2(2.0 * length_s * np.linalg.norm(balanced, 1) + 1e-300))), 0)
     exact = _series(np.asarray(balanced, dtype=np.float64), np.array([length_s * 0.5**doublings]))[
         0
     ]
     for _ in range(doublings):
         exact = exact @ exact
-    return np.asarray((exact * scale[:, None] / scale)[: group.states])
+    return np.asarray(exact * scale[:, None] / scale)
 
 
 def _many_steps(group: Group, lengths_s: FloatArray) -> FloatArray:
