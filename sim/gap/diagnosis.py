@@ -168,7 +168,9 @@ class Experiment:
     commands : mapping axis -> tuple of float
         SI, of the same length as ``time_s``.
     predictions : mapping effect -> tuple of float
-        What each rival says of the axis' reading, SI.
+        What each rival says of the axis at ``tap``, SI.
+    tap : Tap
+        The sensor's reading, or where that cannot tell them apart, another channel to record.
     """
 
     axis: str
@@ -177,6 +179,7 @@ class Experiment:
     time_s: tuple[float, ...]
     commands: Mapping[str, tuple[float, ...]]
     predictions: Mapping[str, tuple[float, ...]]
+    tap: Tap = Tap.MEAS
 
 
 @dataclass(frozen=True, slots=True)

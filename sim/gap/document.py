@@ -195,6 +195,7 @@ def _experiment(experiment: Experiment, files: ExperimentFiles | None) -> Json:
         "why": experiment.why,
         "commands": files.commands if files is not None else None,
         "predictions": dict(files.predictions) if files is not None else {},
+        "tap": str(experiment.tap),
     }
 
 

@@ -51,7 +51,7 @@ def suggestion(
         predictions[rival] = f"{name}_if_{_NOT_IN_NAMES.sub('_', rival)}.csv"
         signals = {
             **commands,
-            (experiment.axis, Tap.MEAS): np.array(reading, dtype=np.float64),
+            (experiment.axis, experiment.tap): np.array(reading, dtype=np.float64),
         }
         own = {**said, "predicted by": f"the model with {rival} on {experiment.axis}"}
         records[predictions[rival]] = Record.from_signals(time_s, signals, units, own)

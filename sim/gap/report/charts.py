@@ -16,6 +16,7 @@ from rotemina.sim.gap.diagnosis import Experiment, Ranked, Shrinkage
 from rotemina.sim.gap.report.pictures import Role, legend, picture, short
 from rotemina.sim.gap.report.quantities import Scale, percent
 from rotemina.sim.gap.report.words import effect_title
+from rotemina.sim.records.record import Tap
 
 _WIDTH = 10.0
 _BUCKETS = 500
@@ -111,14 +112,14 @@ def forecast(experiment: Experiment, unit: str) -> Markup:
     def draw(figure: Figure) -> None:
         whole, apart = figure.subplots(2, 1, sharex=True)
         scale = Scale.of(unit, float(np.abs(one).max()))
-        if len(command):
+        if len(command) and experiment.tap is not Tap.U:
             _line(whole, time_s, scale(command), Role.QUIET, "-", "command")
         far = {name: answer - one for name, answer in answers.items()}
         fine = Scale.of(unit, max(float(np.abs(each).max()) for each in far.values()))
         for (name, answer), (role, dashes) in zip(answers.items(), cycle(_RIVALS), strict=False):
             _line(whole, time_s, scale(answer), role, dashes, short(effect_title(name)))
             _line(apart, time_s, fine(far[name]), role, dashes, "")
-        whole.set_ylabel(f"reading [{scale.symbol}]")
+        whole.set_ylabel(f"{experiment.tap} [{scale.symbol}]")
         apart.set_ylabel(f"less that of\n{short(effect_title(first))} [{fine.symbol}]")
         apart.set_xlabel("time [s]")
         legend(figure, whole)

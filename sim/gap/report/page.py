@@ -27,7 +27,7 @@ from rotemina.sim.gap.report.words import (
     parameter_unit,
     summary,
 )
-from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records.record import Record
 from rotemina.sim.whole_files import replaced
 
 
@@ -60,7 +60,7 @@ def report_text(diagnosis: Diagnosis, records: Sequence[Record], names: Sequence
             causes=ordered_causes(diagnosis),
             axes=axis_views(diagnosis, records),
             forecasts=[
-                forecast(one, unit_of(one.axis, Tap.MEAS, records)) if one.predictions else None
+                forecast(one, unit_of(one.axis, one.tap, records)) if one.predictions else None
                 for one in diagnosis.experiments
             ],
             records=record_facts(records, names),

@@ -86,6 +86,7 @@ def test_every_key_of_the_contract_is_there(made_diagnosis):
             "why": "A step and a long rest: creep goes on, hysteresis does not.",
             "commands": "out_experiment_1.csv",
             "predictions": {"creep": "c.csv", "hysteresis": "h.csv"},
+            "tap": "meas",
         }
     ]
 
