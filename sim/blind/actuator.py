@@ -130,16 +130,16 @@ def lost_steps(axis: Axis, rng: np.random.Generator) -> Part:
 def _busiest(
     values: FloatArray, course: Course, number: int, draw: np.random.Generator
 ) -> list[int]:
-    """Return up to ``number`` fine steps, apart, out of those of the highest load."""
+    """Return up to ``number`` fine steps, in different parts of the run, of the highest load."""
     width = 20 * course.every
-    moved = np.abs(values[2 * width :] - 2.0 * values[width:-width] + values[: -2 * width])
-    moved[: course.lead + width] = 0.0
-    high = np.flatnonzero(moved >= 0.8 * moved.max()) + width
-    chosen: list[int] = []
-    for at in draw.permutation(high):
-        if len(chosen) < number and all(abs(at - other) > 40 * width for other in chosen):
-            chosen.append(int(at))
-    return chosen
+    load = np.abs(values[2 * width :] - 2.0 * values[width:-width] + values[: -2 * width])
+    load[: course.lead + width] = 0.0
+    parts = np.array_split(np.arange(len(load)), 8)
+    heaviest = [load[part].max() for part in parts]
+    busy = [k for k in draw.permutation(8) if heaviest[k] >= 0.7 * max(heaviest)]
+    # The first step that comes near the peak, so that a small change elsewhere moves it little.
+    near = [parts[k][np.argmax(load[parts[k]] >= 0.9 * heaviest[k])] for k in busy[:number]]
+    return [int(at) + width for at in near]
 
 
 def periodic(

@@ -15,6 +15,16 @@ from rotemina.sim.blind.parts import draw_part
 from rotemina.sim.blind.trial import LEAST_FLOORS, MOST_FLOORS, Present, Trial, record_seed
 from rotemina.sim.robot.model import Robot
 
+# On one axis, the sum of two of these is a third, or the same with another size.
+_ALIKE = (
+    {"delay", "amplifier_lag", "sensor_lag"},
+    {"gain_error", "sensor_gain", "hysteresis", "stiffness_nonlinearity"},
+    {"static_nonlinearity", "sensor_nonlinearity", "saturation", "contact"},
+    {"thermal_drift", "sensor_drift", "creep"},
+    {"quantization", "sensor_quantization"},
+    {"backlash", "friction"},
+    {"resonance_mismatch", "flexible_mode"},
+)
 _PARAMETERS = ("gain_error", "resonance_mismatch")
 # At one frequency and amplitude, or in one step, each of these is any of the others.
 _POOR_SINE = (
@@ -194,7 +204,9 @@ def _present(
         if sized is None:
             return None
         parts.append(sized)
-    return trial.present(parts)
+    present = trial.present(parts)
+    # Under poor excitation it is the point that nothing is distinct.
+    return present if present is None or kind == "poor" or trial.distinct(parts) else None
 
 
 def _places(
@@ -218,7 +230,7 @@ def _places(
     chosen = [str(name) for name in rng.choice(names, number, replace=False)]
     if effect is not None:
         chosen = [effect, *(name for name in chosen if name != effect)][:number]
-    together = rng.uniform() < 0.5
+    together = rng.uniform() < 0.5 and not any(len(set(chosen) & one) > 1 for one in _ALIKE)
     order = rng.permutation(len(axes))
     start = int(np.flatnonzero(order == first.index)[0])
     places = [first if together else axes[order[(start + k) % len(axes)]] for k in range(number)]

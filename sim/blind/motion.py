@@ -44,6 +44,7 @@ def thermal_drift(axis: Axis, rng: np.random.Generator) -> Part:
 def vibration(axis: Axis, rng: np.random.Generator) -> Part:
     """One to three lines whose amplitude and phase wander slowly; size is the first, m or rad."""
     seed = int(rng.integers(2**31))
+    swelling, turning = rng.uniform(0.0, 0.15), rng.uniform(0.0, 0.3)
     frequencies = np.exp(rng.uniform(np.log(6.0), np.log(120.0), rng.choice([1, 1, 2, 3])))
 
     def act(motion: FloatArray, course: Course, size: float) -> FloatArray:
@@ -51,8 +52,8 @@ def vibration(axis: Axis, rng: np.random.Generator) -> Part:
         time_s = np.arange(len(motion)) * course.step_s
         total = np.zeros(len(motion))
         for order, frequency in enumerate(frequencies):
-            phase = draw.uniform(0.0, 2.0 * pi) + 0.3 * _wander(time_s, draw)
-            swell = 1.0 + 0.15 * _wander(time_s, draw)
+            phase = draw.uniform(0.0, 2.0 * pi) + turning * _wander(time_s, draw)
+            swell = 1.0 + swelling * _wander(time_s, draw)
             total += swell / (1 + order) * np.sin(2.0 * pi * frequency * time_s + phase)
         return np.asarray(size * total)
 

@@ -13,6 +13,8 @@ from rotemina.sim.blind.part import Axis, Part
 LEAST_FLOORS = 1.5
 LEAST_SHARE = 0.06
 MOST_FLOORS = 300.0
+_LEAST_STRANGE = 0.4  # of an effect in no catalogue, that simple shapes do not explain
+_GAINS = ("gain_error", "sensor_gain")
 
 
 class Present(NamedTuple):
@@ -73,6 +75,57 @@ class Trial:
             out.append(Present(part, floors, share, gap))
         return out
 
+    def distinct(self, parts: list[Part]) -> bool:
+        """Whether each part does something that no other gain and no other part's size would do.
+
+        Of an effect in no catalogue: that no simple shape would do, for a good share of it.
+        """
+        whole = self.readings(parts)
+        added = []
+        for part in parts:
+            rest = self.readings([other for other in parts if other is not part])
+            added.append(strung(whole, rest, part.axis))
+        for number, part in enumerate(parts):
+            others = [a for a, p in zip(added, parts, strict=True) if p.axis is part.axis]
+            shapes = [one for one in others if one is not added[number]]
+            if part.effect not in _GAINS:
+                shapes += self._shapes(part.axis, simple=part.effect == "unknown")
+            left = beyond(added[number], shapes)
+            floors = float(np.sqrt(np.mean(left**2)) / part.axis.floor)
+            share = float(np.sum(left**2) / np.sum(added[number] ** 2))
+            if floors < LEAST_FLOORS or (part.effect == "unknown" and share < _LEAST_STRANGE):
+                return False
+        return True
+
+    def _shapes(self, axis: Axis, *, simple: bool) -> list[FloatArray]:
+        """Return the command (rows,), and with ``simple`` what a plain model makes of it."""
+        records = []
+        for commands in self.training:
+            own = (commands.values[:, axis.index] - axis.start) / axis.travel - 0.5
+            shapes = [own]
+            if simple:
+                speed = np.gradient(own)
+                time_s = np.linspace(0.0, 1.0, len(own)) * len(own) * commands.step_s
+                shapes += [own**2, own**3, speed, np.gradient(speed), time_s]
+                shapes += [*np.delete(commands.values, axis.index, axis=1).T]
+            records.append(np.array([shape - shape.mean() for shape in shapes]))
+        return list(np.concatenate(records, axis=1))
+
+
+def strung(first: list[FloatArray], second: list[FloatArray], axis: Axis) -> FloatArray:
+    """Return the difference of two sets of readings (rows,), the mean of each record removed."""
+    gaps = [a[:, axis.index] - b[:, axis.index] for a, b in zip(first, second, strict=True)]
+    return np.concatenate([gap - gap.mean() for gap in gaps])
+
+
+def beyond(values: FloatArray, shapes: Sequence[FloatArray]) -> FloatArray:
+    """Return what is left of ``values`` (rows,) beside the best sum of ``shapes``."""
+    if not shapes:
+        return values
+    matrix = np.column_stack(shapes)
+    matrix = matrix / (np.linalg.norm(matrix, axis=0) + 1e-300)
+    return np.asarray(values - matrix @ np.linalg.lstsq(matrix, values, rcond=1e-9)[0])
+
 
 def record_seed(seed: int, number: int) -> int:
     """Return the seed of one record's chance."""
@@ -81,6 +134,4 @@ def record_seed(seed: int, number: int) -> int:
 
 def difference(first: list[FloatArray], second: list[FloatArray], axis: Axis) -> float:
     """Return the rms of the difference of two sets of readings, means removed, in floors."""
-    gaps = [a[:, axis.index] - b[:, axis.index] for a, b in zip(first, second, strict=True)]
-    power = sum(float(np.sum((gap - gap.mean()) ** 2)) for gap in gaps)
-    return float(np.sqrt(power / sum(len(gap) for gap in gaps)) / axis.floor)
+    return float(np.sqrt(np.mean(strung(first, second, axis) ** 2)) / axis.floor)
