@@ -1,0 +1,240 @@
+"""The next experiment: of some safe tests, the one on which rivals differ most.
+
+Rivals are effects that the records cannot tell apart, each as fitted to them together with the
+model's own parameters. Per row, and so per second, their answers to the chosen test are farthest
+apart once each has been fitted to that test as well: see :mod:`~rotemina.sim.gap.separation`.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from rotemina.sim.gap.diagnosis import Experiment, Verdict
+from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.examination import Examination
+from rotemina.sim.gap.report.words import effect_title, listed
+from rotemina.sim.gap.rivals import Rival, not_ruled_out
+from rotemina.sim.gap.separation import (
+    Answer,
+    Player,
+    Yielding,
+    alike,
+    apart,
+    over_floors,
+    plainly_apart,
+)
+from rotemina.sim.gap.trials import Trial, trials
+from rotemina.sim.records.record import Tap
+from rotemina.sim.robot.model import Robot
+from rotemina.sim.trajectory.wording import readable
+
+_MOST_SETS = 2
+_MOST_RIVALS = 4
+_FINALISTS = 4
+_ENOUGH = 0.5  # floors apart, from which a diagnosis tells rivals
+_WORTH_A_REF = 2.0  # times farther apart, from which a further channel is asked for
+_NOTHING = 0.05  # floors apart, below which a test is none
+
+Floors = Mapping[Tap, float]
+
+
+def experiments(robot: Robot, examination: Examination) -> tuple[Experiment, ...]:
+    """Return a test for each set of effects that the records of an axis cannot tell apart.
+
+    Parameters
+    ----------
+    robot : Robot
+        Within whose limits the tests stay.
+    examination : Examination
+
+    Returns
+    -------
+    tuple of Experiment
+        None for sets that no test here splits, and for an axis that nothing makes follow commands.
+    """
+    sets = list(_sets(examination))
+    if not sets:
+        return ()
+    evidence = examination.evidence
+    sources = [one.from_axis for own in sets for one in own if one.from_axis is not None]
+    records = [one.record for one in evidence.observations]
+    able = trials(robot, evidence.axis, records, sources)
+    found = [_experiment(examination, own, able) for own in sets]
+    return tuple(one for one in found if one is not None)
+
+
+def _sets(examination: Examination) -> Iterator[list[Rival]]:
+    """Give the sets of rivals that are open, at most a few."""
+    if examination.verdict not in (Verdict.EXPLAINED, Verdict.INSUFFICIENT):
+        return
+    seen: list[set[str]] = []
+    for key, ranked in examination.ranked.items():
+        others = not_ruled_out(ranked, key)
+        names = {key[0], *others}
+        if not others or names in seen or len(seen) == _MOST_SETS:
+            continue
+        seen.append(names)
+        own = [one for one in ranked if (one.effect, one.from_axis) == key]
+        rest = [next(one for one in ranked if one.effect == name) for name in others]
+        yield [*own, *rest][:_MOST_RIVALS]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Choice:
+    """A test, what each rival answers, and by how many floors of which taps these differ."""
+
+    trial: Trial
+    answers: tuple[Answer, ...]
+    floors: Floors
+    apart: float
+
+
+def _experiment(
+    examination: Examination, rivals: Sequence[Rival], able: Sequence[Trial]
+) -> Experiment | None:
+    evidence = examination.evidence
+    player = Player(evidence.robot, evidence.axis, evidence.heartbeat)
+    played = list(_played(player, rivals, able))
+    floors = _floors(evidence)
+    enough = _ENOUGH * float(np.sqrt(max(examination.best.score, 1.0)))
+    choice = _best(player, rivals, played, floors)
+    same: Sequence[Rival] = ()
+    if Tap.REF not in floors and (choice is None or choice.apart < enough):
+        more = {**floors, Tap.REF: _floor_of_reference(evidence, floors)}
+        other = _best(player, rivals, played, more)
+        if other is not None and (choice is None or other.apart > _WORTH_A_REF * choice.apart):
+            choice = other
+            by_reading = _yielding(player, rivals, other.trial, other.answers, floors)
+            rows = len(other.trial.record.time_s)
+            same = [rivals[number] for number in alike(by_reading, rows, enough)]
+    if choice is None or choice.apart < _NOTHING:
+        return None
+    tap = _tap_shown(choice)
+    record = choice.trial.record
+    return Experiment(
+        axis=evidence.axis,
+        splits=tuple(one.effect for one in rivals),
+        why=_why(evidence.axis, rivals, choice, same, doubtful=choice.apart < enough),
+        time_s=tuple(record.time_s.tolist()),
+        commands={name: tuple(record.signal(name, Tap.CMD).tolist()) for name in record.axes},
+        predictions={
+            one.effect: tuple(answer[tap].tolist())
+            for one, answer in zip(rivals, choice.answers, strict=True)
+        },
+        tap=tap,
+    )
+
+
+def _played(
+    player: Player, rivals: Sequence[Rival], able: Sequence[Trial]
+) -> Iterator[tuple[Trial, tuple[Answer, ...]]]:
+    """Give tests that are safe whichever rival is right, and what each says of them."""
+    for trial in able:
+        answers = [player.answer(one.explanation.fit.effects, trial.record) for one in rivals]
+        sound = [one for one in answers if one is not None and player.stays_inside(one)]
+        if len(sound) == len(rivals):
+            yield trial, tuple(sound)
+
+
+def _best(
+    player: Player,
+    rivals: Sequence[Rival],
+    played: Sequence[tuple[Trial, tuple[Answer, ...]]],
+    floors: Floors,
+) -> _Choice | None:
+    """Return the test that sets the rivals farthest apart, at these taps together."""
+
+    def plainly(one: tuple[Trial, tuple[Answer, ...]]) -> float:
+        trial, answers = one
+        rows = len(trial.record.time_s)
+        return plainly_apart([over_floors(answer, floors) for answer in answers], rows)
+
+    found = []
+    for trial, answers in sorted(played, key=plainly, reverse=True)[:_FINALISTS]:
+        yielding = _yielding(player, rivals, trial, answers, floors)
+        rms = apart(yielding, len(trial.record.time_s))
+        found.append(_Choice(trial, answers, floors, rms))
+    return max(found, key=lambda one: one.apart, default=None)
+
+
+def _yielding(
+    player: Player,
+    rivals: Sequence[Rival],
+    trial: Trial,
+    answers: Sequence[Answer],
+    floors: Floors,
+) -> list[Yielding]:
+    return [
+        Yielding.of(player, one.explanation.fit, trial.record, answer, floors)
+        for one, answer in zip(rivals, answers, strict=True)
+    ]
+
+
+def _floors(evidence: Evidence) -> dict[Tap, float]:
+    """Return the floor of each tap that records have, SI."""
+    squares: dict[Tap, list[float]] = {}
+    for observation in evidence.observations:
+        for tap, floor in observation.floor.items():
+            squares.setdefault(tap, []).append(floor**2)
+    return {tap: float(np.sqrt(np.mean(own))) for tap, own in squares.items()}
+
+
+def _floor_of_reference(evidence: Evidence, floors: Floors) -> float:
+    """Return the floor of a reference that no record has: as declared, or the finest known."""
+    noise = evidence.robot.reference.noise_rms
+    unit = evidence.observations[0].record.units[evidence.axis]
+    declared = noise.angular if unit == "rad" else noise.linear
+    return declared or floors.get(Tap.MEAS) or min(floors.values())
+
+
+def _tap_shown(choice: _Choice) -> Tap:
+    """Return the tap at which the predictions tell most: the reading where it tells enough."""
+    rows = len(choice.trial.record.time_s)
+
+    def tells(tap: Tap) -> float:
+        own = {tap: choice.floors[tap]}
+        return plainly_apart([over_floors(answer, own) for answer in choice.answers], rows)
+
+    if Tap.MEAS in choice.floors and tells(Tap.MEAS) >= min(choice.apart, 1.0):
+        return Tap.MEAS
+    return max(choice.floors, key=tells)
+
+
+def _why(
+    axis: str, rivals: Sequence[Rival], choice: _Choice, same: Sequence[Rival], *, doubtful: bool
+) -> str:
+    """Say what the test is for; ``same`` are the rivals that need a reference to be told apart."""
+    names = listed([_title(one) for one in rivals])
+    closest = "" if len(rivals) == 2 else ", the closest two of them,"
+    figures = f"{choice.apart:.2g} noise floors (rms) apart, even once each is fitted to it"
+    doubt = ", which may be too little" if doubtful else ""
+    said = (
+        f"To tell {names} apart, play this: {_described(choice.trial, axis)}; it sets them"
+        f"{closest} {figures}{doubt}"
+    )
+    if not same:
+        return f"{said}."
+    alike_ones = listed([_title(one) for one in same])
+    return (
+        f"{said}, if the reference (ref) of {axis} is recorded too: without it, it does not tell "
+        f"{alike_ones} apart."
+    )
+
+
+def _described(trial: Trial, axis: str) -> str:
+    """Return a test in words: what moves, by how much, for how long."""
+    record = trial.record
+    moved = next((one for one in record.axes if np.ptp(record.signal(one, Tap.CMD)) > 0.0), axis)
+    command = record.signal(moved, Tap.CMD)
+    low, high = float(command.min()), float(command.max())
+    size, middle = (
+        readable(float(f"{value:.{digits}g}"), record.units[moved])
+        for value, digits in (((high - low) / 2.0, 3), ((high + low) / 2.0, 4))
+    )
+    return f"{trial.name}, ±{size} about {middle}, {record.duration_s:.3g} s"
+
+
+def _title(rival: Rival) -> str:
+    title = effect_title(rival.effect).lower()
+    return title if rival.from_axis is None else f"{title} from {rival.from_axis}"
