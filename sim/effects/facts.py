@@ -31,6 +31,8 @@ class Facts:
         Position per volt of a piezo, N/V of a force axis, 1 of a stepper.
     mass, damping, stiffness : float
         0 where there is none.
+    free_damping : float
+        Damping of an axis that nothing holds, which is viscous friction; 0 of others.
     frequency_hz, damping_ratio : float
         Of the axis alone; 0 where nothing holds it.
     pace_hz : float
@@ -55,6 +57,7 @@ class Facts:
     mass: float
     damping: float
     stiffness: float
+    free_damping: float
     frequency_hz: float
     damping_ratio: float
     pace_hz: float
@@ -88,6 +91,7 @@ class Facts:
             mass=mass,
             damping=damping,
             stiffness=stiffness,
+            free_damping=0.0 if stiffness > 0.0 else damping,
             frequency_hz=rate / (2.0 * pi),
             damping_ratio=damping / (2.0 * mass * rate) if rate > 0.0 else 0.0,
             pace_hz=rate / (2.0 * pi) or _PACE_HZ,

@@ -76,6 +76,8 @@ class Parameter:
         Bounds, and the preset.
     per : str, optional
         A figure of :class:`~rotemina.sim.effects.facts.Facts` that these three are multiples of.
+    spare : str, optional
+        A figure by which it may be less: what the axis itself has of it already.
     """
 
     name: str
@@ -85,6 +87,7 @@ class Parameter:
     high: float
     typical: float
     per: str | None = None
+    spare: str | None = None
 
     def scale(self, facts: Facts) -> float:
         """Return what bounds and preset are multiples of, on this axis."""
@@ -93,7 +96,11 @@ class Parameter:
     def bounds(self, facts: Facts) -> tuple[float, float]:
         """Return the least and greatest value on this axis, SI."""
         scale = self.scale(facts)
-        return self.low * scale, self.high * scale
+        return self.low * scale - self.spared(facts), self.high * scale
+
+    def spared(self, facts: Facts) -> float:
+        """Return by how much it may be less on this axis, SI."""
+        return float(getattr(facts, self.spare)) if self.spare is not None else 0.0
 
     def preset(self, facts: Facts) -> float:
         """Return the typical value on this axis, SI."""

@@ -1,11 +1,14 @@
 """Friction in guides and screw: a force against motion, and against its beginning."""
 
+from dataclasses import replace
 from math import inf, pi, sqrt
 
 import numpy as np
 
+from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import (
+    Change,
     Effect,
     Force,
     Formulation,
@@ -14,6 +17,7 @@ from rotemina.sim.effects.formulation import (
     Trait,
     Values,
 )
+from rotemina.sim.robot.model import Axis
 
 _INNER_SHARE = 1.0 / 60.0  # of the axis' period: the force is held for so long
 _FREE_STEP_S = 5e-4  # where no spring sets a period
@@ -79,6 +83,27 @@ def lugre(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compil
     return -force if forward else force
 
 
+def dampened(values: Values, axis: Axis) -> Axis:
+    """Return the axis with more damping, or less.
+
+    Raises
+    ------
+    EffectError
+        If the axis has no mass to be damped.
+    """
+    inertia = axis.inertia
+    if inertia is None:
+        raise EffectError("friction: a static axis has no motion to damp; give it mass and damping")
+    return replace(
+        axis,
+        mass=inertia.mass,
+        damping=inertia.damping + values["viscous"],
+        stiffness=inertia.stiffness or None,
+        natural_frequency_hz=None,
+        damping_ratio=None,
+    )
+
+
 def _bristles(values: Values, facts: Facts) -> tuple[float, ...]:
     """Return the numbers of :func:`lugre`; σ₁ is the damping ratio of the mass on its bristles."""
     dry, deflection = values["coulomb"], values["deflection"]
@@ -111,6 +136,11 @@ def _dry(name: str, meaning: str) -> Parameter:
     return Parameter(name, meaning, "N", 0.0, 1.0, 0.05, per="force")
 
 
+def _viscous(name: str, meaning: str) -> Parameter:
+    """Return a viscous friction that may take away what the model has where nothing holds it."""
+    return Parameter(name, meaning, "N s/q", 0.0, inf, 0.0, spare="free_damping")
+
+
 _STATIC_RATIO = Parameter("static_ratio", "of static over dry friction", "", 1.0, 3.0, 1.0)
 _STRIBECK = Parameter("stribeck_speed", "where static friction fades", "q/s", 1e-6, 1.0, 1e-3)
 
@@ -130,8 +160,8 @@ FRICTION = Effect(
                 _dry("coulomb_backward", "dry friction backward"),
                 _STATIC_RATIO,
                 _STRIBECK,
-                Parameter("viscous_forward", "viscous friction forward", "N s/q", 0.0, inf, 0.0),
-                Parameter("viscous_backward", "viscous friction backward", "N s/q", 0.0, inf, 0.0),
+                _viscous("viscous_forward", "viscous friction forward"),
+                _viscous("viscous_backward", "viscous friction backward"),
             ),
             acts=Force(step=coulomb),
             inner_step_s=_inner_step,
@@ -155,12 +185,21 @@ FRICTION = Effect(
                 Parameter("bristle_damping", "damping ratio on the bristles", "", 0.0, 2.0, 0.5),
                 _STATIC_RATIO,
                 _STRIBECK,
-                Parameter("viscous", "viscous friction", "N s/q", 0.0, inf, 0.0),
+                _viscous("viscous", "viscous friction"),
             ),
             acts=Force(step=lugre, states=1),
             prepare=_bristles,
             inner_step_s=_bristle_step,
             traits=frozenset({Trait.DISSIPATIVE}),
+        ),
+        Formulation(
+            name="viscous",
+            equation="f = −D v, the damping of an axis that nothing holds being D too",
+            source="Armstrong-Hélouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083–1138",
+            parameters=(_viscous("viscous", "viscous friction"),),
+            acts=Change(change=dampened),
+            traits=frozenset({Trait.LINEAR, Trait.MEMORYLESS}),
+            kinds=frozenset({"force"}),
         ),
     ),
 )

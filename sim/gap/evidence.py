@@ -19,9 +19,10 @@ from rotemina.sim.plant.response import check_axes, run_of
 from rotemina.sim.plant.run import Run
 from rotemina.sim.plant.state import PlantState
 from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.model import AxisEffect, Robot
+from rotemina.sim.robot.model import AxisEffect, ForceAxis, Robot
 
 _TAPS = (Tap.U, Tap.REF, Tap.MEAS)
+_CONSTANT_FORCE = 0.1  # of a constant force, that is held against the model
 
 Signals = Mapping[Tap, FloatArray]
 
@@ -139,14 +140,23 @@ class Evidence:
         observation = self.observations[number]
         kept = observation.kept.get(tap)
         if kept is None and observation.nuisance is None:
-            return _centred(gap)
+            return np.asarray(_centred(gap) + self._constant(tap, gap))
         key = number, tap
         if key not in self._own:
             self._own[key] = _own_signals(observation, kept, len(gap))
         basis = self._own[key]
         if kept is not None:
             gap = np.where(kept, gap, 0.0)
-        return np.asarray(gap - basis @ (basis.T @ gap))
+        return np.asarray(gap - basis @ (basis.T @ gap) + self._constant(tap, gap))
+
+    def _constant(self, tap: Tap, gap: FloatArray) -> float:
+        """Return how much of a constant gap is held against the model after all.
+
+        At the effort of a controller it is no offset of a sensor but a constant force. Friction
+        that differs by direction could play its part, but is not to where nothing speaks for it.
+        """
+        by_force = tap is Tap.U and isinstance(self.robot.axes[self.axis], ForceAxis)
+        return _CONSTANT_FORCE * float(gap.mean()) if by_force else 0.0
 
     def response(
         self, effects: Sequence[AxisEffect] = (), only: Sequence[int] | None = None

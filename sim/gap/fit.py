@@ -226,7 +226,8 @@ def free_parameters(evidence: Evidence, effects: Sequence[AxisEffect]) -> tuple[
         for parameter in attached.formulation.parameters:
             low, high = parameter.bounds(attached.facts)
             preset = parameter.preset(attached.facts)
-            size = abs(preset) or _SMALL_SHARE * parameter.scale(attached.facts)
+            scale = max(parameter.scale(attached.facts), parameter.spared(attached.facts))
+            size = abs(preset) or _SMALL_SHARE * scale
             free.append(
                 Free(
                     number,

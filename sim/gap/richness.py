@@ -10,10 +10,11 @@ _LEVELS = 2  # positions between which an axis only ever went, that tell too lit
 _STILL = 1e-3  # of the range of a command, within which positions are one
 _LINE = 0.99  # of a command's power in one line: a single sine
 _LINES = 3  # spectral lines on either side that belong to one, behind a window
+_WIDE = 0.5  # of the axis' range: a sine that goes so far bends what is not straight
 
 
 def is_poor(evidence: Evidence) -> bool:
-    """Tell whether an axis was only ever held, stepped once, or moved by one same sine."""
+    """Tell whether an axis was only ever held, stepped once, or moved a little by one same sine."""
     commands = [o.record.signal(evidence.axis, Tap.CMD) for o in evidence.observations]
     low, high = min(c.min() for c in commands), max(c.max() for c in commands)
     if high == low:
@@ -21,6 +22,8 @@ def is_poor(evidence: Evidence) -> bool:
     levels = np.unique(np.rint((np.concatenate(commands) - low) / (_STILL * (high - low))))
     if len(levels) <= _LEVELS:
         return True
+    if high - low > _WIDE * evidence.robot.axes[evidence.axis].span:
+        return False
     sines = [
         _sine(o.record.time_s, c) for o, c in zip(evidence.observations, commands, strict=True)
     ]
@@ -31,11 +34,13 @@ def is_poor(evidence: Evidence) -> bool:
 
 
 def _sine(time_s: FloatArray, command: FloatArray) -> tuple[float, float] | None:
-    """Return frequency and size of a command that is one sine; None if it is not."""
-    centred = (command - command.mean()) * np.hanning(len(command))
-    power = np.abs(np.fft.rfft(centred)) ** 2
-    best = int(np.argmax(power))
-    own = power[max(best - _LINES, 0) : best + _LINES + 1].sum()
-    if own < _LINE * power.sum():
-        return None
-    return best / float(time_s[-1] - time_s[0]), float(np.std(command))
+    """Return frequency and size of a command that is one sine, and its speed; else None."""
+    window = np.hanning(len(command))
+    line = 0
+    for moved in (np.gradient(command), command):
+        power = np.abs(np.fft.rfft((moved - moved.mean()) * window)) ** 2
+        line = int(np.argmax(power))
+        own = power[max(line - _LINES, 0) : line + _LINES + 1].sum()
+        if own < _LINE * power.sum():
+            return None
+    return line / float(time_s[-1] - time_s[0]), float(np.std(command))

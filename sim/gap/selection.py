@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from joblib import Parallel, delayed
 
-from rotemina.sim.gap.baseline import GAIN, RESONANCE
+from rotemina.sim.gap.baseline import is_own
 from rotemina.sim.gap.candidates import candidates, scouts, siblings
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import Fit, fit
@@ -63,7 +63,7 @@ def select(evidence: Evidence, told: Told, *, jobs: int = 1) -> Selection:
 
     ``told`` hears stage and candidate.
     """
-    own = [one for one in candidates(evidence) if one.id not in (GAIN, RESONANCE)]
+    own = [one for one in candidates(evidence) if not is_own(evidence, one)]
     bare = untouched(evidence)
     retuned = explain(evidence, ())
     best = retuned if enters(bare, bare, retuned) else bare
