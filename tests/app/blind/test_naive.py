@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from rotemina.app.blind import classifier as learning
+from rotemina.app.blind import naive
 from rotemina.app.blind.cases import SealedCase
 from rotemina.app.blind.classifier import Classifier, classifier_for
 from rotemina.app.blind.features import features, gap_in_floors
@@ -59,6 +60,13 @@ def test_contestants_accuse_nobody_without_a_gap_and_somebody_with_one(classifie
         assert answer["causes"][0]["axis"] == "zn"
         assert 0.0 < answer["causes"][0]["probability"] <= 1.0
     assert told["features"]["causes"][0]["effect"] == "gain_error"
+
+
+def test_bic_may_say_that_nothing_is_there_and_the_best_rmse_never_does(classifier, monkeypatch):
+    monkeypatch.setattr(naive, "_LEAST_GAP", 0.0)
+    told = naive_answers(ROBOT, [measured()], classifier)
+    assert told["bic"]["verdict"] == "none"
+    assert told["best_rmse"]["verdict"] == "explained"
 
 
 def test_records_that_cannot_be_used_are_an_answer_that_failed(tmp_path, classifier):

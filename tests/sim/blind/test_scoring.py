@@ -54,6 +54,8 @@ def test_a_set_covers_what_it_holds_and_costs_its_size():
     assert figures["top_1"].value == 0.0
     assert figures["set_coverage"].value == 1.0
     assert figures["set_size"].value == 2.0
+    missed = score([outcome([effect("delay")], [cause("amplifier_lag", ambiguous=["creep"])])])
+    assert missed["set_coverage"].value == 0.0
 
 
 def test_two_effects_are_exact_in_any_order_and_with_nothing_beside_them():
