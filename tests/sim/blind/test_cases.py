@@ -28,13 +28,12 @@ def test_the_generator_knows_every_effect_of_the_program():
 @pytest.mark.slow
 @pytest.mark.parametrize("effect", CATALOGUE)
 def test_every_effect_makes_a_case_whose_gap_shows(effect):
-    for seed in (1, 2):
-        case = draw_case(ROBOT, "single", seed, effect)
-        (one,) = case.present
-        assert one.part.effect == effect
-        assert one.part.axis.kind in CATALOGUE[effect].kinds
-        assert one.floors >= LEAST_FLOORS
-        assert one.part.sizes[0] <= one.part.size <= one.part.sizes[1]
+    case = draw_case(ROBOT, "single", 2, effect)
+    (one,) = case.present
+    assert one.part.effect == effect
+    assert one.part.axis.kind in CATALOGUE[effect].kinds
+    assert one.floors >= LEAST_FLOORS
+    assert one.part.sizes[0] <= one.part.size <= one.part.sizes[1]
 
 
 @pytest.mark.parametrize("seed", [3])
