@@ -295,12 +295,15 @@ def _amplified(
     shown: FloatArray, s: int, applied: IntArray, inputs: FloatArray, t: float, k: int,
     effort: FloatArray,
 ) -> None:  # fmt: skip
-    """Fill in, where it is asked for, what the amplifiers put out at this instant."""
+    """Fill in, where it is asked for, what the amplifiers put out at this instant.
+
+    Of an axis under a controller it is what the controller writes down, before it comes late.
+    """
     if effort.shape[0] == 0:
         return
     for i in range(axis.shape[0]):
         own = axis[i]
-        asked = inputs[applied[s, own.late], i]
+        asked = inputs[k if own.loop != NO_LOOP else applied[s, own.late], i]
         effort[k, i] = _through(
             function, numbers, memory, own.electronics, own.actuator, asked, shown[i], t, 0.0
         )
