@@ -9,7 +9,7 @@ axis by axis, the larger gaps first: what one axis does may show on another.
 """
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -24,10 +24,12 @@ from rotemina.sim.gap.experiment import experiments
 from rotemina.sim.gap.intake import check
 from rotemina.sim.gap.progress import Listener, Progress, unheard
 from rotemina.sim.gap.where import Place, locate
+from rotemina.sim.plant.group import coupled_axes
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import AxisEffect, Robot
 
 _LEAST_LEFT = 0.06  # of an axis' gap, that other axes' causes must leave for it to have its own
+_SHAKES = 10.0  # times the power of a gap, that a coupled axis' one has to be the reason of it
 _LEAST_GAP = 1.25  # floors below which a gap is no matter
 
 
@@ -107,7 +109,8 @@ class _Run:
         gaps.sort(key=lambda name: -max(place.excess for place in places[name]))
         for number, name in enumerate(gaps):
             self._examine(name, evidences[name], 0.9 * number / len(gaps), 0.9 / len(gaps))
-        return {name: self._told_of(name, places[name], name in gaps) for name in evidences}
+        told = {name: self._told_of(name, places[name], name in gaps) for name in evidences}
+        return {name: self._shaken(one, told) for name, one in told.items()}
 
     def _evidences(self) -> dict[str, Evidence]:
         found: dict[str, Evidence] = {}
@@ -151,8 +154,29 @@ class _Run:
         said = ("Its gap comes from what was found on other axes.",) if has_gap else ()
         return AxisDiagnosis(name, Verdict.NONE, places, remarks=said)
 
+    def _shaken(self, one: AxisDiagnosis, told: Mapping[str, AxisDiagnosis]) -> AxisDiagnosis:
+        """Return what is said of an axis that an unexplained one shakes through a coupling."""
+        if one.verdict not in (Verdict.UNKNOWN, Verdict.INSUFFICIENT):
+            return one
+        for group in coupled_axes(self.robot):
+            for other in group - {one.axis} if one.axis in group else ():
+                if (
+                    other in told
+                    and told[other].verdict is Verdict.UNKNOWN
+                    and _excess(told[other]) > _SHAKES * _excess(one)
+                ):
+                    said = f"It is coupled to axis {other}, whose gap is unknown and larger."
+                    return replace(
+                        one, verdict=Verdict.NONE, causes=(), remarks=(said, *one.remarks)
+                    )
+        return one
+
     def _tell(self, stage: str, axis: str | None, candidate: str | None, share: float) -> None:
         self.listener(Progress(stage, axis, candidate, share))
+
+
+def _excess(one: AxisDiagnosis) -> float:
+    return max((place.excess for place in one.places), default=0.0)
 
 
 def _has_gap(places: Sequence[Place]) -> bool:

@@ -29,7 +29,7 @@ NOTICED = 2.0  # mean square over the floor from which what others leave may hav
 _FITTED = 6  # effects that are fitted in full after screening
 _FITTED_LATER = 4
 _BEAM = 2  # explanations that are extended
-_ALSO = 4.0  # times the score of the best, up to which another is extended
+_ALSO = 2.5  # times the score of the best, up to which another is extended
 _HOPELESS = 30.0  # times the cost of the best candidate
 _WORTH_GOING_ON = (0.25, 0.5, 1.0)  # share closed by one, two causes, to look for another
 _SKETCHED = 3  # steps after which attempts are compared
@@ -74,10 +74,13 @@ def select(evidence: Evidence, told: Told, *, jobs: int = 1) -> Selection:
             found += _extended(evidence, begun, own, bare, told, jobs)
         found = _unique(found)
         tried += found
-        if not found or not enters(bare, best, found[0]):
+        if not found:
             break
-        best = found[0]
-        beam = [one for one in found[:_BEAM] if one.score < _ALSO * best.score]
+        if enters(bare, best, found[0]):
+            best = found[0]
+        elif level > 0 or _is_little(bare, best):
+            break  # two causes may still do what one alone does not do better than a re-tuning
+        beam = [one for one in found[:_BEAM] if one.score < _ALSO * found[0].score]
         if best.score < NOTICED or closed(bare.score, best.score) < _WORTH_GOING_ON[level]:
             break
     simplest = _simplified(evidence, bare, best)

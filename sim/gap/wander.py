@@ -8,7 +8,7 @@ _SMOOTH_S = 0.1
 _LATER_S = 0.5  # over which a wander is told from a fixed offset
 _LEAST_PAIRS = 50
 _AT_REST = 0.3  # of the wander of all times, that rest has at least
-_SLOW = 0.5  # of what is left, that is slow at least
+_SLOW = 0.85  # of what is left, that is slow at least
 
 
 def wandering(time_s: FloatArray, left: FloatArray, resting: BoolArray) -> float | None:
