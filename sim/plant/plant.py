@@ -252,14 +252,17 @@ class Plant:
         electronics = self.assembly.electronics & (behind is Behind.COMMAND)
         effort = np.empty_like(stack.inputs[: len(stack.inputs) if electronics.any() else 0])
         moved = kernel.State(state.x.copy(), state.memory.copy(), state.seen.copy())
+        acting = self._acting(stack, behind)
         kernel.run(
             self._machine(behind),
             self._steps(stack.time_s, history, behind),
             given,
-            stack.taken(effort),
+            acting.taken(effort),
             moved,
             float(clock_s[max(history - 1, 0)]),
         )
+        looped = np.array([loop is not None for loop in self.loops])
+        stack.inputs[:, looped] = acting.inputs[:, looped]
         self._check(stack)
         effort = np.where(electronics, effort, stack.inputs) if len(effort) else stack.inputs
         reading = on_skewed_clocks(
@@ -309,9 +312,37 @@ class Plant:
             drawn,
         )
 
+    def _acting(self, stack: Stack, behind: Behind) -> Stack:
+        """Return the rows with the inputs of static axes as late as they act.
+
+        Such an axis is at once where its input puts it, so it is read with a row's own input. One
+        that comes late by less than a row is taken to be on its way there, in a straight line: so
+        it passes from no delay to a whole row without a leap, and is right at both.
+        """
+        late = self._late_at_once(behind)
+        if not late.any():
+            return stack
+        inputs = stack.inputs.copy()
+        for column in np.flatnonzero(late):
+            acts_s = stack.time_s - late[column]
+            inputs[:, column] = np.interp(acts_s, stack.time_s, stack.inputs[:, column])
+        return stack._replace(inputs=inputs)
+
+    def _late_at_once(self, behind: Behind) -> FloatArray:
+        """Return the delays (axes,), s, of static axes without a loop; 0 of others."""
+        at_once = [
+            axis.static and loop is None
+            for axis, loop in zip(self.robot.axes.values(), self.loops, strict=True)
+        ]
+        return np.where(at_once, self._delays(behind), 0.0)
+
+    def _stepped_delays(self, behind: Behind) -> tuple[float, ...]:
+        """Return the delays of inputs that act between rows, s."""
+        return tuple(np.asarray(self._delays(behind)) - self._late_at_once(behind))
+
     def _steps(self, time_s: FloatArray, first: int, behind: Behind) -> kernel.Steps:
         return steps_through(
-            cut(time_s, first, tuple(sorted(set(self._delays(behind))))),
+            cut(time_s, first, tuple(sorted(set(self._stepped_delays(behind))))),
             self.assembly.all_groups,
             inner_step_s=self.assembly.inner_step_s,
             with_holds=bool(self.effects),
@@ -321,7 +352,7 @@ class Plant:
         """Return the tables with the loops entered."""
         machine = self.assembly.machine
         axis = machine.axis.copy()
-        delays = self._delays(behind)
+        delays = self._stepped_delays(behind)
         distinct = sorted(set(delays))
         axis["late"] = [distinct.index(delay) for delay in delays]
         for row, loop in zip(axis, self.loops, strict=True):

@@ -1,8 +1,11 @@
 """Transport delay: the phase grows with frequency, the gain stays 1, of any length."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from rotemina.sim.plant.plant import Plant
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -49,3 +52,37 @@ def test_parts_of_a_sample_act_in_full_and_evenly():
     shares = [answer(command, delay_s)[6] for delay_s in np.linspace(0, 5e-4, 6)]
     assert np.all(np.diff(shares) < 0)  # later is less far, within one sample
     assert shares[-1] == pytest.approx(2e-4)
+
+
+def static_answer(command, delay_s):
+    robot = load_robot("picma")
+    time_s = np.arange(len(command)) / 200.0
+    record = Record.from_signals(time_s, {("p", Tap.CMD): command}, {"p": "m"})
+    late = AxisEffect(axis="p", id="delay", parameters={"delay": delay_s})
+    return simulate(robot, [late], record).signal("p", Tap.REF)
+
+
+def test_a_static_axis_comes_late_without_a_leap():
+    command = 2e-5 + np.random.default_rng(3).uniform(-1e-5, 1e-5, 400)
+    for samples in (0.0, 1.0, 3.0):
+        whole = static_answer(command, samples / 200.0)
+        hardly = static_answer(command, (samples + 1e-6) / 200.0)
+        np.testing.assert_allclose(hardly, whole, atol=1e-10)
+    half = static_answer(command, 0.5 / 200.0)
+    np.testing.assert_allclose(half[1:], (command[1:] + command[:-1]) / 2.0, rtol=1e-9)
+
+
+def test_a_late_static_axis_goes_on_in_pieces():
+    robot = replace(
+        load_robot("picma"),
+        effects=(AxisEffect(axis="p", id="delay", parameters={"delay": 0.013}),),
+    )
+    time_s = np.arange(300) / 200.0
+    command = 2e-5 + np.random.default_rng(4).uniform(-1e-5, 1e-5, (300, 1))
+    plant = Plant.of(robot)
+    whole, _ = plant.advance(plant.at_rest(0.0, command[0]), time_s, command)
+    state, parts = plant.at_rest(0.0, command[0]), []
+    for begin, end in ((0, 1), (1, 2), (2, 100), (100, 101), (101, 300)):
+        motion, state = plant.advance(state, time_s[begin:end], command[begin:end])
+        parts.append(motion.position)
+    np.testing.assert_allclose(np.concatenate(parts), whole.position, rtol=1e-12)
