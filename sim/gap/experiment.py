@@ -6,7 +6,7 @@ apart once each has been fitted to that test as well: see :mod:`~rotemina.sim.ga
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from rotemina.sim.gap.separation import (
     Yielding,
     alike,
     apart,
+    apart_by_fit,
     over_floors,
     plainly_apart,
 )
@@ -110,7 +111,7 @@ def _experiment(
             same = [rivals[number] for number in alike(by_reading, rows, enough)]
     if choice is None or choice.apart < _NOTHING:
         return None
-    tap = _tap_shown(choice)
+    tap = Tap.REF if same else _tap_shown(choice)
     record = choice.trial.record
     return Experiment(
         axis=evidence.axis,
@@ -150,12 +151,18 @@ def _best(
         rows = len(trial.record.time_s)
         return plainly_apart([over_floors(answer, floors) for answer in answers], rows)
 
-    found = []
+    finalists = []
     for trial, answers in sorted(played, key=plainly, reverse=True)[:_FINALISTS]:
         yielding = _yielding(player, rivals, trial, answers, floors)
         rms = apart(yielding, len(trial.record.time_s))
-        found.append(_Choice(trial, answers, floors, rms))
-    return max(found, key=lambda one: one.apart, default=None)
+        finalists.append((_Choice(trial, answers, floors, rms), yielding))
+    best: _Choice | None = None
+    for one, yielding in sorted(finalists, key=lambda each: -each[0].apart):
+        if best is None or one.apart > best.apart:
+            rms = min(one.apart, apart_by_fit(yielding, len(one.trial.record.time_s)))
+            fitted = replace(one, apart=rms)
+            best = fitted if best is None or fitted.apart > best.apart else best
+    return best
 
 
 def _yielding(
@@ -207,7 +214,9 @@ def _why(
     """Say what the test is for; ``same`` are the rivals that need a reference to be told apart."""
     names = listed([_title(one) for one in rivals])
     closest = "" if len(rivals) == 2 else ", the closest two of them,"
-    figures = f"{choice.apart:.2g} noise floors (rms) apart, even once each is fitted to it"
+    figures = (
+        f"{float(f'{choice.apart:.2g}'):g} noise floors (rms) apart, even once each is fitted to it"
+    )
     doubt = ", which may be too little" if doubtful else ""
     said = (
         f"To tell {names} apart, play this: {_described(choice.trial, axis)}; it sets them"

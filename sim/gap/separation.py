@@ -5,26 +5,30 @@ a test, ``d = y_other - y_own``, by a step δ of its parameters as far as the re
 stays is ``min |d - S δ|² + δᵀ H δ``, with the sensitivities S of its own answer and the
 information H = JᵀJ of its fit to the records, all over the noise floors (optimal discrimination
 between fitted models: Atkinson and Fedorov, Biometrika 62 (1975) 57-70). What is constant in a
-signal says nothing.
+signal says nothing. A parameter that no record tells is known to about its own size.
 """
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import permutations
+from itertools import combinations
 
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.effects.errors import EffectError
-from rotemina.sim.gap.fit import Fit, with_values
+from rotemina.sim.gap.descent import descend
+from rotemina.sim.gap.fit import Fit, bounds, with_values
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import AxisEffect, Robot
 from rotemina.sim.trajectory.prediction import OVERSHOOT_SHARE
 
-_STEP = 1e-2  # of a parameter, for its sensitivity
-_LOOSE = 1.0  # of itself and its size: by how much a parameter may be off that no record tells
+_LOST = 1e6  # floors by which a rival that cannot be simulated is off
+_STEPS = 4  # of a fit to a test
+_CLOSEST = 1  # pairs of rivals that are fitted to each other
+
+_OF_THE_RUN = ("vibration", ("sine", "cosine"))  # whose phase is another one in each run
 
 Answer = Mapping[Tap, FloatArray]
 
@@ -61,12 +65,14 @@ class Yielding:
     """A rival on a test: what it answers (rows,), and how that can give way (rows, parameters).
 
     Over the floors of some taps, one after the other; ``information`` (parameters, parameters) is
-    what the records say of its parameters.
+    what the records say of its parameters, and ``answer_of`` answers with others.
     """
 
+    fitted: Fit
     answer: FloatArray
     slopes: FloatArray
     information: FloatArray
+    answer_of: Callable[[FloatArray], FloatArray]
 
     @classmethod
     def of(
@@ -79,48 +85,88 @@ class Yielding:
     ) -> "Yielding":
         """Find out how a fitted rival, which gave ``answer`` to a test, can give way."""
         own = over_floors(answer, floors)
-        slopes = np.zeros((len(own), len(fitted.free)))
-        for column, free in enumerate(fitted.free):
-            step = _STEP * max(1.0, abs(fitted.x[column]))
-            if (fitted.x[column] + step) * free.size > free.high:
-                step = -step
-            aside = fitted.x.copy()
-            aside[column] += step
-            then = player.answer(with_values(fitted.effects, fitted.free, aside), record)
-            if then is not None:
-                slopes[:, column] = (over_floors(then, floors) - own) / step
-        loose = 1.0 / (_LOOSE * np.maximum(1.0, np.abs(fitted.x))) ** 2
-        # What the records leave unexplained makes them say less of the parameters.
-        known = fitted.jacobian.T @ fitted.jacobian / max(fitted.cost, 1.0)
-        return cls(own, slopes, known + np.diag(loose))
+
+        def answer_of(x: FloatArray) -> FloatArray:
+            effects = with_values(fitted.effects, fitted.free, x)
+            then = player.answer(effects, record)
+            return np.full(len(own), _LOST) if then is None else over_floors(then, floors)
+
+        low, high, _ = bounds(fitted.free)
+        slopes = descend(answer_of, fitted.x, low, high, 0).jacobian
+        return cls(fitted, own, slopes, _information(fitted), answer_of)
 
     def left_of(self, other: "Yielding") -> float:
-        """Return the square sum of another's answer that this rival cannot explain."""
+        """Return the square sum of another's answer that this rival, as if linear, keeps off."""
         apart = other.answer - self.answer
         along = self.slopes.T @ apart
         step = np.linalg.solve(self.slopes.T @ self.slopes + self.information, along)
         return max(float(apart @ apart - along @ step), 0.0)
 
+    def left_by_fit_of(self, other: "Yielding") -> float:
+        """Return the same, found by fitting."""
+        root = np.linalg.cholesky(self.information).T
+        low, high, _ = bounds(self.fitted.free)
+        start = self.fitted.x
+
+        def residual(x: FloatArray) -> FloatArray:
+            return np.concatenate([self.answer_of(x) - other.answer, root @ (x - start)])
+
+        found = descend(residual, start, low, high, _STEPS)
+        return float(found.residual @ found.residual)
+
+
+def _information(fitted: Fit) -> FloatArray:
+    """Return what the records say of parameters; what they leave unexplained makes that less."""
+    known = fitted.jacobian.T @ fitted.jacobian / max(fitted.cost, 1.0)
+    effect, names = _OF_THE_RUN
+    for column, free in enumerate(fitted.free):
+        if fitted.effects[free.effect].id == effect and free.name.startswith(names):
+            known[column, :] = known[:, column] = 0.0
+    return np.asarray(known + np.diag(1.0 / np.maximum(1.0, np.abs(fitted.x)) ** 2))
+
 
 def apart(rivals: Sequence[Yielding], rows: int) -> float:
-    """Return the rms, in floors, by which the closest two of the rivals differ on a test."""
-    return float(np.sqrt(min(one.left_of(other) for one, other in permutations(rivals, 2)) / rows))
+    """Return the rms, in floors, by which the closest two of the rivals differ, as if linear."""
+    return float(np.sqrt(_pairs(rivals)[0][0] / rows))
+
+
+def apart_by_fit(rivals: Sequence[Yielding], rows: int) -> float:
+    """Return the same, with the closest of them fitted indeed."""
+    pairs = _pairs(rivals)
+    left = [
+        max(one.left_by_fit_of(other), other.left_by_fit_of(one))
+        for _, one, other in pairs[:_CLOSEST]
+    ]
+    return float(np.sqrt(min([*left, *(far for far, _, _ in pairs[_CLOSEST:])]) / rows))
 
 
 def alike(rivals: Sequence[Yielding], rows: int, least: float) -> list[int]:
     """Return the numbers of those rivals that are closer than ``least`` floors to another one."""
     close = {
-        number
-        for pair in permutations(range(len(rivals)), 2)
-        if rivals[pair[0]].left_of(rivals[pair[1]]) < least**2 * rows
-        for number in pair
+        id(each)
+        for left, one, other in _pairs(rivals)
+        if left < least**2 * rows
+        for each in (one, other)
     }
-    return sorted(close)
+    return [number for number, one in enumerate(rivals) if id(one) in close]
+
+
+def _pairs(rivals: Sequence[Yielding]) -> list[tuple[float, Yielding, Yielding]]:
+    """Return pairs of rivals, the closest first, with the square sum that keeps them apart.
+
+    Where one can be all that the other is, but not the other way round, a test decides in either
+    case: the simpler one is right wherever it is as good.
+    """
+    pairs = [
+        (max(one.left_of(other), other.left_of(one)), one, other)
+        for one, other in combinations(rivals, 2)
+    ]
+    return sorted(pairs, key=lambda pair: pair[0])
 
 
 def plainly_apart(answers: Sequence[FloatArray], rows: int) -> float:
-    """Return the same for answers (rows,) that do not give way."""
-    pairs = permutations(answers, 2)
+    """Return the rms for answers (rows,) that do not give way."""
+    pairs = combinations(answers, 2)
     return float(np.sqrt(min(float(np.sum((one - other) ** 2)) for one, other in pairs) / rows))
 
 
