@@ -161,7 +161,7 @@ class Experiment:
     ----------
     axis : str
     splits : tuple of str
-        The rivals' ids.
+        The rivals' ids; none where the records tell too little for rivals.
     why : str
         One sentence.
     time_s : tuple of float

@@ -25,13 +25,14 @@ from rotemina.sim.gap.separation import (
     over_floors,
     plainly_apart,
 )
-from rotemina.sim.gap.trials import Trial, trials
+from rotemina.sim.gap.trials import RICH, Trial, trials
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.wording import readable
 
 _MOST_SETS = 2
 _MOST_RIVALS = 4
+_OPEN = 2  # effects beside the likeliest one, where the records rule none out
 _FINALISTS = 4
 _ENOUGH = 0.5  # floors apart, from which a diagnosis tells rivals
 _WORTH_A_REF = 2.0  # times farther apart, from which a further channel is asked for
@@ -55,23 +56,30 @@ def experiments(robot: Robot, examination: Examination) -> tuple[Experiment, ...
         None for sets that no test here splits, and for an axis that nothing makes follow commands.
     """
     sets = list(_sets(examination))
-    if not sets:
+    if not sets and examination.verdict is not Verdict.INSUFFICIENT:
         return ()
     evidence = examination.evidence
     sources = [one.from_axis for own in sets for one in own if one.from_axis is not None]
     records = [one.record for one in evidence.observations]
     able = trials(robot, evidence.axis, records, sources)
+    if not sets:
+        return tuple(_rich(evidence.axis, one) for one in able if one.name == RICH)
     found = [_experiment(examination, own, able) for own in sets]
     return tuple(one for one in found if one is not None)
 
 
 def _sets(examination: Examination) -> Iterator[list[Rival]]:
-    """Give the sets of rivals that are open, at most a few."""
-    if examination.verdict not in (Verdict.EXPLAINED, Verdict.INSUFFICIENT):
+    """Give the sets of rivals that are open, at most a few.
+
+    Records that move an axis too little rule nothing out: the likeliest few are open then.
+    """
+    poor = examination.verdict is Verdict.INSUFFICIENT
+    if not poor and examination.verdict is not Verdict.EXPLAINED:
         return
     seen: list[set[str]] = []
     for key, ranked in examination.ranked.items():
-        others = not_ruled_out(ranked, key)
+        likeliest = [one.effect for one in ranked if one.effect != key[0]]
+        others = dict.fromkeys(not_ruled_out(ranked, key) or likeliest[: _OPEN if poor else 0])
         names = {key[0], *others}
         if not others or names in seen or len(seen) == _MOST_SETS:
             continue
@@ -79,6 +87,20 @@ def _sets(examination: Examination) -> Iterator[list[Rival]]:
         own = [one for one in ranked if (one.effect, one.from_axis) == key]
         rest = [next(one for one in ranked if one.effect == name) for name in others]
         yield [*own, *rest][:_MOST_RIVALS]
+
+
+def _rich(axis: str, trial: Trial) -> Experiment:
+    """Return a test for an axis of which the records tell so little that nothing is a rival."""
+    record = trial.record
+    return Experiment(
+        axis=axis,
+        splits=(),
+        why=f"The records move {axis} too little to tell effects apart. Play this: "
+        f"{_described(trial, axis)}; it goes through many amplitudes and speeds.",
+        time_s=tuple(record.time_s.tolist()),
+        commands={name: tuple(record.signal(name, Tap.CMD).tolist()) for name in record.axes},
+        predictions={},
+    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -42,7 +42,7 @@ def suggestion(
     }
     said = {
         "excitation": "suggested by a gap diagnosis",
-        "splits": f"{', '.join(experiment.splits)} on {experiment.axis}",
+        "splits": f"{', '.join(experiment.splits) or 'effects'} on {experiment.axis}",
     }
     name = f"{stem}_experiment_{number}"
     records = {f"{name}.csv": Record.from_signals(time_s, commands, units, said)}

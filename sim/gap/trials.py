@@ -23,6 +23,7 @@ from rotemina.sim.trajectory.dry_run import mode_of
 from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
 
 LONGEST_S = 25.0
+RICH = "decaying triangle"  # the test of many amplitudes and speeds
 _MOST_ROWS = 30_000
 _USUAL_HZ = 1.0 / SETPOINT_PERIOD_S
 _PER_RESONANCE = 2.0  # rows in a period of the resonance, with which the usual rate will do
@@ -116,7 +117,7 @@ def _kinds(room: _Room, pace: float) -> Iterator[tuple[str, Kind]]:
             ),
         )
     yield (
-        "decaying triangle",
+        RICH,
         DecayingTriangle(
             amplitude=large, offset=centre, frequency_hz=0.5 / pace, duration_s=12.0 * pace
         ),

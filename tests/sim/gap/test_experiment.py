@@ -112,9 +112,20 @@ def test_where_nothing_is_to_be_split_there_is_no_test(delay_or_lag, verdict):
     assert experiments(ROBOT, replace(delay_or_lag, ranked=sure)) == ()
 
 
-def test_insufficient_excitation_has_a_test_too(delay_or_lag):
-    poor = replace(delay_or_lag, verdict=Verdict.INSUFFICIENT)
-    assert experiments(ROBOT, poor) == experiments(ROBOT, delay_or_lag)
+def test_where_records_are_poor_the_likeliest_effects_are_rivals(delay_or_lag):
+    ((key, ranked),) = delay_or_lag.ranked.items()
+    sure = {key: (replace(ranked[0], probability=0.99), replace(ranked[1], probability=0.01))}
+    poor = replace(delay_or_lag, verdict=Verdict.INSUFFICIENT, ranked=sure)
+    (found,) = experiments(ROBOT, poor)
+    assert found.splits == ("delay", "amplifier_lag")
+
+
+def test_where_nothing_was_found_a_rich_test_is_suggested(delay_or_lag):
+    nothing = replace(delay_or_lag, verdict=Verdict.INSUFFICIENT, ranked={})
+    (found,) = experiments(ROBOT, nothing)
+    assert (found.splits, found.predictions) == ((), {})
+    assert "many amplitudes and speeds" in found.why
+    assert dry_run(ROBOT, as_record(found)).allowed
 
 
 def test_what_the_reading_cannot_tell_asks_for_the_reference():
