@@ -58,7 +58,7 @@ def _held_steps(time_s: FloatArray, rng: np.random.Generator) -> FloatArray:
     levels = [rng.uniform(0.15, 0.85)]
     for _ in range(number):
         away = rng.uniform(0.2, 0.55) * (-1.0 if levels[-1] > 0.5 else 1.0)
-        levels.append(levels[-1] + away)
+        levels.append(float(np.clip(levels[-1] + away, 0.04, 0.96)))
     return np.asarray(np.array(levels)[np.searchsorted(at[:-1], time_s, side="right")])
 
 
