@@ -5,6 +5,7 @@ outliers are found by what they leave behind, and so are events such as lost ste
 """
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from math import isfinite
 
 from rotemina.sim.effects.attachment import Attached
@@ -12,6 +13,7 @@ from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.effects.formulation import Effect, Reading
 from rotemina.sim.effects.registry import all_effects
 from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.plant.plant import Plant
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
@@ -73,11 +75,17 @@ def _formulations(
             asked = AxisEffect(
                 axis=evidence.axis, id=effect.id, formulation=formulation.name, from_axis=source
             )
-            try:
-                Attached.of(evidence.robot, asked)
-            except EffectError:
-                continue  # it cannot sit on this kind of axis
-            yield asked
+            if _can_sit(evidence, asked):
+                yield asked
+
+
+def _can_sit(evidence: Evidence, asked: AxisEffect) -> bool:
+    """Tell whether an axis of this kind, with what it weighs and what holds it, can carry it."""
+    try:
+        Plant.of(replace(evidence.robot, effects=(asked,)), only={evidence.axis})
+    except EffectError:
+        return False
+    return True
 
 
 def _other_axes(evidence: Evidence) -> list[str | None]:

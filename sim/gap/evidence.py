@@ -3,7 +3,7 @@
 The constant part of a difference is no evidence: the offset of a record is a nuisance.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple, Self
 
@@ -13,7 +13,7 @@ from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
 from rotemina.sim.gap.blocks import block_numbers
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.floors import floors
-from rotemina.sim.plant.history import measured_start, steady_start
+from rotemina.sim.gap.history import other_starts, start
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.response import check_axes, run_of
 from rotemina.sim.plant.run import Run
@@ -22,6 +22,7 @@ from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import AxisEffect, ForceAxis, Robot
 
 _TAPS = (Tap.U, Tap.REF, Tap.MEAS)
+_FELT = 1e-3  # floors, in quadrature over all rows, from which a memory shows
 _CONSTANT_FORCE = 0.1  # of a constant force, that is held against the model
 
 Signals = Mapping[Tap, FloatArray]
@@ -125,14 +126,14 @@ class Evidence:
 
         ``only`` names records; all of them by default.
         """
-        numbers = range(len(self.observations)) if only is None else only
-        answers = self.response(effects, numbers)
-        left = [
-            self._without_nuisance(number, tap, (real - answer[tap]) / observation.floor[tap])
-            for number, answer in zip(numbers, answers, strict=True)
-            for observation in (self.observations[number],)
-            for tap, real in observation.real.items()
-        ]
+        left = []
+        for number, (answer, *others) in self._answers(effects, only):
+            observation = self.observations[number]
+            for tap, real in observation.real.items():
+                apart = [real - answer[tap], *(other[tap] - answer[tap] for other in others)]
+                floor = observation.floor[tap]
+                gap, *memory = (self._without_nuisance(number, tap, x / floor) for x in apart)
+                left.append(_beside(memory, gap))
         return np.concatenate(left)
 
     def _without_nuisance(self, number: int, tap: Tap, gap: FloatArray) -> FloatArray:
@@ -168,10 +169,15 @@ class Evidence:
         EffectError, PlantError
             If it cannot be simulated.
         """
+        return [answer for _, (answer, *_) in self._answers(effects, only)]
+
+    def _answers(
+        self, effects: Sequence[AxisEffect], only: Sequence[int] | None
+    ) -> Iterator[tuple[int, list[Signals]]]:
+        """Give the number of each record, and the answers from its start and from other ones."""
         self.heartbeat()
         robot = replace(self.robot, effects=(*self.robot.effects, *effects))
         plants: dict[bool, Plant] = {}
-        answers: list[Signals] = []
         for number in range(len(self.observations)) if only is None else only:
             observation = self.observations[number]
             record = observation.record
@@ -181,18 +187,20 @@ class Evidence:
                 )
             plant = plants[record.closed_loop]
             run = self._run(number, plant)
-            motion, _ = plant.advance(
-                _start(plant, record, run),
-                run.time_s,
-                run.command,
-                add=run.add,
-                inputs=run.inputs,
-            )
-            column = plant.axes.index(self.axis)
-            signals = (motion.inputs, motion.position, motion.reading)
-            taps = zip(_TAPS, (signal[:, column] for signal in signals), strict=True)
-            answers.append({tap: signal for tap, signal in taps if tap in observation.real})
-        return answers
+            starts = [
+                start(plant, record, run),
+                *other_starts(plant, record, run, self.axis),
+            ]
+            yield number, [self._answer(plant, run, state, observation) for state in starts]
+
+    def _answer(
+        self, plant: Plant, run: Run, state: PlantState, observation: Observation
+    ) -> Signals:
+        motion, _ = plant.advance(state, run.time_s, run.command, add=run.add, inputs=run.inputs)
+        column = plant.axes.index(self.axis)
+        signals = (motion.inputs, motion.position, motion.reading)
+        taps = zip(_TAPS, (signal[:, column] for signal in signals), strict=True)
+        return {tap: signal for tap, signal in taps if tap in observation.real}
 
     def gaps(self, effects: Sequence[AxisEffect] = ()) -> list[Signals]:
         """Return real minus model of each record and tap, without its mean, over the floor."""
@@ -225,17 +233,20 @@ def block_rows(evidence: Evidence) -> IntArray:
     return np.concatenate([numbers[part.record] for part in evidence.parts])
 
 
-def _start(plant: Plant, record: Record, run: Run) -> PlantState:
-    if record.history == "periodic":
-        return steady_start(plant, run, record.period_samples)
-    if record.history == "unknown":
-        return measured_start(plant, record, run)
-    return plant.at_rest(run.time_s[0], run.command[0])
-
-
 def _observe(robot: Robot, axis: str, record: Record) -> Observation:
     floor = floors(robot, record, axis)
     return Observation(record, {tap: record.signal(axis, tap) for tap in floor}, floor)
+
+
+def _beside(signals: Sequence[FloatArray], gap: FloatArray) -> FloatArray:
+    """Return a gap (n,) without what signals, each (n,), do in whatever amount."""
+    sizes = [float(np.linalg.norm(signal)) for signal in signals]
+    felt = [s / size for s, size in zip(signals, sizes, strict=True) if size > _FELT]
+    if not felt:
+        return gap
+    basis, share, _ = np.linalg.svd(np.stack(felt, axis=1), full_matrices=False)
+    basis = basis[:, share > _FELT]
+    return np.asarray(gap - basis @ (basis.T @ gap))
 
 
 def _own_signals(observation: Observation, kept: BoolArray | None, rows: int) -> FloatArray:
