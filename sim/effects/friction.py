@@ -133,7 +133,7 @@ def _bristle_step(values: Values, facts: Facts) -> float:
 
 
 def _dry(name: str, meaning: str) -> Parameter:
-    return Parameter(name, meaning, "N", 0.0, 1.0, 0.05, per="force")
+    return Parameter(name, meaning, "N", 0.0, 5.0, 0.05, per="force")
 
 
 def _viscous(name: str, meaning: str) -> Parameter:

@@ -29,11 +29,17 @@ QUANTIZATION = Effect(
     formulations=(
         Formulation(
             name="uniform",
-            equation="y = L + Δ round((x − L)/Δ), L the low end of the input's range",
+            equation="y = L + σ Δ + Δ round((x − L)/Δ − σ), L the low end of the input's range",
             source="Widrow and Kollár, Quantization Noise (2008), ch. 1",
-            parameters=(Parameter("step", "Δ", "u", 0.0, 0.05, 1.0 / 4096.0, per="input_span"),),
+            parameters=(
+                Parameter("step", "Δ", "u", 0.0, 0.05, 1.0 / 4096.0, per="input_span"),
+                Parameter("shift", "σ, of the grid, in steps", "", -0.5, 0.5, 0.0),
+            ),
             acts=Drive(step=rounded),
-            prepare=lambda values, facts: (values["step"], facts.input_low),
+            prepare=lambda values, facts: (
+                values["step"],
+                facts.input_low + values["shift"] * values["step"],
+            ),
             traits=frozenset({Trait.MEMORYLESS, Trait.RATE_INDEPENDENT}),
         ),
     ),

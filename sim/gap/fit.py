@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from scipy.optimize import lsq_linear
 
-from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.gap.descent import descend
@@ -21,10 +21,17 @@ from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.robot.model import AxisEffect
 
+_TOLERANCES = {  # of the model's own numbers: beyond, it is another machine
+    ("resonance_mismatch", "frequency_error"): (-0.3, 0.3),
+    ("resonance_mismatch", "damping_error"): (-0.8, 4.0),
+}
 _LOST = 1e6  # floors by which a model that cannot be simulated is off
 _SMALL_SHARE = 0.01  # of its scale, as the size of a parameter whose preset is zero
 _UNBOUNDED = 1e6  # sizes up to which a parameter without a bound may go
 _DOUBT = 0.02  # of all that is known, which a fit to some records may keep of the others
+_SHARES = (1.0, 0.5, 0.25, 0.1)  # of a step, that are tried
+_PIECES = 4  # of a single record
+_ASTRAY = 1.02  # times what was left of the rows that were fitted
 _BLIND = 1e-10  # of the greatest eigenvalue, below which the records say nothing
 _BLIND_SHARE = 1e-3  # of a parameter in such directions, from which it is unknown
 _AT_BOUND = 1e-6  # sizes from a bound that are none
@@ -142,14 +149,29 @@ def held_out(evidence: Evidence, fitted: Fit) -> FloatArray:
     left = fitted.residual.copy()
     hessian = fitted.jacobian.T @ fitted.jacobian
     slope = fitted.jacobian.T @ fitted.residual
-    for records, rows in folds(evidence):
+    for rows in folds(evidence):
         jacobian, residual = fitted.jacobian[rows], fitted.residual[rows]
         # What the others know, and a little of all: it keeps blind directions in place.
         known = (1.0 + _DOUBT) * hessian - jacobian.T @ jacobian
         x = _bounded_minimum(known, slope - jacobian.T @ residual, fitted.x, low, high)
-        then = residual_of(evidence, fitted.effects, fitted.free, x, records)
-        left[rows] = then[_among(evidence, records, rows)]
+        then = _kept_down(evidence, fitted, x, rows)
+        left[rows] = then[rows]
     return left
+
+
+def _kept_down(evidence: Evidence, fitted: Fit, x: FloatArray, out: BoolArray) -> FloatArray:
+    """Return the residual (rows,) at ``x``, or nearer the fit where ``x`` went astray.
+
+    A step is one towards a better fit of the rows that are not ``out``, which it must not make
+    much worse: what is far from linear does not lie where its tangent points.
+    """
+    known = float(np.sum(fitted.residual[~out] ** 2))
+    for share in _SHARES:
+        there = fitted.x + share * (x - fitted.x)
+        then = residual_of(evidence, fitted.effects, fitted.free, there)
+        if float(np.sum(then[~out] ** 2)) <= _ASTRAY * known:
+            return then
+    return fitted.residual
 
 
 def _bounded_minimum(
@@ -166,30 +188,24 @@ def _bounded_minimum(
     return np.asarray(np.clip(x + step.x / scale, low, high))
 
 
-def folds(evidence: Evidence) -> list[tuple[list[int], np.ndarray]]:
-    """Return which records, and which rows (rows,) of them, are left out together."""
+def folds(evidence: Evidence) -> list[BoolArray]:
+    """Return which rows (rows,) are left out together: each record, or quarters of a single one."""
     parts = evidence.parts
     rows = parts[-1].rows.stop
-    found = []
     several = len(evidence.observations) > 1
+    found = []
     for number in range(len(evidence.observations)):
-        for half in range(1 if several else 4):
+        for piece in range(1 if several else _PIECES):
             out = np.zeros(rows, dtype=np.bool_)
             for part in parts:
                 if part.record == number:
-                    begin, end = part.rows.start, part.rows.stop
-                    size = end - begin
-                    if several:
-                        out[begin:end] = True
-                    else:
-                        out[begin + size * half // 4 : begin + size * (half + 1) // 4] = True
-            found.append(([number], out))
+                    begin, size = part.rows.start, part.rows.stop - part.rows.start
+                    pieces = 1 if several else _PIECES
+                    out[begin + size * piece // pieces : begin + size * (piece + 1) // pieces] = (
+                        True
+                    )
+            found.append(out)
     return found
-
-
-def _among(evidence: Evidence, records: Sequence[int], rows: np.ndarray) -> np.ndarray:
-    """Return which rows of the residual of some records are meant, of those of all."""
-    return np.concatenate([rows[part.rows] for part in evidence.parts if part.record in records])
 
 
 def residual_of(
@@ -224,7 +240,9 @@ def free_parameters(evidence: Evidence, effects: Sequence[AxisEffect]) -> tuple[
     for number, asked in enumerate(effects):
         attached = Attached.of(evidence.robot, asked)
         for parameter in attached.formulation.parameters:
-            low, high = parameter.bounds(attached.facts)
+            low, high = _TOLERANCES.get((asked.id, parameter.name)) or parameter.bounds(
+                attached.facts
+            )
             preset = parameter.preset(attached.facts)
             scale = max(parameter.scale(attached.facts), parameter.spared(attached.facts))
             size = abs(preset) or _SMALL_SHARE * scale

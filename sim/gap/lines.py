@@ -9,6 +9,9 @@ from rotemina.sim.records.record import Tap
 
 _MOST_BINS = 1 << 17
 _PADDED = 4  # lines per resolvable one
+_EVERY = 3  # rows, of which one will do
+_FINE = 12  # periods on either side, that are tried
+_SHIFTS = 12
 _PER_PERIOD = 4  # bins of position in the shortest period
 
 
@@ -42,6 +45,31 @@ def strongest_frequency(
         if line is not None and (best is None or line[1] > best[1]):
             best = line
     return best[0] if best is not None else None
+
+
+def steps_at(
+    evidence: Evidence, residual: FloatArray, period: float, origin: float
+) -> tuple[float, float]:
+    """Return period and shift, in periods from ``origin``, of the sawtooth nearest a residual.
+
+    A sawtooth of many teeth is out of step long before its line in a spectrum is.
+    """
+    places, gaps = [], []
+    for part in evidence.parts:
+        if part.tap is not Tap.U:
+            record = evidence.observations[part.record].record
+            places.append(record.signal(evidence.axis, Tap.CMD)[::_EVERY] - origin)
+            gaps.append(residual[part.rows][::_EVERY])
+    place, gap = np.concatenate(places), np.concatenate(gaps)
+    reach = max(float(np.ptp(place)), period)
+    fine = period * (1.0 + np.linspace(-1.0, 1.0, 2 * _FINE + 1) * period / reach)
+    tried = [(float(p), k / _SHIFTS - 0.5) for p in fine for k in range(_SHIFTS)]
+    return max(tried, key=lambda one: _likeness(place, gap, *one))
+
+
+def _likeness(place: FloatArray, gap: FloatArray, period: float, shift: float) -> float:
+    turns = place / period - shift
+    return float((np.rint(turns) - turns) @ gap)
 
 
 def _over_position(

@@ -45,7 +45,7 @@ def probed(evidence: Evidence, residual: FloatArray) -> Probe:
     """Try to predict a residual (rows,) over the floor from features of the commands."""
     groups = _features(evidence)
     features = np.hstack(list(groups.values()))
-    learned = [_Learned.of(features, residual, out) for _, out in folds(evidence)]
+    learned = [_Learned.of(features, residual, out) for out in folds(evidence)]
     every = list(range(features.shape[1]))
     left = _unpredicted(features, residual, learned, every)
     alone = {
@@ -83,7 +83,9 @@ def _unpredicted(
     moments = sum((one.moments[columns] for one in learned), np.zeros(len(columns)))
     for one in learned:
         known = gram - one.gram[some]
-        known += np.diag(_RIDGE * np.diag(gram)) + _TINY * np.trace(gram) * np.eye(len(gram))
+        known += np.diag(_RIDGE * np.diag(gram)) + (_TINY * np.trace(gram) + _TINY) * np.eye(
+            len(gram)
+        )
         weights = np.linalg.solve(known, moments - one.moments[columns])
         then = residual[one.out] - features[one.out][:, columns] @ weights
         if float(then @ then) < float(residual[one.out] @ residual[one.out]):

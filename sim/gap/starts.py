@@ -13,7 +13,7 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import Fit
-from rotemina.sim.gap.lines import strongest_frequency, strongest_period
+from rotemina.sim.gap.lines import steps_at, strongest_frequency, strongest_period
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect, PiezoAxis
 
@@ -26,7 +26,7 @@ _LADDERS: Mapping[str, Mapping[str, tuple[float, ...]]] = {  # in presets
     "sensor_lag": {"time_constant": (0.5, 2.0, 8.0)},
     "slew_limit": {"rate": (10.0, 3.0, 1.0, 0.3, 0.1, 0.03)},
     "backlash": {"width": (0.1, 0.5, 2.0)},
-    "friction": {"coulomb": (0.2, 1.0, 4.0), "coulomb_forward": (0.2, 1.0, 4.0)},
+    "friction": {"coulomb": (0.3, 3.0, 20.0), "coulomb_forward": (0.3, 3.0, 20.0)},
     "creep": {"onset": (0.3, 3.0)},
     "thermal_drift": {"time_constant": (0.03, 0.2, 1.0)},
     "hysteresis": {"width": (0.3, 1.0)},
@@ -78,10 +78,12 @@ def _quanta(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dic
     axis = evidence.robot.axes[evidence.axis]
     inputs = attached.effect.id == "quantization" and isinstance(axis, PiezoAxis)
     gain = attached.facts.gain if inputs else 1.0
+    origin = attached.facts.low if attached.effect.id == "quantization" else 0.0
     yield {"step": attached.values["step"]}
     seen = strongest_period(evidence, fitted.residual, (max(low * gain, 1e-12), high * gain))
     if seen is not None:
-        yield {"step": float(np.clip(seen / gain, low, high))}
+        step, shift = steps_at(evidence, fitted.residual, seen, origin)
+        yield {"step": float(np.clip(step / gain, low, high)), "shift": shift}
 
 
 def _tones(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
