@@ -34,8 +34,7 @@ _MOST_SETS = 2
 _MOST_RIVALS = 4
 _OPEN = 2  # effects beside the likeliest one, where the records rule none out
 _FINALISTS = 4
-_ENOUGH = 0.5  # floors apart, from which a diagnosis tells rivals
-_WORTH_A_REF = 2.0  # times farther apart, from which a further channel is asked for
+_ENOUGH = 1.0  # floors apart, from which a diagnosis tells rivals
 _NOTHING = 0.05  # floors apart, below which a test is none
 
 Floors = Mapping[Tap, float]
@@ -105,48 +104,89 @@ def _rich(axis: str, trial: Trial) -> Experiment:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Choice:
-    """A test, what each rival answers, and by how many floors of which taps these differ."""
+    """A test, what each rival answers, and by how many floors of which taps these differ.
+
+    ``need_reference`` are the rivals that only a reference tells apart, which no record has.
+    """
 
     trial: Trial
     answers: tuple[Answer, ...]
     floors: Floors
     apart: float
+    need_reference: tuple[Rival, ...] = ()
+
+    @property
+    def tap(self) -> Tap:
+        """The tap at which the predictions tell most: the reading where it tells enough."""
+        if self.need_reference:
+            return Tap.REF
+        rows = len(self.trial.record.time_s)
+
+        def tells(tap: Tap) -> float:
+            own = {tap: self.floors[tap]}
+            return plainly_apart([over_floors(answer, own) for answer in self.answers], rows)
+
+        if Tap.MEAS in self.floors and tells(Tap.MEAS) >= min(self.apart, 1.0):
+            return Tap.MEAS
+        return max(self.floors, key=tells)
+
+    def alike(
+        self, player: Player, rivals: Sequence[Rival], floors: Floors, least: float
+    ) -> list[int]:
+        """Return the numbers of the rivals that this test sets less than ``least`` floors apart."""
+        yielding = _yielding(player, rivals, self.trial, self.answers, floors)
+        return alike(yielding, len(self.trial.record.time_s), least)
 
 
 def _experiment(
     examination: Examination, rivals: Sequence[Rival], able: Sequence[Trial]
 ) -> Experiment | None:
+    """Return the best test for a set; what no test tells from the others is left out of it."""
     evidence = examination.evidence
     player = Player(evidence.robot, evidence.axis, evidence.heartbeat)
-    played = list(_played(player, rivals, able))
-    floors = _floors(evidence)
     enough = _ENOUGH * float(np.sqrt(max(examination.best.score, 1.0)))
-    choice = _best(player, rivals, played, floors)
-    same: Sequence[Rival] = ()
-    if Tap.REF not in floors and (choice is None or choice.apart < enough):
-        more = {**floors, Tap.REF: _floor_of_reference(evidence, floors)}
-        other = _best(player, rivals, played, more)
-        if other is not None and (choice is None or other.apart > _WORTH_A_REF * choice.apart):
-            choice = other
-            by_reading = _yielding(player, rivals, other.trial, other.answers, floors)
-            rows = len(other.trial.record.time_s)
-            same = [rivals[number] for number in alike(by_reading, rows, enough)]
+    rivals, left_out = list(rivals), []
+    choice = _choice(player, evidence, rivals, able, enough)
+    while choice is not None and choice.apart < enough and len(rivals) > 2:
+        close = choice.alike(player, rivals, choice.floors, enough)
+        left_out.append(rivals.pop(max(close, default=0) or len(rivals) - 1))
+        choice = _choice(player, evidence, rivals, able, enough)
     if choice is None or choice.apart < _NOTHING:
         return None
-    tap = Tap.REF if same else _tap_shown(choice)
     record = choice.trial.record
     return Experiment(
         axis=evidence.axis,
         splits=tuple(one.effect for one in rivals),
-        why=_why(evidence.axis, rivals, choice, same, doubtful=choice.apart < enough),
+        why=_why(evidence.axis, rivals, choice, left_out, doubtful=choice.apart < enough),
         time_s=tuple(record.time_s.tolist()),
         commands={name: tuple(record.signal(name, Tap.CMD).tolist()) for name in record.axes},
         predictions={
-            one.effect: tuple(answer[tap].tolist())
+            one.effect: tuple(answer[choice.tap].tolist())
             for one, answer in zip(rivals, choice.answers, strict=True)
         },
-        tap=tap,
+        tap=choice.tap,
     )
+
+
+def _choice(
+    player: Player,
+    evidence: Evidence,
+    rivals: Sequence[Rival],
+    able: Sequence[Trial],
+    enough: float,
+) -> _Choice | None:
+    """Return the best test by the channels that records have; by a reference if need be."""
+    played = list(_played(player, rivals, able))
+    floors = _floors(evidence)
+    choice = _best(player, rivals, played, floors)
+    if Tap.REF in floors or (choice is not None and choice.apart >= enough):
+        return choice
+    more = {**floors, Tap.REF: _floor_of_reference(evidence, floors)}
+    other = _best(player, rivals, played, more)
+    if other is None or other.apart < enough:
+        return choice
+    close = other.alike(player, rivals, floors, enough)
+    return replace(other, need_reference=tuple(rivals[number] for number in close))
 
 
 def _played(
@@ -217,40 +257,34 @@ def _floor_of_reference(evidence: Evidence, floors: Floors) -> float:
     return declared or floors.get(Tap.MEAS) or min(floors.values())
 
 
-def _tap_shown(choice: _Choice) -> Tap:
-    """Return the tap at which the predictions tell most: the reading where it tells enough."""
-    rows = len(choice.trial.record.time_s)
-
-    def tells(tap: Tap) -> float:
-        own = {tap: choice.floors[tap]}
-        return plainly_apart([over_floors(answer, own) for answer in choice.answers], rows)
-
-    if Tap.MEAS in choice.floors and tells(Tap.MEAS) >= min(choice.apart, 1.0):
-        return Tap.MEAS
-    return max(choice.floors, key=tells)
-
-
 def _why(
-    axis: str, rivals: Sequence[Rival], choice: _Choice, same: Sequence[Rival], *, doubtful: bool
+    axis: str,
+    rivals: Sequence[Rival],
+    choice: _Choice,
+    left_out: Sequence[Rival],
+    *,
+    doubtful: bool,
 ) -> str:
-    """Say what the test is for; ``same`` are the rivals that need a reference to be told apart."""
-    names = listed([_title(one) for one in rivals])
     closest = "" if len(rivals) == 2 else ", the closest two of them,"
-    figures = (
-        f"{float(f'{choice.apart:.2g}'):g} noise floors (rms) apart, even once each is fitted to it"
-    )
-    doubt = ", which may be too little" if doubtful else ""
+    floors = f"{float(f'{choice.apart:.2g}'):g} noise floors (rms)"
     said = (
-        f"To tell {names} apart, play this: {_described(choice.trial, axis)}; it sets them"
-        f"{closest} {figures}{doubt}"
+        f"To tell {_listed(rivals)} apart, play this: {_described(choice.trial, axis)}; it sets "
+        f"them{closest} {floors} apart, even once each is fitted to it"
     )
-    if not same:
-        return f"{said}."
-    alike_ones = listed([_title(one) for one in same])
-    return (
-        f"{said}, if the reference (ref) of {axis} is recorded too: without it, it does not tell "
-        f"{alike_ones} apart."
-    )
+    if doubtful:
+        said += ", which may be too little"
+    if choice.need_reference:
+        said += (
+            f", if the reference (ref) of {axis} is recorded too: without it, it does not tell "
+            f"{_listed(choice.need_reference)} apart"
+        )
+    if left_out:
+        said += f"; no test here tells {_listed(left_out, 'or')} from one of them"
+    return f"{said}."
+
+
+def _listed(rivals: Sequence[Rival], word: str = "and") -> str:
+    return listed([_title(one) for one in rivals], word)
 
 
 def _described(trial: Trial, axis: str) -> str:

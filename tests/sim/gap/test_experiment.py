@@ -145,6 +145,14 @@ def test_where_the_reference_is_recorded_nothing_more_is_asked_for():
     assert "recorded too" not in found.why
 
 
+def test_a_rival_that_no_test_tells_is_left_out_and_said():
+    record = measured([TRUE_DELAY], commands(), reference=True)
+    rivals = on_zn("delay", "gain_error", "static_nonlinearity")
+    (found,) = experiments(ROBOT, examined(record, rivals))
+    assert found.splits == ("delay", "gain_error")
+    assert "no test here tells static nonlinearity from one of them" in found.why
+
+
 def test_for_a_coupling_one_of_the_two_axes_moves_while_the_other_is_held():
     truth = AxisEffect(axis="thx", id="cross_coupling", from_axis="thy")
     alone = commands(axes=("thx",))
