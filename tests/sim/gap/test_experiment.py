@@ -14,7 +14,7 @@ from rotemina.sim.gap.fit import Fit, Free
 from rotemina.sim.gap.models import explain
 from rotemina.sim.gap.rivals import Rival
 from rotemina.sim.gap.selection import Selection
-from rotemina.sim.gap.separation import Yielding, alike, apart, apart_by_fit
+from rotemina.sim.gap.separation import Player, Yielding, alike, apart, apart_by_fit
 from rotemina.sim.gap.trials import trials
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
@@ -185,6 +185,12 @@ def test_near_a_keep_out_no_test_leaves_where_the_records_were():
         slack = 1e-9 * (high - low)
         kept = [one.min() >= low - slack and one.max() <= high + slack for one in ends]
         assert all(kept) is inside
+
+
+@pytest.mark.parametrize(("farthest_m", "inside"), [(65.5e-6, True), (66.0e-6, False)])
+def test_a_test_that_a_rival_says_leaves_the_range_is_not_safe(farthest_m, inside):
+    player = Player(ROBOT, "zn", lambda: None)
+    assert player.stays_inside({Tap.REF: np.array([30e-6, farthest_m])}) is inside
 
 
 @pytest.mark.parametrize("axis", ROBOT.axes)
