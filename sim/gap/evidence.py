@@ -22,7 +22,6 @@ from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import AxisEffect, ForceAxis, Robot
 
 _TAPS = (Tap.U, Tap.REF, Tap.MEAS)
-_FELT = 1e-3  # floors, in quadrature over all rows, from which a memory shows
 _CONSTANT_FORCE = 0.1  # of a constant force, that is held against the model
 
 Signals = Mapping[Tap, FloatArray]
@@ -239,14 +238,15 @@ def _observe(robot: Robot, axis: str, record: Record) -> Observation:
 
 
 def _beside(signals: Sequence[FloatArray], gap: FloatArray) -> FloatArray:
-    """Return a gap (n,) without what signals, each (n,), do in whatever amount."""
-    sizes = [float(np.linalg.norm(signal)) for signal in signals]
-    felt = [s / size for s, size in zip(signals, sizes, strict=True) if size > _FELT]
-    if not felt:
+    """Return a gap (n,) without what signals, each (n,), do in amounts of about one.
+
+    An amount is as likely as a normal variate: one that is needed a thousandfold explains nothing.
+    """
+    if not signals:
         return gap
-    basis, share, _ = np.linalg.svd(np.stack(felt, axis=1), full_matrices=False)
-    basis = basis[:, share > _FELT]
-    return np.asarray(gap - basis @ (basis.T @ gap))
+    basis = np.stack(signals, axis=1)
+    known = basis.T @ basis + np.eye(len(signals))
+    return np.asarray(gap - basis @ np.linalg.solve(known, basis.T @ gap))
 
 
 def _own_signals(observation: Observation, kept: BoolArray | None, rows: int) -> FloatArray:

@@ -3,7 +3,7 @@
 What an axis remembers from before an unknown history is the record's own. It is taken to lie
 somewhere between two extremes, with the axis long at the low or at the high end of its range before
 the first row: how the answers to these differ from the answer to a rest at the first command are
-nuisances of the record, in whatever amount.
+nuisances of the record, in amounts of about one.
 """
 
 from collections.abc import Iterator

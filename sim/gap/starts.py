@@ -13,13 +13,16 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import Fit
-from rotemina.sim.gap.lines import steps_at, strongest_frequency, strongest_period
+from rotemina.sim.gap.lines import likeliest_steps, strongest_frequency, strongest_periods
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect, PiezoAxis
 
+_MOST_PERIODS = 3
 _MODES = (0.4, 1.7, 3.0)  # of the axis' own frequency
 _PLACES = (0.2, 0.4, 0.6, 0.8, 0.92)  # of the way from the lowest to the highest command
 _BEYOND = (0.04, 0.15)  # of that way, which a saturated amplifier does not go
+_LATE = ("delay", "amplifier_lag", "sensor_lag")
+_ROWS_LATE = (1.0, 3.0)
 _LADDERS: Mapping[str, Mapping[str, tuple[float, ...]]] = {  # in presets
     "delay": {"delay": (0.3, 1.0, 4.0, 15.0)},
     "amplifier_lag": {"time_constant": (0.5, 2.0, 8.0)},
@@ -57,8 +60,21 @@ def _starts(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dic
         for name, presets in ladders.items():
             if name in names:
                 yield from ({name: attached.values[name] * share} for share in presets)
+                if attached.effect.id in _LATE:
+                    yield from _by_rows(evidence, attached, name, presets[-1])
                 return
         yield {}
+
+
+def _by_rows(
+    evidence: Evidence, attached: Attached, name: str, most: float
+) -> Iterator[dict[str, float]]:
+    """Give starts for what comes late by a few rows, where rows lie far apart."""
+    record = evidence.observations[0].record
+    row_s = float(np.median(np.diff(record.time_s)))
+    for rows in _ROWS_LATE:
+        if rows * row_s > 1.5 * most * attached.values[name]:
+            yield _clipped(attached, **{name: rows * row_s})
 
 
 def _periods(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
@@ -66,8 +82,7 @@ def _periods(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[di
     assert parameter is not None
     low, high = parameter.bounds(attached.facts)
     yield {"period": attached.values["period"]}
-    seen = strongest_period(evidence, fitted.residual, (low, high))
-    if seen is not None:
+    for seen in strongest_periods(evidence, fitted.residual, (low, high))[:_MOST_PERIODS]:
         yield {"period": float(np.clip(seen, low, high))}
 
 
@@ -80,10 +95,9 @@ def _quanta(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dic
     gain = attached.facts.gain if inputs else 1.0
     origin = attached.facts.low if attached.effect.id == "quantization" else 0.0
     yield {"step": attached.values["step"]}
-    seen = strongest_period(evidence, fitted.residual, (max(low * gain, 1e-12), high * gain))
+    seen = likeliest_steps(evidence, fitted.residual, (max(low * gain, 1e-12), high * gain), origin)
     if seen is not None:
-        step, shift = steps_at(evidence, fitted.residual, seen, origin)
-        yield {"step": float(np.clip(step / gain, low, high)), "shift": shift}
+        yield {"step": float(np.clip(seen[0] / gain, low, high)), "shift": seen[1]}
 
 
 def _tones(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
