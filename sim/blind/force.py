@@ -140,7 +140,7 @@ def _looped(
             push = gains[3] * acting - gains[4]
             push += numbers[2] * np.sin(2.0 * np.pi * numbers[3] * now_s)
             if friction[2] > 0.0:
-                push += load_force(friction, memory, state[0], state[d], 0.0, 0.0, k, h)
+                push += load_force(friction, memory, state[0], state[d], k, h)
             for i in range(2 * d):
                 after[i] = forced[i, 0] * push
                 for j in range(2 * d):

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+import numba
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
@@ -18,13 +19,33 @@ def row(code: int, axis: Axis, numbers: Sequence[float]) -> FloatArray:
 
 
 def backlash(axis: Axis, rng: np.random.Generator) -> Part:
-    """Dead band in the drive train, whose springs are the axis' own; size is its width, m."""
-    soft = rng.uniform(0.01, 0.08)
+    """Dead band in the drive train, ahead of the axis' springs; size is its width, m.
+
+    A Duhem model: dy = ((1 ± (x − y)/h)/2)ⁿ dx with the half width h, + on the way up; the drive
+    takes the load up softly, the more so the smaller n.
+    """
+    power = np.exp(rng.uniform(np.log(3.0), np.log(30.0)))
 
     def act(values: FloatArray, course: Course, size: float) -> FloatArray:
-        return row(mechanics.BACKLASH, axis, [0.5 * size, soft * size])
+        return _dragged(values, 0.5 * size, power)
 
-    return Part("backlash", axis, Stage.LOAD, act, (1e-7, 3e-5))
+    return Part("backlash", axis, Stage.ACTUATOR, act, (1e-7, 3e-5))
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _dragged(values: FloatArray, half: float, power: float) -> FloatArray:
+    out = np.empty_like(values)
+    behind = half  # after a rise
+    for k in range(len(values)):
+        move = values[k] - values[k - 1] if k > 0 else 0.0
+        pieces = min(max(int(np.ceil(abs(move) / (0.1 * half))), 1), 400)
+        for _ in range(pieces):
+            side = behind / half if move > 0.0 else -behind / half
+            taken = max(0.5 + 0.5 * side, 0.0) ** power
+            behind += move / pieces * (1.0 - taken)
+            behind = min(max(behind, -half), half)
+        out[k] = values[k] - behind
+    return out
 
 
 def friction(axis: Axis, rng: np.random.Generator) -> Part:

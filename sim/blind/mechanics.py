@@ -9,7 +9,7 @@ from scipy.linalg import expm
 from rotemina.sim.arrays import FloatArray
 
 # What a load row holds: its code, its axis, then up to ten numbers.
-BACKLASH, SLIP, DAHL, ELASTOPLASTIC, CONTACT, HARDENING, BREATHING = range(7)
+SLIP, DAHL, ELASTOPLASTIC, CONTACT, HARDENING, BREATHING = range(6)
 ROW = 12
 _STATES = 12
 
@@ -68,9 +68,7 @@ def _moved(
             force[i] = drive[i] * targets[k, i]
         for j in range(len(loads)):
             i = int(loads[j, 1])
-            force[i] += load_force(
-                loads[j], memory[j], state[i], state[d + i], targets[k, i], drive[i], k, step_s
-            )
+            force[i] += load_force(loads[j], memory[j], state[i], state[d + i], k, step_s)
         for i in range(2 * d):
             total = 0.0
             for j in range(2 * d):
@@ -88,15 +86,11 @@ def load_force(
     memory: FloatArray,
     q: float,
     v: float,
-    target: float,
-    drive: float,
     k: int,
     step_s: float,
 ) -> float:
     """Return the force of one load at position q and speed v; its ``memory`` goes on a step."""
     code = int(row[0])
-    if code == BACKLASH:
-        return drive * (_play(target - q, row[2], row[3]) - (target - q))
     if code == SLIP:
         return -_maxwell(row, memory, v, step_s)
     if code == DAHL:
@@ -109,20 +103,6 @@ def load_force(
         return -_elastoplastic(row, memory, v, step_s)
     # BREATHING: a stiffness that changes by itself with time.
     return float(-row[2] * (q - row[5]) * np.sin(row[3] * k * step_s + row[4]))
-
-
-@numba.njit(cache=True, error_model="numpy")
-def _play(gap: float, half: float, soft: float) -> float:
-    """Dead band of ``half`` to each side with corners rounded over ``soft``."""
-    return _ramp(gap - half, soft) - _ramp(-gap - half, soft)
-
-
-@numba.njit(cache=True, error_model="numpy")
-def _ramp(x: float, soft: float) -> float:
-    """Return 0 below -soft, x above soft, and a parabola between: nothing pulls within the band."""
-    if abs(x) < soft:
-        return (x + soft) ** 2 / (4.0 * soft)
-    return max(x, 0.0)
 
 
 @numba.njit(cache=True, error_model="numpy")

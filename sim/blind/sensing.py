@@ -7,7 +7,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.blind.curves import draw_curve
 from rotemina.sim.blind.electronics import lag_poles
-from rotemina.sim.blind.filters import lagged, shifted
+from rotemina.sim.blind.filters import lagged, smoothly_shifted
 from rotemina.sim.blind.part import Axis, Course, Part, Stage
 
 
@@ -129,6 +129,7 @@ def clock_skew(axis: Axis, rng: np.random.Generator) -> Part:
     sign = rng.choice([-1.0, 1.0])
 
     def act(values: FloatArray, course: Course, size: float) -> FloatArray:
-        return shifted(values, sign * size * np.maximum(np.arange(len(values)) - course.lead, 0))
+        late = sign * size * np.maximum(np.arange(len(values)) - course.lead, 0)
+        return smoothly_shifted(values, late)
 
     return Part("clock_skew", axis, Stage.SENSOR, act, (5e-6, 2e-3))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rotemina.sim.blind.actuator import creep, hysteresis, lost_steps
-from rotemina.sim.blind.filters import lagged, mode_poles
+from rotemina.sim.blind.filters import lagged, mode_poles, smoothly_shifted
 from rotemina.sim.blind.force import Loop, run_loop
 from rotemina.sim.blind.loads import backlash, contact, flexible_mode, friction
 from rotemina.sim.blind.machine import Commands, machine_of
@@ -137,10 +137,11 @@ def test_lost_steps_are_multiples_of_four_full_steps(axis):
     assert np.array_equal(part.act(values, course, 2.0), part.act(values, course, 2.0))
 
 
-def test_backlash_leaves_the_axis_half_its_width_behind(axis):
+@pytest.mark.parametrize("seed", range(4))
+def test_backlash_leaves_the_axis_half_its_width_behind(seed):
     commands = stepper_commands(30.0, 30.02, 30.0, 30.02)
     plain = machine(("x", "y", "z"), commands)
-    part = backlash(plain.axes[0], np.random.default_rng(0)).sized(4e-6)
+    part = backlash(plain.axes[0], np.random.default_rng(seed)).sized(4e-6)
     late = plain.having([part]).respond(commands, 0).motion[:, 0] - commands.values[:, 0]
     assert late[590] == pytest.approx(-2e-6, rel=0.25)  # after a rise, long ago
     assert late[1190] == pytest.approx(-2e-6, rel=0.25)
@@ -203,3 +204,10 @@ def test_a_filter_begins_at_rest_and_ends_at_its_input():
     out = lagged(values, mode_poles(20.0, 0.5), 5e-5)
     assert np.allclose(out[:500], 2.0, atol=1e-9)
     assert out[-1] == pytest.approx(3.0, rel=1e-6)
+
+
+def test_a_shift_leaves_less_of_a_resonance_than_noise():
+    fine = np.arange(20_000) * 5e-5
+    late = smoothly_shifted(np.sin(2.0 * np.pi * 420.0 * fine), np.full(20_000, 7.4))
+    exact = np.sin(2.0 * np.pi * 420.0 * (fine - 7.4 * 5e-5))
+    assert np.abs(late - exact)[10:].max() < 1e-5
