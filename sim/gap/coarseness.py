@@ -8,6 +8,8 @@ _LEAST_STEP = 1.8  # declared resolutions, or floors, of a step that is a coarse
 _MOST_BINS = 1 << 19
 _BINS_A_STEP = 8
 _COHERENT = 0.5  # from which readings stand on a grid; independent ones come to 1/√n
+_PADDED = 4  # so that no grid falls between two lines
+_NEARLY = 0.9
 _SLACK = 0.15
 _FEWER = 0.7  # times as many different readings as expected, that a coarser sensor gives at most
 
@@ -26,16 +28,19 @@ def coarse_step(reading: FloatArray, expected: FloatArray, finest: float) -> flo
         return None
     low = min(reading.min(), expected.min())
     bins = int(np.ceil((max(reading.max(), expected.max()) - low) / width)) + 1
-    own, other = (
-        np.abs(np.fft.rfft(np.bincount(((s - low) / width).astype(np.int64), minlength=bins)))
-        / len(s)
-        for s in (reading, expected)
-    )
-    rates = np.fft.rfftfreq(bins, width)
+    own, other = (_characteristic(s - low, width, bins) for s in (reading, expected))
+    rates = np.fft.rfftfreq(_PADDED * bins, width)
     # A hold of a whole record would stand on any grid.
     within = (rates > 3.0 / np.ptp(reading)) & (rates < 1.0 / finest)
     excess = np.where(within, own - other, 0.0)
-    best = int(np.argmax(excess))
+    # A grid is one of its halves and thirds, too: the widest counts.
+    best = int(np.argmax(excess > _NEARLY * excess.max()))
     if own[best] < _COHERENT or excess[best] < _COHERENT - _SLACK:
         return None
     return float(1.0 / rates[best])
+
+
+def _characteristic(reading: FloatArray, width: float, bins: int) -> FloatArray:
+    """Return how far (rates,) readings stand on a grid of each rate: 1 if they all do."""
+    counts = np.bincount((reading / width).astype(np.int64), minlength=bins)
+    return np.asarray(np.abs(np.fft.rfft(counts, _PADDED * bins)) / len(reading))

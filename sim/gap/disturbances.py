@@ -24,7 +24,7 @@ from rotemina.sim.robot.model import StepperAxis
 
 _MORE_NOISE = 1.3  # floors from which noise is more than declared
 _SETTLED_S = 0.3  # after which a held axis rests
-_AROUND_A_JUMP_S = 0.03
+_AROUND_A_JUMP_S = 0.08
 _SEEN_BY_REF = 0.3  # of a wander, that the reference may see of what is left
 _SAME_TONE = 0.02  # relative difference of frequencies that are one
 
@@ -218,7 +218,8 @@ def _with_true_floors(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
         step = float(np.median(coarse))
         power = (step / floor) ** 2 / 12.0
         note = f"The sensor reads in steps of {step:.3g}."
-        return _raised(evidence, np.sqrt(1.0 + power)), [
+        # At rest an error of up to half a step stays as it is, which no mean over errors tells.
+        return _raised(evidence, float(np.sqrt(1.0 + 3.0 * power))), [
             Disturbance("sensor_quantization", Tap.MEAS, power, note)
         ]
     if level > _MORE_NOISE:

@@ -9,6 +9,7 @@ from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.formulation import Stage
 from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.attribution import attributed, without_own
+from rotemina.sim.gap.baseline import is_own
 from rotemina.sim.gap.blocks import drawn_means
 from rotemina.sim.gap.diagnosis import (
     UNKNOWN,
@@ -20,7 +21,7 @@ from rotemina.sim.gap.diagnosis import (
 )
 from rotemina.sim.gap.disturbances import Disturbance, by_effect, set_aside, wander
 from rotemina.sim.gap.evidence import Evidence, block_rows
-from rotemina.sim.gap.models import Explanation, mean_squares, untouched
+from rotemina.sim.gap.models import Explanation, explain, mean_squares, untouched
 from rotemina.sim.gap.probe import Probe, probed
 from rotemina.sim.gap.richness import is_poor
 from rotemina.sim.gap.rivals import Key, Rival, not_ruled_out, paired_blocks, rivals
@@ -40,6 +41,14 @@ from rotemina.sim.robot.model import AxisEffect
 
 _SURE = 1.96  # standard deviations of a 95 % interval
 _GAP = 1.5  # mean square over the floor from which there is something to explain
+_TWINS = {
+    "gain_error": ("sensor_gain",),
+    "static_nonlinearity": ("sensor_nonlinearity",),
+    "amplifier_lag": ("sensor_lag",),
+    "delay": ("sensor_lag",),
+    "leadscrew_error": ("encoder_interpolation",),
+    "microstep_error": ("encoder_interpolation",),
+}
 _NEAR = 4.0  # times the best score, up to which a re-tuning alone is a rival
 _NOT_NOISE = 0.6  # of a raised floor's power: a fit that leaves less shows that it was no noise
 _SURE_OF_DISTURBANCES = 0.95
@@ -89,7 +98,7 @@ def examine(whole: Evidence, told: Told, *, jobs: int = 1) -> Examination:
     told("deciding", None)
     drift = wander(evidence, best.fit.residual)
     disturbances = _counting(whole, evidence, best, [*aside, *([drift] if drift else [])])
-    tried = _with_retuned(evidence, selection, best)
+    tried = _with_twins(evidence, best, _with_retuned(evidence, selection, best))
     ranked = {
         key: rivals(evidence, best, without_own(evidence, best, tried, key), key)
         for key in best.ids
@@ -129,6 +138,30 @@ def _with_retuned(
     named = attributed(evidence, selection.bare, selection.retuned)
     others = [one for one in selection.tried if one is not selection.retuned]
     return (*others, replace(named, causes=named.causes[:1]))
+
+
+def _with_twins(
+    evidence: Evidence, best: Explanation, tried: Sequence[Explanation]
+) -> tuple[Explanation, ...]:
+    """Add what the sensor may do in the place of a cause, where no reference was recorded."""
+    if any(Tap.REF in observation.real for observation in evidence.observations):
+        return tuple(tried)
+    more = list(tried)
+    for cause in best.causes:
+        own = is_own(evidence, cause)
+        others = [one for one in best.causes if one is not cause and not is_own(evidence, one)]
+        for twin in _TWINS.get(cause.id, ()):
+            if any((twin, None) in one.ids for one in tried) and not own:
+                continue
+            asked = AxisEffect(axis=evidence.axis, id=twin, parameters=_alike(cause, twin))
+            more.append(explain(evidence, [*others, asked]))
+    return tuple(more)
+
+
+def _alike(cause: AxisEffect, twin: str) -> dict[str, float]:
+    """Return the numbers of a cause that its twin has too."""
+    names = {parameter.name for parameter in effect_named(twin).formulations[0].parameters}
+    return {name: value for name, value in cause.parameters.items() if name in names}
 
 
 def _counting(

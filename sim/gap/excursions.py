@@ -10,7 +10,7 @@ _FAR = 8.0  # robust standard deviations, and floors, from which a reading stand
 _BACK = 0.3  # of an excursion's size, within which it comes back to where it left
 _ABRUPT = 0.5  # of an excursion's size, that it does from one row to the next
 _NEAR_A_STEP = 0.2  # of an excursion's size: a command that moved as far shortly before explains it
-_SHORTLY_S = 0.03
+_SHORTLY_S = 0.15
 _MOST = 0.05  # of the rows: what is more frequent is no exception
 _DEVIATION = 1.4826  # standard deviations in a median absolute one
 

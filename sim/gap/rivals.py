@@ -14,9 +14,10 @@ from rotemina.sim.records.record import Tap
 
 _POWER = 2.0  # of what is left: how fast a rival loses with what it leaves
 _SLACK = 0.03  # of the floor's power, which two scores at the floor differ by chance
+_TIED = 1.5  # times a score, within which another is as good
 _SURE = 3.0  # standard errors from which a difference counts in full
 _SAME = 0.2  # of the likeliest one's probability, from which a rival is not ruled out
-_SIMPLER = 3.0  # times likelier, on a tie, for each parameter less
+_SIMPLER = 6.0  # times likelier, on a tie, for each parameter less
 _MOST_MORE = 3  # parameters that count so
 _PRIOR: Mapping[str, float] = {  # others: 1
     "sensor_gain": 0.5,
@@ -60,7 +61,8 @@ def rivals(
     least = min(len(one.fit.free) for _, one in found)
     weights = np.array(
         [
-            _weight(evidence, best, one) * _prior(key[0], len(one.fit.free) - least)
+            _weight(evidence, best, one)
+            * _prior(key[0], len(one.fit.free) - least if _is_tied(best, one) else 0)
             for key, one in found
         ]
     )
@@ -83,6 +85,11 @@ def not_ruled_out(ranked: Sequence[Rival], cause: Key) -> tuple[str, ...]:
 def _prior(effect: str, more_parameters: int) -> float:
     """Return how likely an effect is before any record: the simpler one on a tie."""
     return _PRIOR.get(effect, 1.0) * _SIMPLER ** -min(more_parameters, _MOST_MORE)
+
+
+def _is_tied(best: Explanation, other: Explanation) -> bool:
+    """Tell whether another explanation does about as well, so that the simpler one counts."""
+    return other.score < _TIED * best.score
 
 
 def _weight(evidence: Evidence, best: Explanation, other: Explanation) -> float:

@@ -54,9 +54,9 @@ def fitted(truth, axes=("x",), **motion):
     bare = AxisEffect(
         axis=truth.axis, id=truth.id, formulation=truth.formulation, from_axis=truth.from_axis
     )
-    return min(
-        (fit(evidence, [start]) for start in starts(evidence, bare)), key=lambda one: one.cost
-    )
+    nothing = fit(evidence, [])
+    begun = starts(evidence, nothing, bare)
+    return min((fit(evidence, [start]) for start in begun), key=lambda one: one.cost)
 
 
 @pytest.mark.parametrize(

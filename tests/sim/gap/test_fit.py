@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from rotemina.sim.gap.errors import GapError
-from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.fit import fit
+from rotemina.sim.gap.evidence import Evidence, block_rows
+from rotemina.sim.gap.fit import fit, folds, held_out
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -49,12 +49,35 @@ def test_the_true_effect_explains_all_and_its_parameters_come_back(truth):
         assert found.effects[0].parameters[name] == pytest.approx(value, rel=0.02)
 
 
-def test_records_that_are_left_out_of_the_fit_are_told_of_too():
+def test_what_is_held_out_is_predicted_from_the_other_records():
     truth = AxisEffect(axis="zn", id="hysteresis", parameters={"width": 5e-6, "shape": 1.6})
     evidence = Evidence.of(ROBOT, "zn", measured([truth], "zn", (0.3, 0.15)))
-    found = fit(evidence, [AxisEffect(axis="zn", id="hysteresis")], records=[0])
-    assert len(found.gaps) == 2
-    assert np.sqrt(np.mean(found.gaps[1][Tap.MEAS] ** 2)) < 2.0
+    found = fit(evidence, [AxisEffect(axis="zn", id="hysteresis")])
+    left = held_out(evidence, found)
+    assert float(np.mean(left**2)) == pytest.approx(1.0, abs=0.1)
+    # What explains one record alone is of no help with the other: the tone of the first.
+    shaken = measured([AxisEffect(axis="zn", id="vibration")], "zn", (0.3,))
+    mixed = Evidence.of(ROBOT, "zn", shaken + measured([], "zn", (0.15,), seed=1))
+    tone = fit(mixed, [AxisEffect(axis="zn", id="vibration")])
+    assert float(np.mean(held_out(mixed, tone) ** 2)) > 1.3 * tone.cost
+
+
+def test_a_single_record_is_held_out_in_quarters():
+    evidence = Evidence.of(ROBOT, "zn", measured([], "zn", (0.3,)))
+    out = folds(evidence)
+    assert len(out) == 4
+    assert np.sum(out, axis=0).tolist() == [1] * len(out[0])
+
+
+def test_deviations_cover_the_truth_and_blind_parameters_are_told():
+    truth = AxisEffect(axis="x", id="delay", parameters={"delay": 3.7e-3})
+    evidence = Evidence.of(ROBOT, "x", measured([truth], "x", (0.002,)))
+    untouched = AxisEffect(axis="x", id="contact", parameters={"place": 0.05, "stiffness": 0.0})
+    found = fit(evidence, [AxisEffect(axis="x", id="delay"), untouched])
+    spread = found.deviation(block_rows(evidence))
+    value, size = found.effects[0].parameters["delay"], found.free[0].size
+    assert abs(value - 3.7e-3) < 4.0 * spread[0] * size
+    assert np.isinf(spread[1:]).any()  # nothing was touched: place and damping tell nothing
 
 
 def test_a_wrong_effect_leaves_the_gap():

@@ -1,0 +1,147 @@
+"""What commands do not cause is found, named and set aside; what they do cause is left alone."""
+
+import numpy as np
+import pytest
+
+from rotemina.sim.gap.coarseness import coarse_step
+from rotemina.sim.gap.disturbances import set_aside, wander
+from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.excursions import excursions
+from rotemina.sim.gap.jumps import jumps
+from rotemina.sim.gap.models import mean_squares
+from rotemina.sim.gap.tones import tones
+from rotemina.sim.gap.wander import wandering
+from rotemina.sim.gap.whiteness import noise_level
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.simulation.simulation import simulate
+
+ROBOT = load_robot("rotemina")
+RATE_HZ = 1000.0
+TIME_S = np.arange(8000) / RATE_HZ
+NOISE = np.random.default_rng(0).standard_normal(len(TIME_S))
+
+
+def steps_and_triangles(axis, share=0.1):
+    """Move at constant speed, then in steps with holds between."""
+    own = ROBOT.axes[axis]
+    wave = 2.0 / np.pi * np.arcsin(np.sin(2.0 * np.pi * 0.5 * TIME_S))
+    stairs = np.floor(TIME_S) % 3 - 1.0
+    way = np.where(TIME_S < 4.0, wave, 0.3 * stairs)
+    return Record.from_signals(
+        TIME_S, {(axis, Tap.CMD): sum(own.range) / 2 + share * own.span * way}, {axis: own.unit}
+    )
+
+
+def aside(effects, axis, share=0.1, seeds=(0, 1)):
+    command = steps_and_triangles(axis, share)
+    records = [simulate(ROBOT, effects, command, np.random.default_rng(s)) for s in seeds]
+    evidence = Evidence.of(ROBOT, axis, records)
+    return evidence, *set_aside(evidence)
+
+
+def rms(evidence):
+    return float(np.sqrt(np.mean(evidence.residual() ** 2)))
+
+
+@pytest.mark.parametrize("axis", ["zn", "thx"])
+def test_a_healthy_axis_has_no_disturbances(axis):
+    _, clean, found = aside([], axis)
+    assert found == ()
+    assert rms(clean) == pytest.approx(1.0, abs=0.05)
+
+
+@pytest.mark.parametrize(
+    "effect",
+    [
+        AxisEffect(axis="zn", id="sensor_noise"),
+        AxisEffect(axis="zn", id="sensor_outliers"),
+        AxisEffect(axis="zn", id="sensor_outliers", formulation="dropouts_to_zero"),
+        AxisEffect(axis="zn", id="sensor_quantization", parameters={"step": 4e-7}),
+        AxisEffect(axis="zn", id="vibration", parameters={"frequency": 37.3, "sine": 2e-7}),
+    ],
+    ids=lambda effect: f"{effect.id} {effect.formulation or ''}",
+)
+def test_a_disturbance_is_named_and_set_aside(effect):
+    raw, clean, found = aside([effect], "zn")
+    assert {one.effect for one in found if one.power > 0.03 * rms(raw) ** 2} == {effect.id}
+    assert rms(raw) > 1.3
+    assert rms(clean) < 1.2
+
+
+@pytest.mark.parametrize(
+    "effect", ["hysteresis", "delay", "creep", "gain_error", "resonance_mismatch", "contact"]
+)
+def test_what_commands_cause_is_no_disturbance(effect):
+    raw, _, found = aside([AxisEffect(axis="zn", id=effect)], "zn")
+    power = sum(one.power for one in found)
+    assert power < 0.03 * rms(raw) ** 2
+
+
+def test_lost_steps_are_taken_back_by_whole_multiples():
+    lost = AxisEffect(
+        axis="x", id="lost_steps", formulation="event", parameters={"time": 2.3, "slips": -2.0}
+    )
+    raw, clean, found = aside([lost], "x", share=0.01)
+    assert {one.effect for one in found} == {"lost_steps"}
+    assert rms(raw) > 100.0
+    assert rms(clean) < 2.0
+
+
+def test_a_wander_of_the_sensor_is_told_from_motion():
+    drift = AxisEffect(axis="zn", id="sensor_drift", parameters={"rate": 5e-7})
+    raw, clean, found = aside([drift], "zn")
+    assert not {one.effect for one in found} - {"sensor_noise"}
+    told = wander(clean, clean.residual())
+    assert told is not None
+    reading = mean_squares(raw, raw.residual())[Tap.MEAS]
+    assert told.power == pytest.approx(reading, rel=0.2)
+    assert wander(*(lambda e: (e, e.residual()))(aside([], "zn")[1])) is None
+
+
+def test_jumps_smaller_or_slower_than_lost_steps_are_left_alone():
+    step = np.where(TIME_S > 3.0, 1.0, 0.0)
+    assert [round(size) for _, size in jumps(TIME_S, 5.0 * step + 0.01 * NOISE, 5.0)] == [5]
+    assert jumps(TIME_S, 2.0 * step + 0.01 * NOISE, 5.0) == []
+    slow = np.clip((TIME_S - 3.0) / 0.5, 0.0, 1.0)
+    assert jumps(TIME_S, 5.0 * slow + 0.01 * NOISE, 5.0) == []
+
+
+def test_ringing_after_a_step_of_the_command_is_no_excursion():
+    command = np.where(TIME_S > 3.0, 1000.0, 0.0)
+    since = np.maximum(TIME_S - 3.0, 0.0)
+    ringing = 50.0 * np.exp(-since / 0.02) * np.sin(2 * np.pi * 300.0 * since) * (since > 0)
+    assert not excursions(TIME_S, ringing + NOISE, command).any()
+    spiked = NOISE.copy()
+    spiked[[500, 4000]] += 40.0
+    assert np.flatnonzero(excursions(TIME_S, spiked, command)).tolist() == [500, 4000]
+
+
+def test_a_decaying_line_is_no_vibration():
+    resting = np.zeros(len(TIME_S), dtype=bool)
+    tone = 3.0 * np.sin(2 * np.pi * 23.0 * TIME_S)
+    assert tones(TIME_S, tone + NOISE, resting) == pytest.approx([23.0], abs=0.05)
+    assert tones(TIME_S, tone * np.exp(-TIME_S) + NOISE, resting) == []
+
+
+def test_the_level_of_noise_is_found_below_lines_and_slow_motion():
+    slow = 50.0 * np.sin(2 * np.pi * 0.4 * TIME_S) + 5.0 * np.sin(2 * np.pi * 60.0 * TIME_S)
+    assert noise_level(2.5 * NOISE + slow) == pytest.approx(2.5, rel=0.12)
+    assert noise_level(np.cumsum(NOISE)) == 0.0  # a wander
+
+
+def test_a_coarse_grid_is_found_where_noise_does_not_fill_it():
+    path = 1000.0 * np.sin(2 * np.pi * 0.2 * TIME_S)
+    expected = np.rint(path + NOISE)
+    assert coarse_step(8.0 * np.rint(path / 8.0), expected, 1.0) == pytest.approx(8.0, rel=0.01)
+    assert coarse_step(np.rint(path + NOISE[::-1]), expected, 1.0) is None
+
+
+def test_a_wander_must_go_on_at_rest():
+    resting = TIME_S > 4.0
+    walk = 0.3 * np.cumsum(NOISE)
+    assert wandering(TIME_S, walk - walk.mean(), resting) is not None
+    moving = np.where(resting, 0.0, 5.0 * np.sin(2 * np.pi * 0.5 * TIME_S))
+    assert wandering(TIME_S, moving, resting) is None
+    assert wandering(TIME_S, walk - walk.mean(), np.zeros(len(TIME_S), dtype=bool)) is None
