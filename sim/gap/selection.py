@@ -32,6 +32,7 @@ _BEAM = 2  # explanations that are extended
 _ALSO = 2.5  # times the score of the best, up to which another is extended
 _HOPELESS = 30.0  # times the cost of the best candidate
 _WORTH_GOING_ON = (0.25, 0.5, 1.0)  # share closed by one, two causes, to look for another
+_REFORMULATED = 4  # sets of causes whose members are tried by other formulations
 _SKETCHED = 3  # steps after which attempts are compared
 _BEHIND = 6.0  # times the cost of the best, from which an attempt is given up
 _LEAST_PROMISE = 0.5  # of the score: a best candidate that leaves more is no clear cause
@@ -73,6 +74,7 @@ def select(evidence: Evidence, told: Told, *, jobs: int = 1) -> Selection:
         for begun in beam:
             found += _extended(evidence, begun, own, bare, told, jobs)
         found = _unique(found)
+        found = _unique([*found, *_reformulated(evidence, found, own, jobs)])
         tried += found
         if not found:
             break
@@ -137,6 +139,24 @@ def _extended(
     chosen += [one.effect for one in _screened(evidence, begun.fit, others, jobs, briefly=True)]
     told("fitting", chosen[0].id)
     return _fitted(evidence, [[*begun.causes, one] for one in chosen], jobs)
+
+
+def _reformulated(
+    evidence: Evidence, found: Sequence[Explanation], own: Sequence[AxisEffect], jobs: int
+) -> list[Explanation]:
+    """Return sets of causes that leave a gap with another formulation of one of their members.
+
+    The one that did best alone need not do so beside the others.
+    """
+    if not found or found[0].score < NOTICED or len(found[0].causes) < 2:
+        return []
+    attempts = [
+        [sibling if one is cause else one for one in begun.causes]
+        for begun in found[:_REFORMULATED]
+        for cause in begun.causes
+        for sibling in siblings([cause], own)
+    ]
+    return _fitted(evidence, attempts, jobs) if attempts else []
 
 
 def _screened(
