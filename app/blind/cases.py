@@ -178,13 +178,17 @@ def _checked(labels: object, name: str, file: Path) -> Label:
         )
     effects = label.get("effects", [])
     whole = isinstance(effects, list) and all(
-        isinstance(e, dict) and {"axis", "effect"} <= e.keys() for e in effects
+        isinstance(e, dict) and all(isinstance(e.get(key), str) for key in ("axis", "effect"))
+        for e in effects
     )
     if not whole or ((verdict == "explained") != bool(effects) and verdict != "unknown"):
         raise BlindError(
             f"{file}: {name}: effects must be a list of objects with axis and effect, "
             "empty unless the verdict is explained or unknown"
         )
+    floors = label.get("floors", 0.0)
+    if isinstance(floors, bool) or not isinstance(floors, int | float):
+        raise BlindError(f"{file}: {name}: floors is {floors!r}; it must be a number")
     return {**label, "effects": effects}
 
 

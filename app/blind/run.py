@@ -40,10 +40,9 @@ class BlindRun:
         except OSError as error:
             raise BlindError(f"{folder}: it cannot be made ({error.strerror})") from error
         key = folder / "cases.json"
-        if key.exists() and json.loads(key.read_text("utf-8")) != dict(cases.key):
+        if key.exists() and (found := _read(key)) != dict(cases.key):
             raise BlindError(
-                f"{folder}: it holds the results of other cases "
-                f"({key.read_text('utf-8').strip()}); name another folder"
+                f"{folder}: it holds the results of other cases ({found}); name another folder"
             )
         write_text(key, json_text(dict(cases.key)))
 
@@ -101,10 +100,21 @@ class BlindRun:
 
     def _results(self) -> Iterator[tuple[Path, dict[str, Any]]]:
         for path in sorted((self._folder / "results").glob("*.json")):
-            yield path, json.loads(path.read_text("utf-8"))
+            result = _read(path)
+            if result.get("format") != FORMAT:
+                raise BlindError(f"{path}: it is no result of a blind test; remove it")
+            yield path, result
 
     def _result(self, name: str) -> Path:
         return self._folder / "results" / f"{name}.json"
+
+
+def _read(path: Path) -> dict[str, Any]:
+    try:
+        read = json.loads(path.read_text("utf-8"))
+    except (OSError, ValueError) as error:
+        raise BlindError(f"{path}: it cannot be read ({error}); remove it") from error
+    return read if isinstance(read, dict) else {}
 
 
 def _gaps(case: SealedCase, answer: Answer) -> dict[str, Gap]:

@@ -1,7 +1,7 @@
 """Runs of a machine that show what its parts do, and size them by it."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -36,14 +36,18 @@ class Trial:
     machine: Machine
     training: tuple[Commands, ...]
     seed: int
+    _known: dict[tuple[Part, ...], list[FloatArray]] = field(default_factory=dict)
 
     def readings(self, parts: Sequence[Part]) -> list[FloatArray]:
         """Return the noise-free readings (n, m) of each record."""
-        machine = self.machine.having(parts)
-        return [
-            machine.respond(c, record_seed(self.seed, k)).reading
-            for k, c in enumerate(self.training)
-        ]
+        key = tuple(parts)
+        if key not in self._known:
+            machine = self.machine.having(parts)
+            self._known[key] = [
+                machine.respond(c, record_seed(self.seed, k)).reading
+                for k, c in enumerate(self.training)
+            ]
+        return self._known[key]
 
     def sized(
         self, part: Part, floors: float, low: float = LEAST_FLOORS, *, free: bool = False

@@ -150,6 +150,14 @@ def test_results_of_other_cases_are_not_mixed_in(tmp_path, own):
         BlindRun(tmp_path / "out", other)
 
 
+@pytest.mark.parametrize(("text", "said"), [("{", "it cannot be read"), ("{}", "it is no result")])
+def test_a_result_that_is_none_is_said(tmp_path, own, text, said):
+    run = BlindRun(tmp_path / "out", own)
+    (tmp_path / "out" / "results" / "alpha.json").write_text(text)
+    with pytest.raises(BlindError, match=said):
+        run.outcomes()
+
+
 def test_a_diagnosis_that_fails_is_an_answer_that_is_wrong(tmp_path, own, ask):
     write_own_case(tmp_path / "more" / "gamma", "broken")
     cases = FolderCases(tmp_path / "more", own._labels, "rotemina")
@@ -186,6 +194,7 @@ def test_closure_is_told_of_the_axes_with_a_gap_that_can_be_predicted():
         ('{"alpha": {"verdict": "fine"}}', "verdict is 'fine'; it must be one of explained"),
         ('{"alpha": {"verdict": "explained", "effects": []}}', "effects must be a list"),
         ('{"alpha": {"verdict": "none", "effects": [3]}}', "effects must be a list"),
+        ('{"alpha": {"verdict": "none", "floors": "many"}}', "floors is 'many'; it must be"),
     ],
 )
 def test_labels_that_cannot_be_understood_are_said(tmp_path, ask, labels, said):

@@ -36,7 +36,7 @@ def test_every_effect_makes_a_case_whose_gap_shows(effect):
     assert one.part.sizes[0] <= one.part.size <= one.part.sizes[1]
 
 
-@pytest.mark.parametrize("seed", [3])
+@pytest.mark.parametrize("seed", [9])
 def test_two_effects_both_count(seed):
     case = draw_case(ROBOT, "double", seed)
     assert len(case.present) == 2
@@ -63,7 +63,7 @@ def test_a_healthy_machine_stays_within_its_floor():
 
 
 def test_the_same_seed_makes_the_same_case_and_another_another():
-    first, again, other = (draw_case(ROBOT, "single", seed, "creep") for seed in (6, 6, 7))
+    first, again, other = (draw_case(ROBOT, "single", seed, "sensor_noise") for seed in (6, 6, 7))
     assert first.label() == again.label() != other.label()
     one, two = (measured(case, case.training[0], 0)[1] for case in (first, again))
     assert np.array_equal(one, two)
@@ -77,7 +77,7 @@ def test_poor_excitation_hides_its_effect_from_the_label_of_effects():
 
 
 def test_an_effect_in_no_catalogue_is_unknown():
-    label = draw_case(ROBOT, "unknown", 2).label()
+    label = draw_case(ROBOT, "unknown", 4).label()
     assert label["verdict"] == "unknown"
     assert [effect["effect"] for effect in label["effects"]] == ["unknown"]
 
