@@ -91,7 +91,7 @@ def _write(
         if options.report is not None:
             picture = options.report.with_suffix(".svg")
             files.enter_context(replaced(options.report)).write(
-                page(figures, outcomes, picture.name, rivals).encode("utf-8")
+                page(figures, outcomes, picture.name, _made(cases), rivals).encode("utf-8")
             )
             draw_confusion(counts, files.enter_context(replaced(picture)))
         if options.json not in (None, "-"):
@@ -122,6 +122,11 @@ def _document(
             if not o.right
         ],
     }
+
+
+def _made(cases: Cases) -> str:
+    told = " ".join(f"{key} {value}" for key, value in cases.key.items())
+    return f"rotemina gap blind, {len(cases.names)} cases of {told}"
 
 
 def _names(figures: dict[str, Figure]) -> dict[str, Figure]:

@@ -137,9 +137,10 @@ def _attempt(
 
 
 def _names(robot: Robot, rng: np.random.Generator, effect: str | None) -> tuple[str, ...]:
-    """Return the axes of one stage on which the effect can sit."""
+    """Return the axes of one stage on which the effect can sit, of any where none can carry it."""
     kinds = CATALOGUE[effect].kinds if effect in CATALOGUE else ("piezo", "stepper")
-    stages = [s for s in robot.stages.values() if robot.axes[s[0]].kind in kinds]
+    every = list(robot.stages.values())
+    stages = [stage for stage in every if robot.axes[stage[0]].kind in kinds] or every
     return tuple(stages[rng.integers(len(stages))])
 
 
@@ -220,6 +221,8 @@ def _places(
     number = {"double": 2, "triple": 3}.get(kind, 1)
     first = axes[rng.integers(len(axes))]
     names = [name for name, entry in CATALOGUE.items() if first.kind in entry.kinds]
+    if len(axes) == 1:
+        names.remove("cross_coupling")
     if kind == "unknown":
         return [(first, "unknown")]
     if kind == "poor":
@@ -228,8 +231,8 @@ def _places(
     if kind == "parameter":
         return [(first, _PARAMETERS[rng.integers(len(_PARAMETERS))])]
     chosen = [str(name) for name in rng.choice(names, number, replace=False)]
-    if effect is not None:
-        chosen = [effect, *(name for name in chosen if name != effect)][:number]
+    if effect in names:
+        chosen = [str(effect), *(name for name in chosen if name != effect)][:number]
     together = rng.uniform() < 0.5 and not any(len(set(chosen) & one) > 1 for one in _ALIKE)
     order = rng.permutation(len(axes))
     start = int(np.flatnonzero(order == first.index)[0])

@@ -55,7 +55,7 @@ def draw_part(effect: str, axis: Axis, others: tuple[Axis, ...], rng: np.random.
     if effect == "cross_coupling":
         return motion.cross_coupling(axis, rng, others[rng.integers(len(others))])
     if effect == "unknown":
-        if rng.uniform() < 0.15:
+        if others and rng.uniform() < 0.15:
             return uncatalogued.product_of_axes(axis, rng, others)
         return _UNCATALOGUED[rng.integers(len(_UNCATALOGUED))](axis, rng)
     return _MAKERS[effect](axis, rng)

@@ -66,14 +66,18 @@ def page(
     figures: Mapping[str, Figure],
     outcomes: Sequence[Outcome],
     picture: str,
+    made: str,
     others: Mapping[str, Mapping[str, Figure]] | None = None,
 ) -> str:
-    """Return the report as Markdown; ``others``: figures of the baselines by their names."""
+    """Return the report as Markdown.
+
+    ``made``: the command that makes it; ``others``: figures of other contestants by their names.
+    """
     kinds = Counter(outcome.kind for outcome in outcomes)
     made_of = ", ".join(f"{number} {kind}" for kind, number in kinds.most_common())
     return f"""# Blind test of the diagnosis
 
-{len(outcomes)} cases: {made_of}. Every figure with its 95 % interval.
+{len(outcomes)} cases: {made_of}. Made by `{made}`. Every figure with its 95 % interval.
 
 {markdown_table({"reached": figures, **(others or {})})}
 

@@ -1,6 +1,7 @@
 """Cases: what is in them is there to be found, and labels say no more and no less."""
 
 import json
+from dataclasses import replace
 from itertools import islice
 
 import numpy as np
@@ -67,6 +68,13 @@ def test_the_same_seed_makes_the_same_case_and_another_another():
     assert first.label() == again.label() != other.label()
     one, two = (measured(case, case.training[0], 0)[1] for case in (first, again))
     assert np.array_equal(one, two)
+
+
+def test_a_robot_of_one_axis_gets_cases_that_it_can_have():
+    one = replace(ROBOT, axes={"zn": ROBOT.axes["zn"]}, stages={"nano": ("zn",)}, couplings=())
+    case = draw_case(one, "single", 1, "backlash")
+    assert case.names == ("zn",)
+    assert case.present[0].part.effect not in {"backlash", "cross_coupling"}
 
 
 def test_poor_excitation_hides_its_effect_from_the_label_of_effects():
