@@ -11,6 +11,7 @@ from rotemina.sim.gap.selection import LEAST_POWER, LEAST_SHARE
 from rotemina.sim.robot.model import AxisEffect
 
 _REFITTED = 5
+_NEAR = 4.0  # times the best score
 _BRINGS_ALONG = {"hysteresis": (GAIN,)}  # what the shape of a loop cannot be told from
 
 
@@ -52,7 +53,9 @@ def without_own(
     rivals = [
         one
         for one in tried
-        if len(one.causes) == len(others) + 1 and all(own.id not in OWN for own in one.causes)
+        if len(one.causes) == len(others) + 1
+        and all(own.id not in OWN for own in one.causes)
+        and one.score < _NEAR * best.score  # without, it does worse still
     ]
     return [
         replace(refitted, causes=refitted.fit.effects[: len(one.causes)])

@@ -25,6 +25,7 @@ MOST_CAUSES = 3
 LEAST_SHARE = 0.03  # of the gap's power, that a cause must close
 LEAST_POWER = 0.2  # in floors squared, that a cause must close
 CLEARLY = 0.8  # of what others leave: so much closed counts, however small a share of the gap
+ADEQUATE = 1.3  # mean square over the floor that leaves nothing to explain
 NOTICED = 2.0  # mean square over the floor from which what others leave may have a cause
 _FITTED = 6  # effects that are fitted in full after screening
 _FITTED_LATER = 4
@@ -135,10 +136,15 @@ def _extended(
         return []
     most = _FITTED_LATER if begun.causes else _FITTED
     chosen = _chosen(screened, most)
-    others = [one for one in siblings(chosen, free) if one not in first]
-    chosen += [one.effect for one in _screened(evidence, begun.fit, others, jobs, briefly=True)]
     told("fitting", chosen[0].id)
-    return _fitted(evidence, [[*begun.causes, one] for one in chosen], jobs)
+    found = _fitted(evidence, [[*begun.causes, one] for one in chosen], jobs)
+    if min(one.fit.cost for one in found) < ADEQUATE:
+        return found  # other formulations, which take long, could not do better
+    others = [one for one in siblings(chosen, free) if one not in first]
+    if others:
+        slower = _screened(evidence, begun.fit, others, jobs, briefly=True)
+        found += _fitted(evidence, [[*begun.causes, one.effect] for one in slower], jobs)
+    return found
 
 
 def _reformulated(

@@ -1,0 +1,168 @@
+"""The diagnosis from records to verdict, on short records of the simulator."""
+
+import numpy as np
+import pytest
+
+from rotemina.sim.gap.diagnosis import UNKNOWN, Verdict
+from rotemina.sim.gap.errors import GapError
+from rotemina.sim.gap.method import diagnose
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.simulation.simulation import simulate
+
+ROBOT = load_robot("rotemina")
+TIME_S = np.arange(2500) / 500.0
+
+
+def commands(kind, *axes):
+    """One way to move axes, each at its own pace and size: triangles, stairs, or sines."""
+    signals, units = {}, {}
+    for number, name in enumerate(axes):
+        own = ROBOT.axes[name]
+        phase = (0.6 + 0.23 * number) * TIME_S
+        way = {
+            "triangles": 2 / np.pi * np.arcsin(np.sin(2 * np.pi * phase)) * np.exp(-TIME_S / 4),
+            "stairs": np.array([0.0, 0.5, 1.0, 0.3, -0.6])[np.floor(phase).astype(int) % 5],
+            "sines": np.sin(2 * np.pi * phase) + 0.1 * np.sin(2 * np.pi * 31.0 * phase),
+        }[kind]
+        share = 0.003 if own.kind == "stepper" else 0.3
+        signals[name, Tap.CMD] = sum(own.range) / 2 + share * own.span * way
+        units[name] = own.unit
+    return Record.from_signals(TIME_S, signals, units)
+
+
+def records(effects, *axes, seed=0):
+    rng = np.random.default_rng(seed)
+    kinds = ("triangles", "stairs", "sines")
+    return [simulate(ROBOT, effects, commands(kind, *axes), rng) for kind in kinds]
+
+
+def named(diagnosis):
+    return {(cause.axis, cause.effect, cause.from_axis) for cause in diagnosis.causes}
+
+
+def test_a_healthy_robot_has_no_gap():
+    found = diagnose(ROBOT, records([], "x", "zn"))
+    assert found.verdict is Verdict.NONE
+    assert {one.verdict for one in found.axes.values()} == {Verdict.NONE}
+    assert found.causes == ()
+    assert found.places == ()
+
+
+@pytest.mark.parametrize(
+    "truth",
+    [
+        AxisEffect(axis="zn", id="hysteresis", parameters={"width": 6e-6, "shape": 1.4}),
+        AxisEffect(axis="x", id="delay", parameters={"delay": 0.004}),
+        AxisEffect(axis="x", id="backlash", formulation="screw", parameters={"width": 5e-6}),
+        AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.04}),
+        AxisEffect(axis="zn", id="sensor_outliers", parameters={"size": 5e-6}),
+    ],
+    ids=lambda effect: effect.id,
+)
+def test_a_single_effect_is_named_and_closes_the_gap(truth):
+    found = diagnose(ROBOT, records([truth], truth.axis))
+    assert found.verdict is Verdict.EXPLAINED
+    assert named(found) == {(truth.axis, truth.id, None)}
+    (cause,) = found.causes
+    assert cause.closed > 0.95
+    assert cause.gap_before > 1.3 * cause.gap_after
+    for told in cause.parameters:
+        if told.name in truth.parameters:
+            assert told.value == pytest.approx(truth.parameters[told.name], rel=0.05)
+
+
+@pytest.mark.slow
+def test_an_effect_that_reaches_another_axis_is_found_on_both():
+    truth = [
+        AxisEffect(axis="y", id="delay", parameters={"delay": 0.01}),
+        AxisEffect(
+            axis="x",
+            id="cross_coupling",
+            formulation="static",
+            from_axis="y",
+            parameters={"k": 0.08},
+        ),
+    ]
+    found = diagnose(ROBOT, records(truth, "x", "y"))
+    assert named(found) == {("y", "delay", None), ("x", "cross_coupling", "y")}
+
+
+@pytest.mark.slow
+def test_two_effects_on_one_axis_are_told_apart():
+    truth = [
+        AxisEffect(axis="zn", id="creep", parameters={"rate": 0.03}),
+        AxisEffect(axis="zn", id="cross_coupling", from_axis="thx", parameters={"k": 0.002}),
+    ]
+    found = diagnose(ROBOT, records(truth, "zn", "thx"))
+    assert named(found) == {("zn", "creep", None), ("zn", "cross_coupling", "thx")}
+    (whole,) = [one for one in found.axes["zn"].shrinkage if one.tap is Tap.MEAS]
+    assert whole.raw > whole.corrected
+    assert sum(step.shapley for step in whole.steps) == pytest.approx(whole.closed, abs=1e-6)
+
+
+@pytest.mark.slow
+def test_what_no_effect_explains_is_unknown():
+    def shaken(record, seed):
+        """Add what depends on the product of time and speed, in nobody's catalogue."""
+        command = record.signal("x", Tap.CMD)
+        speed = np.convolve(np.gradient(command, TIME_S), np.ones(50) / 50, mode="same")
+        more = 4e-6 * np.sin(400.0 * speed + 3.0 * np.sin(2.1 * TIME_S + seed))
+        signals = {("x", Tap.CMD): command}
+        for tap in (Tap.REF, Tap.MEAS):
+            signals["x", tap] = record.signal("x", tap) + more
+        return Record.from_signals(TIME_S, signals, {"x": "m"})
+
+    strange = [shaken(one, number) for number, one in enumerate(records([], "x"))]
+    found = diagnose(ROBOT, strange)
+    assert found.verdict is Verdict.UNKNOWN
+    assert [cause.effect for cause in found.causes] == [UNKNOWN]
+    assert found.fitted == ()
+
+
+def test_one_slow_sine_is_insufficient():
+    own = ROBOT.axes["zn"]
+    slow = sum(own.range) / 2 + 0.1 * own.span * np.sin(2 * np.pi * 0.4 * TIME_S)
+    command = Record.from_signals(TIME_S, {("zn", Tap.CMD): slow}, {"zn": "m"})
+    truth = [AxisEffect(axis="zn", id="hysteresis")]
+    record = simulate(ROBOT, truth, command, np.random.default_rng(0))
+    found = diagnose(ROBOT, [record])
+    assert found.verdict is Verdict.INSUFFICIENT
+    assert found.causes == ()
+
+
+@pytest.mark.slow
+def test_order_of_records_and_jobs_change_nothing():
+    truth = [AxisEffect(axis="zn", id="hysteresis")]
+    own = records(truth, "zn")
+    once = diagnose(ROBOT, own, seed=3)
+    again = diagnose(ROBOT, own[::-1], seed=3, jobs=2)
+    assert once.axes == again.axes
+    assert once.axes == diagnose(ROBOT, own, seed=3).axes
+
+
+def test_progress_never_falls_and_what_a_listener_raises_ends_it():
+    shares = []
+    diagnose(
+        ROBOT,
+        records([AxisEffect(axis="x", id="delay")], "x"),
+        listener=lambda step: shares.append(step.share),
+    )
+    assert shares == sorted(shares)
+    assert shares[0] == 0.0
+
+    class StopError(Exception):
+        pass
+
+    def stop(step):
+        if step.stage == "screening":
+            raise StopError
+
+    with pytest.raises(StopError):
+        diagnose(ROBOT, records([AxisEffect(axis="x", id="delay")], "x"), listener=stop)
+
+
+def test_records_of_nothing_measured_are_refused():
+    with pytest.raises(GapError, match="no measured channel"):
+        diagnose(ROBOT, [commands("sines", "x")])
