@@ -58,7 +58,7 @@ def rivals(
         (own,) = [key for key in keys if key not in others] or [cause]
         if own != cause:
             found.append((own, one))
-    least = min(len(one.fit.free) for _, one in found)
+    least = min(len(one.fit.free) for _, one in found if _is_tied(best, one))
     weights = np.array(
         [
             _weight(evidence, best, one)

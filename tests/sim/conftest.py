@@ -1,4 +1,4 @@
-"""Real records for identification."""
+"""Real records."""
 
 import runpy
 import sys
