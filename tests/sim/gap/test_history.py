@@ -1,0 +1,59 @@
+"""Records of unknown history: offset and memory are their own, and no gap."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.plant.plant import Plant
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import AxisEffect
+
+ROBOT = load_robot("picma")
+LOOP = AxisEffect(axis="p", id="hysteresis", parameters={"width": 5e-6, "shape": 1.0})
+CREEP = AxisEffect(axis="p", id="creep", parameters={"rate": 0.02, "onset": 0.1})
+RATE_HZ = 200.0
+NOISE_M = 2e-8
+
+
+def recorded(effects, before, history):
+    """A record of small swings, of which only the last part is given: ``before`` (n,) is not."""
+    time_s = np.arange(1200) / RATE_HZ
+    shown = 2e-5 + 4e-6 * np.sin(2.0 * np.pi * time_s)
+    path = np.concatenate([before, shown])
+    plant = Plant.of(replace(ROBOT, effects=tuple(effects)))
+    motion, _ = plant.advance(
+        plant.at_rest(0.0, path[:1]), np.arange(len(path)) / RATE_HZ, path[:, None]
+    )
+    reading = motion.position[len(before) :, 0] + 3e-5
+    reading = reading + NOISE_M * np.random.default_rng(0).standard_normal(1200)
+    signals = {("p", Tap.CMD): shown, ("p", Tap.MEAS): reading}
+    return Record.from_signals(time_s, signals, {"p": "m"}, {"history": history})
+
+
+def left(effects, record):
+    evidence = Evidence.of(ROBOT, "p", [record])
+    return float(np.sqrt(np.mean(evidence.residual(effects) ** 2)))
+
+
+HIGH = np.concatenate([np.linspace(0.0, 4.6e-5, 400), np.full(2000, 4.6e-5)])
+
+
+@pytest.mark.parametrize("effects", [(LOOP,), (CREEP,), (LOOP, CREEP)])
+def test_what_came_before_is_no_gap_where_the_history_is_unknown(effects):
+    assert left(effects, recorded(effects, HIGH, "unknown")) < 1.5
+    assert left(effects, recorded(effects, HIGH, "known")) > 3.0
+
+
+def test_a_model_without_the_effect_still_leaves_it():
+    assert left((), recorded((LOOP,), HIGH, "unknown")) > 5.0
+
+
+def test_memory_is_no_excuse_for_what_another_effect_does():
+    """A clock hardly off hardly differs by its start: no amount of that makes a lag."""
+    late = AxisEffect(axis="p", id="delay", parameters={"delay": 0.02})
+    skewed = AxisEffect(axis="p", id="clock_skew", parameters={"skew": 40.0})
+    record = recorded((late,), HIGH, "unknown")
+    assert left((skewed,), record) > 0.9 * left((), record)
