@@ -86,7 +86,7 @@ def sensor_drift(axis: Axis, rng: np.random.Generator) -> Part:
 def sensor_outliers(axis: Axis, rng: np.random.Generator) -> Part:
     """Spikes, or dropouts to zero or to the last value; size is the spikes' height, m or rad."""
     seed = int(rng.integers(2**31))
-    rate = 10.0 ** rng.uniform(-3.0, -2.0)
+    rate = 10.0 ** rng.uniform(-3.0, -2.2)
     form = rng.integers(3)
 
     def act(values: FloatArray, course: Course, size: float) -> FloatArray:
@@ -99,7 +99,7 @@ def sensor_outliers(axis: Axis, rng: np.random.Generator) -> Part:
             elif form == 1:
                 out[k : k + length] = 0.0
             else:
-                held = int(draw.integers(8, 40))
+                held = int(draw.integers(3, 12))
                 out[k : k + held] = out[k]
         return out
 
