@@ -33,7 +33,6 @@ _BEAM = 2  # explanations that are extended
 _ALSO = 2.5  # times the score of the best, up to which another is extended
 _HOPELESS = 30.0  # times the cost of the best candidate
 _WORTH_GOING_ON = (0.25, 0.5, 1.0)  # share closed by one, two causes, to look for another
-_REFORMULATED = 4  # sets of causes whose members are tried by other formulations
 _SKETCHED = 3  # steps after which attempts are compared
 _BEHIND = 6.0  # times the cost of the best, from which an attempt is given up
 _LEAST_PROMISE = 0.5  # of the score: a best candidate that leaves more is no clear cause
@@ -75,7 +74,8 @@ def select(evidence: Evidence, told: Told, *, jobs: int = 1) -> Selection:
         for begun in beam:
             found += _extended(evidence, begun, own, bare, told, jobs)
         found = _unique(found)
-        found = _unique([*found, *_reformulated(evidence, found, own, jobs)])
+        if found and enters(bare, best, found[0]):
+            found = _unique([*found, *_reformulated(evidence, found[0], own, jobs)])
         tried += found
         if not found:
             break
@@ -148,17 +148,16 @@ def _extended(
 
 
 def _reformulated(
-    evidence: Evidence, found: Sequence[Explanation], own: Sequence[AxisEffect], jobs: int
+    evidence: Evidence, begun: Explanation, own: Sequence[AxisEffect], jobs: int
 ) -> list[Explanation]:
-    """Return sets of causes that leave a gap with another formulation of one of their members.
+    """Return a set of causes that leaves a gap with other formulations of its members.
 
     The one that did best alone need not do so beside the others.
     """
-    if not found or found[0].score < NOTICED or len(found[0].causes) < 2:
+    if begun.score < NOTICED or len(begun.causes) < 2:
         return []
     attempts = [
         [sibling if one is cause else one for one in begun.causes]
-        for begun in found[:_REFORMULATED]
         for cause in begun.causes
         for sibling in siblings([cause], own)
     ]
