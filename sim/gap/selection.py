@@ -23,6 +23,8 @@ from rotemina.sim.robot.model import AxisEffect
 
 MOST_CAUSES = 3
 LEAST_SHARE = 0.03  # of the gap's power, that a cause must close
+_BENT_LOOP = {"hysteresis", "static_nonlinearity"}
+_BENT_SHARE = 0.1  # the same for what may be but the asymmetry of a real loop
 LEAST_POWER = 0.2  # in floors squared, that a cause must close
 CLEARLY = 0.8  # of what others leave: so much closed counts, however small a share of the gap
 ADEQUATE = 1.3  # mean square over the floor that leaves nothing to explain
@@ -95,14 +97,18 @@ def enters(bare: Explanation, before: Explanation, after: Explanation) -> bool:
 
     It closes its share of the gap of the ``bare`` model, or clearly most of what was left.
     """
+    least = LEAST_SHARE
+    if _BENT_LOOP.issubset(cause.id for cause in after.causes):
+        least = _BENT_SHARE
     return any(
-        _closes(bare.by_tap[tap], before.by_tap[tap], left) for tap, left in after.by_tap.items()
+        _closes(bare.by_tap[tap], before.by_tap[tap], left, least)
+        for tap, left in after.by_tap.items()
     )
 
 
-def _closes(raw: float, before: float, after: float) -> bool:
+def _closes(raw: float, before: float, after: float, least: float) -> bool:
     closing = before - after
-    share = closing >= max(LEAST_SHARE * (raw - 1.0), LEAST_POWER)
+    share = closing >= max(least * (raw - 1.0), LEAST_POWER)
     clear = before >= NOTICED and closing >= CLEARLY * (before - 1.0)
     return share or clear
 
