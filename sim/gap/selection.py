@@ -35,7 +35,6 @@ _BEAM = 2  # explanations that are extended
 _ALSO = 2.5  # times the score of the best, up to which another is extended
 _HOPELESS = 30.0  # times the cost of the best candidate
 _WORTH_GOING_ON = (0.25, 0.5, 1.0)  # share closed by one, two causes, to look for another
-_AS_GOOD = 1.15  # times the score of the best formulation, up to which a simpler one is taken
 _WORTH_A_TRY = 0.8  # of what quick formulations leave, that a slow one must promise
 _SKETCHED = 3  # steps after which attempts are compared
 _BEHIND = 6.0  # times the cost of the best, from which an attempt is given up
@@ -221,20 +220,11 @@ def _chosen(screened: Sequence[Screened], most: int) -> list[AxisEffect]:
 
 
 def _unique(found: Sequence[Explanation]) -> list[Explanation]:
-    """Return the best formulation of each set of effects, best set first.
-
-    Of those that do about as well, and leave a gap, the simplest: what more parameters make up for
-    on these records they may not on others.
-    """
-    least: dict[tuple[tuple[str, str | None], ...], float] = {}
-    for one in found:
-        least[one.ids] = min(one.score, least.get(one.ids, one.score))
+    """Return the best of each set of effects, best first."""
     best: dict[tuple[tuple[str, str | None], ...], Explanation] = {}
-    for one in sorted(found, key=lambda one: (len(one.fit.free), one.score)):
-        enough = least[one.ids] * (_AS_GOOD if least[one.ids] > NOTICED else 1.0)
-        if one.score <= enough:
-            best.setdefault(one.ids, one)
-    return sorted(best.values(), key=lambda one: one.score)
+    for one in sorted(found, key=lambda one: one.score):
+        best.setdefault(one.ids, one)
+    return list(best.values())
 
 
 def _simplified(evidence: Evidence, bare: Explanation, best: Explanation) -> Explanation:
