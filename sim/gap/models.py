@@ -13,7 +13,7 @@ from rotemina.sim.gap.fit import Fit, fit, held_out
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
-MOST_STEPS = 12
+MOST_STEPS = 9
 
 
 @dataclass(frozen=True, eq=False)

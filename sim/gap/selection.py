@@ -35,7 +35,8 @@ _BEAM = 2  # explanations that are extended
 _ALSO = 2.5  # times the score of the best, up to which another is extended
 _HOPELESS = 30.0  # times the cost of the best candidate
 _WORTH_GOING_ON = (0.25, 0.5, 1.0)  # share closed by one, two causes, to look for another
-_WORTH_A_TRY = 0.8  # of what quick formulations leave, that a slow one must promise
+_WORTH_A_FIRST_TRY = 4.0  # times what quick formulations leave, that a slow one may promise
+_WORTH_A_TRY = 0.8  # the same beside other causes, where each step takes longer still
 _SKETCHED = 3  # steps after which attempts are compared
 _BEHIND = 6.0  # times the cost of the best, from which an attempt is given up
 _LEAST_PROMISE = 0.5  # of the score: a best candidate that leaves more is no clear cause
@@ -151,8 +152,8 @@ def _extended(
     if others:
         slower = _screened(evidence, begun.fit, others, jobs, briefly=True)
         least = min(one.fit.cost for one in found)
-        if begun.causes:  # beside others each step takes longer still
-            slower = [one for one in slower if one.cost < _WORTH_A_TRY * least]
+        worth = _WORTH_A_TRY if begun.causes else _WORTH_A_FIRST_TRY
+        slower = [one for one in slower if one.cost < worth * least]
         attempts = [[*begun.causes, one.effect] for one in slower]
         found += _fitted(evidence, attempts, jobs) if attempts else []
     return found

@@ -10,7 +10,7 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.blocks import drawn_means
 from rotemina.sim.gap.diagnosis import Interval, Shrinkage, ShrinkageStep
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.models import Explanation, explain
+from rotemina.sim.gap.models import Explanation
 from rotemina.sim.gap.probe import Probe
 from rotemina.sim.gap.rivals import paired_blocks
 from rotemina.sim.gap.verdict import closed
@@ -83,7 +83,10 @@ def rms(left: FloatArray) -> float:
 def _steps(
     evidence: Evidence, raw: FloatArray, best: Explanation, shown: np.ndarray, floor: float
 ) -> tuple[ShrinkageStep, ...]:
-    """Return what is left after each cause, and the causes' Shapley shares of what is closed."""
+    """Return what is left after each cause, and the causes' Shapley shares of what is closed.
+
+    Some of the causes act as they were fitted together with the others.
+    """
     if not best.causes:
         return ()
     whole = frozenset(range(len(best.causes)))
@@ -92,7 +95,7 @@ def _steps(
     def score(members: frozenset[int]) -> float:
         if members not in left:
             own = [best.causes[number] for number in sorted(members)]
-            left[members] = explain(evidence, own, most_steps=4).held_out
+            left[members] = evidence.residual(own)
         return float(np.mean(left[members][shown] ** 2))
 
     steps = []
