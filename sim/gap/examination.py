@@ -49,6 +49,7 @@ _TWINS = {
     "leadscrew_error": ("encoder_interpolation",),
     "microstep_error": ("encoder_interpolation",),
 }
+_DOUBTED = 0.1  # probability below which one cause of several is none
 _NEAR = 4.0  # times the best score, up to which a re-tuning alone is a rival
 _NOT_NOISE = 0.6  # of a raised floor's power: a fit that leaves less shows that it was no noise
 _SURE_OF_DISTURBANCES = 0.95
@@ -98,11 +99,14 @@ def examine(whole: Evidence, told: Told, *, jobs: int = 1) -> Examination:
     told("deciding", None)
     drift = wander(evidence, best.fit.residual)
     disturbances = _counting(whole, evidence, best, [*aside, *([drift] if drift else [])])
-    tried = _with_twins(evidence, best, _with_retuned(evidence, selection, best))
-    ranked = {
-        key: rivals(evidence, best, without_own(evidence, best, tried, key), key)
-        for key in best.ids
-    }
+    ranked = _ranked(evidence, selection, best)
+    doubted = [key for key, own in ranked.items() if _probability(own, key) < _DOUBTED]
+    if doubted and len(best.causes) > 1:
+        # Several others would do as well in its place: it stands for what the rest leaves.
+        kept = [one for one in best.causes if (one.id, one.from_axis) not in doubted]
+        causes = [one for one in kept if not is_own(evidence, one)]
+        best = attributed(evidence, selection.bare, explain(evidence, causes))
+        ranked = _ranked(evidence, selection, best)
     ambiguous = [not_ruled_out(ranked[key], key) for key in best.ids]
     power = sum(one.power for one in disturbances)
     wandered = sum(one.power for one in disturbances if one.effect == "sensor_drift")
@@ -118,6 +122,21 @@ def examine(whole: Evidence, told: Told, *, jobs: int = 1) -> Examination:
         ranked,
         probed(evidence, best.held_out),
     )
+
+
+def _ranked(
+    evidence: Evidence, selection: Selection, best: Explanation
+) -> dict[Key, tuple[Rival, ...]]:
+    """Return the rivals of each cause of an explanation."""
+    tried = _with_twins(evidence, best, _with_retuned(evidence, selection, best))
+    return {
+        key: rivals(evidence, best, without_own(evidence, best, tried, key), key)
+        for key in best.ids
+    }
+
+
+def _probability(ranked: Sequence[Rival], key: Key) -> float:
+    return next(one.probability for one in ranked if (one.effect, one.from_axis) == key)
 
 
 def _explained(evidence: Evidence, told: Told, jobs: int) -> tuple[Selection, Explanation]:
@@ -230,7 +249,7 @@ def _cause(examination: Examination, number: int, rng: np.random.Generator) -> C
         stage=attached.effect.stage.value,
         tap=tap,
         from_axis=asked.from_axis,
-        probability=next(r.probability for r in ranked if (r.effect, r.from_axis) == key),
+        probability=_probability(ranked, key),
         ambiguous_with=not_ruled_out(ranked, key),
         gap_before=floor * rms(before[shown]),
         gap_after=floor * rms(best.held_out[shown]),

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from joblib import Parallel, delayed
 
 from rotemina.sim.gap.baseline import is_own
-from rotemina.sim.gap.candidates import candidates, scouts, siblings
+from rotemina.sim.gap.candidates import candidates, is_slow, scouts, siblings
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import Fit, fit
 from rotemina.sim.gap.models import (
@@ -31,6 +31,7 @@ ADEQUATE = 1.3  # mean square over the floor that leaves nothing to explain
 NOTICED = 2.0  # mean square over the floor from which what others leave may have a cause
 _FITTED = 6  # effects that are fitted in full after screening
 _FITTED_LATER = 4
+_FITTED_SLOWLY = 2  # beside a cause that takes long to simulate
 _BEAM = 2  # explanations that are extended
 _ALSO = 2.5  # times the score of the best, up to which another is extended
 _HOPELESS = 30.0  # times the cost of the best candidate
@@ -139,10 +140,13 @@ def _extended(
     little = bool(begun.causes) and _is_little(bare, begun)
     told("screening", None)
     first = scouts(evidence, free)
-    screened = _screened(evidence, begun.fit, first, jobs, briefly=little)
+    slow = any(is_slow(evidence, cause) for cause in begun.causes)
+    screened = _screened(evidence, begun.fit, first, jobs, briefly=little or slow)
     if little and min(one.cost for one in screened) > _LEAST_PROMISE * begun.score:
         return []
     most = _FITTED_LATER if begun.causes else _FITTED
+    if slow:
+        most = _FITTED_SLOWLY
     chosen = _chosen(screened, most)
     told("fitting", chosen[0].id)
     found = _fitted(evidence, [[*begun.causes, one] for one in chosen], jobs)

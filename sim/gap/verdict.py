@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from rotemina.sim.gap.diagnosis import Verdict
 
-_MOST_LEFT = 0.5  # of the gap's power, that an explanation may leave
+_MOST_LEFT = 0.3  # of the gap's power, that an explanation may leave
 _MOST_RIVALS = 4  # from which a record cannot tell
 
 
