@@ -73,11 +73,11 @@ def rivals(
 
 def not_ruled_out(ranked: Sequence[Rival], cause: Key) -> tuple[str, ...]:
     """Return the effects that the data cannot tell from a cause."""
-    own = next(one for one in ranked if (one.effect, one.from_axis) == cause)
+    likeliest = max(one.probability for one in ranked)
     names = [
         one.effect
         for one in ranked
-        if one.effect != cause[0] and one.probability >= _SAME * own.probability
+        if one.effect != cause[0] and one.probability >= _SAME * likeliest
     ]
     return tuple(dict.fromkeys(names))
 
