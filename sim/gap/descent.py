@@ -18,70 +18,105 @@ _STEP = 1e-3  # of a parameter, for its derivative
 _DAMPING = 1e-3  # at first, of the diagonal
 _LEAST_DAMPING = 1e-9
 _TRIES = 5  # of damping a step until it goes down
+_TRIES_CARRIED = 2  # the same with a jacobian that was carried along
 _ENOUGH = 1e-3  # relative gain of a step below which no further one is worth its runs
+_WORTH_CARRYING = 0.02  # relative gain of a step, below which the jacobian is taken anew
 _TINY = 1e-12
 
 Residual = Callable[[FloatArray], FloatArray]
 
 
 class Descent(NamedTuple):
-    """Where a descent ended: ``x`` (p,), residual (n,) and its jacobian (n, p) nearby."""
+    """Where a descent is: ``x`` (p,), residual (n,) there and its jacobian (n, p).
+
+    The jacobian is by differences at ``x`` if it is ``fresh``, and else carried along from nearby.
+    """
 
     x: FloatArray
     residual: FloatArray
     jacobian: FloatArray
+    fresh: bool = True
+    damping: float = _DAMPING
+
+
+def begun(residual: Residual, start: FloatArray, low: FloatArray, high: FloatArray) -> Descent:
+    """Return a descent before its first step from ``start`` (p,)."""
+    x = np.clip(start, low, high)
+    left = residual(x)
+    return Descent(x, left, _slopes(residual, x, left, high))
 
 
 def descend(
-    residual: Residual, start: FloatArray, low: FloatArray, high: FloatArray, most_steps: int
+    residual: Residual, at: Descent, low: FloatArray, high: FloatArray, most_steps: int
 ) -> Descent:
-    """Lessen the sum of squares of ``residual(x)`` (n,) from ``start`` (p,) on, within bounds.
+    """Lessen the sum of squares of ``residual(x)`` (n,) from where a descent is, within bounds.
 
-    Parameters should be scaled to sizes of about one.
+    Parameters should be scaled to sizes of about one. Differences cost a run for each parameter:
+    they are taken anew only where the jacobian that was carried along leads no further.
     """
-    x = np.clip(start, low, high)
-    left = residual(x)
-    jacobian = _slopes(residual, x, left, high)
-    damping = _DAMPING
     for _ in range(most_steps):
-        before = float(left @ left)
-        step = _step(residual, x, left, jacobian, low, high, damping)
-        if step is None:
+        at, gain = _onwards(residual, at, low, high)
+        if gain < _ENOUGH:
             break
+    return at
+
+
+def exact(residual: Residual, at: Descent, high: FloatArray) -> Descent:
+    """Return a descent with its jacobian taken anew, if it was carried along."""
+    if at.fresh:
+        return at
+    return at._replace(jacobian=_slopes(residual, at.x, at.residual, high), fresh=True)
+
+
+def _onwards(
+    residual: Residual, at: Descent, low: FloatArray, high: FloatArray
+) -> tuple[Descent, float]:
+    """Return a descent one step on, and by what share the sum of squares went down."""
+    before = float(at.residual @ at.residual)
+    step = _step(residual, at, low, high)
+    if step is not None:
         x, left, damping = step
-        jacobian = _slopes(residual, x, left, high)
-        if float(left @ left) > before * (1.0 - _ENOUGH):
-            break
-    return Descent(x, left, jacobian)
+        gain = 1.0 - float(left @ left) / before
+        if gain >= (_ENOUGH if at.fresh else _WORTH_CARRYING):
+            carried = _carried(at, x, left)
+            return Descent(x, left, carried, fresh=False, damping=damping), gain
+        at = Descent(x, left, at.jacobian, at.fresh, damping)
+    if at.fresh:
+        return at._replace(fresh=step is None), 0.0
+    return _onwards(residual, exact(residual, at, high)._replace(damping=_DAMPING), low, high)
+
+
+def _carried(at: Descent, x: FloatArray, left: FloatArray) -> FloatArray:
+    """Return the jacobian (n, p) carried along to ``x``: Broyden's rank-one update.
+
+    Mathematics of Computation 19 (1965) 577-593, Eq. (4.5).
+    """
+    moved = x - at.x
+    missed = left - at.residual - at.jacobian @ moved
+    return np.asarray(at.jacobian + np.outer(missed, moved / (moved @ moved)))
 
 
 def one_step(
     residual: Residual, start: FloatArray, low: FloatArray, high: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Return where one step down from ``start`` (p,) leads, and the residual (n,) there."""
-    x = np.clip(start, low, high)
-    left = residual(x)
-    step = _step(residual, x, left, _slopes(residual, x, left, high), low, high, _DAMPING)
-    return (x, left) if step is None else step[:2]
+    at = begun(residual, start, low, high)
+    step = _step(residual, at, low, high)
+    return (at.x, at.residual) if step is None else step[:2]
 
 
 def _step(
-    residual: Residual,
-    x: FloatArray,
-    left: FloatArray,
-    jacobian: FloatArray,
-    low: FloatArray,
-    high: FloatArray,
-    damping: float,
+    residual: Residual, at: Descent, low: FloatArray, high: FloatArray
 ) -> tuple[FloatArray, FloatArray, float] | None:
     """Return x, residual and damping after a step that goes down; None where none does."""
+    x, left, jacobian, fresh, damping = at
     before = float(left @ left)
     slope = jacobian.T @ left
     free = _free(x, slope, low, high)
     hessian = (jacobian.T @ jacobian)[np.ix_(free, free)]
     diagonal = np.diag(hessian)
     still = _TINY * diagonal.max(initial=1.0)  # what no row speaks of stays
-    for _ in range(_TRIES):
+    for _ in range(_TRIES if fresh else _TRIES_CARRIED):
         after = x.copy()
         after[free] -= np.linalg.solve(hessian + np.diag(damping * diagonal + still), slope[free])
         after = np.clip(after, low, high)

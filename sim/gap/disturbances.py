@@ -26,6 +26,7 @@ _MORE_NOISE = 1.3  # floors from which noise is more than declared
 _SETTLED_S = 0.3  # after which a held axis rests
 _AROUND_A_JUMP_S = 0.08
 _SEEN_BY_REF = 0.3  # of a wander, that the reference may see of what is left
+_SHAKEN = 0.1  # of its range, that another axis' going through all of its own may shake an axis
 _REST_ROWS = 100
 _SAME_TONE = 0.02  # relative difference of frequencies that are one
 
@@ -136,10 +137,10 @@ def _without_excursions(evidence: Evidence) -> tuple[Evidence, list[Disturbance]
     for observation, gaps in zip(evidence.observations, evidence.gaps(), strict=True):
         if Tap.MEAS in gaps:
             gap = _sensor_gap(observation, gaps)
-            command = observation.record.signal(evidence.axis, Tap.CMD)
-            found = excursions(
-                observation.record.time_s, gap, command / observation.floor[Tap.MEAS]
-            )
+            floor = observation.floor[Tap.MEAS]
+            change = _commanded_change(evidence, observation.record) / floor
+            reading = observation.real[Tap.MEAS] / floor
+            found = excursions(observation.record.time_s, gap, reading, change)
             kept = _kept(observation, Tap.MEAS)
             found &= kept
             if found.any():
@@ -156,6 +157,19 @@ def _without_excursions(evidence: Evidence) -> tuple[Evidence, list[Disturbance]
     return evidence.with_observations(observations), [
         Disturbance("sensor_outliers", Tap.MEAS, share, note)
     ]
+
+
+def _commanded_change(evidence: Evidence, record: Record) -> FloatArray:
+    """Return how far (n,) commands went in a row: the axis' own, or others as these may shake it."""
+    change = np.zeros(len(record.time_s))
+    span = Facts.of(evidence.robot.axes[evidence.axis]).span
+    for axis in record.axes:
+        if record.has(axis, Tap.CMD):
+            command = record.signal(axis, Tap.CMD)
+            share = 1.0 if axis == evidence.axis else _SHAKEN
+            size = share * span / Facts.of(evidence.robot.axes[axis]).span
+            change = np.maximum(change, size * np.abs(np.diff(command, prepend=command[0])))
+    return change
 
 
 def _without_tones(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:

@@ -1,4 +1,7 @@
-"""Readings that leave for a moment and come back: spikes and dropouts of a sensor."""
+"""Readings that leave for a moment and come back: spikes and dropouts of a sensor.
+
+A dropout reads something else, zero for one, or goes on giving the last value while the axis moves.
+"""
 
 import numpy as np
 from scipy.ndimage import median_filter
@@ -12,43 +15,79 @@ _ABRUPT = 0.5  # of an excursion's size, that it does from one row to the next
 _NEAR_A_STEP = 0.2  # of an excursion's size: a command that moved as far shortly before explains it
 _SHORTLY_S = 0.15
 _MOST = 0.05  # of the rows: what is more frequent is no exception
+_STILL_ROWS = 3
+_LEAPING = 0.2  # of the times that a reading stood still: a slip of friction is none
+_STILL = 4.0  # floors that a reading is off at most where it stands still, but for noise
 _DEVIATION = 1.4826  # standard deviations in a median absolute one
 
 
-def excursions(time_s: FloatArray, gap: FloatArray, command: FloatArray) -> BoolArray:
+def excursions(
+    time_s: FloatArray, gap: FloatArray, reading: FloatArray, change: FloatArray
+) -> BoolArray:
     """Return which rows (n,) are outliers of a gap over its floor.
 
-    They stand out from their neighbours, come and go abruptly, and no step of the command (n,),
-    in floors, came shortly before. Where more than a twentieth would be outliers, none is one.
+    They stand out from their neighbours, come and go abruptly, and no ``change`` (n,) of
+    commands from row to row, in floors, came shortly before; or the ``reading`` (n,), in floors, stands still while the axis
+    moves on. Where more than a twentieth would be outliers, none is one.
     """
+    found = _away(time_s, gap, change) | _held(gap, reading)
+    return found if found.mean() <= _MOST else np.zeros(len(gap), dtype=np.bool_)
+
+
+def _away(time_s: FloatArray, gap: FloatArray, change: FloatArray) -> BoolArray:
     out = np.zeros(len(gap), dtype=np.bool_)
     for window in _WINDOWS:
         if window < len(gap):
             out |= _standing_out(gap, window)
     found = np.zeros(len(gap), dtype=np.bool_)
-    stepped = _recent_step(time_s, command)
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], out, [False]]).astype(np.int8)))
-    for begin, end in zip(edges[::2], edges[1::2], strict=True):
-        if begin == 0 or end == len(gap):
-            continue
+    stepped = _recent_step(time_s, change)
+    for begin, end in _runs(out):
         before, after, own = gap[begin - 1], gap[end], gap[begin:end]
         size = float(np.abs(own - (before + after) / 2.0).max())
         abrupt = min(abs(own[0] - before), abs(own[-1] - after)) > _ABRUPT * size
         back = abs(after - before) < _BACK * size
         if abrupt and back and stepped[begin] < _NEAR_A_STEP * size:
             found[begin:end] = True
-    return found if found.mean() <= _MOST else np.zeros(len(gap), dtype=np.bool_)
+    return found
+
+
+def _held(gap: FloatArray, reading: FloatArray) -> BoolArray:
+    """Return where (n,) a reading stands still, and often leaps to where it should be then."""
+    found = np.zeros(len(gap), dtype=np.bool_)
+    leaps = total = 0
+    for seen, until in _runs(_standing_out(gap, _WINDOWS[-1])):
+        still = np.abs(reading - np.median(reading[seen:until])) <= _STILL
+        begin = seen - int(np.argmin(still[seen::-1])) + 1
+        end = seen + int(np.argmin(still[seen:]))
+        if found[seen] or begin < 2 or end < until or end - begin < _STILL_ROWS:
+            continue
+        own, after = gap[begin:end], gap[end]
+        size = float(np.abs(own - after).max())
+        if abs(after - gap[begin - 1]) < _BACK * size:
+            found[begin:end] = True
+            leaps += abs(own[-1] - after) > _ABRUPT * size
+            total += 1
+    return found if leaps > _LEAPING * total else np.zeros(len(gap), dtype=np.bool_)
+
+
+def _runs(rows: BoolArray) -> list[tuple[int, int]]:
+    """Return begin and end of each run of rows (n,), except at either end of a record."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], rows, [False]]).astype(np.int8)))
+    inner = [(int(begin), int(end)) for begin, end in zip(edges[::2], edges[1::2], strict=True)]
+    return [(begin, end) for begin, end in inner if begin > 0 and end < len(rows)]
+
+
+def _spread(aside: FloatArray) -> float:
+    return _DEVIATION * float(np.median(np.abs(aside)))
 
 
 def _standing_out(gap: FloatArray, window: int) -> BoolArray:
     aside = gap - median_filter(gap, window, mode="nearest")
-    spread = _DEVIATION * float(np.median(np.abs(aside)))
-    return np.asarray(np.abs(aside) > _FAR * max(spread, 1.0))
+    return np.asarray(np.abs(aside) > _FAR * max(_spread(aside), 1.0))
 
 
-def _recent_step(time_s: FloatArray, command: FloatArray) -> FloatArray:
-    """Return how far (n,) a command went at most from row to row in the last moments."""
+def _recent_step(time_s: FloatArray, change: FloatArray) -> FloatArray:
+    """Return how far (n,) commands went at most from row to row in the last moments."""
     rows = max(int(_SHORTLY_S / max(float(np.median(np.diff(time_s))), 1e-9)), 1)
-    change = np.abs(np.diff(command, prepend=command[0]))
     padded = np.concatenate([np.zeros(rows - 1), change])
     return np.asarray(np.lib.stride_tricks.sliding_window_view(padded, rows).max(axis=1))

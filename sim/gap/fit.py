@@ -16,7 +16,7 @@ from scipy.optimize import lsq_linear
 from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.errors import EffectError
-from rotemina.sim.gap.descent import descend
+from rotemina.sim.gap.descent import Descent, begun, descend, exact
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.robot.model import AxisEffect
@@ -65,6 +65,8 @@ class Fit:
         What is left of all records, over the floor.
     jacobian : (rows, parameters)
         Of the residual.
+    fresh : bool
+        Whether the jacobian is that of ``x``, and not carried along on the way there.
     """
 
     effects: tuple[AxisEffect, ...]
@@ -72,6 +74,7 @@ class Fit:
     x: FloatArray
     residual: FloatArray
     jacobian: FloatArray
+    fresh: bool = True
 
     @property
     def cost(self) -> float:
@@ -127,14 +130,48 @@ def fit(evidence: Evidence, effects: Sequence[AxisEffect], *, most_steps: int = 
     EffectError
         If an effect cannot sit where it is asked to.
     """
+    return finished(evidence, sketched(evidence, effects, most_steps=0), most_steps=most_steps)
+
+
+def sketched(evidence: Evidence, effects: Sequence[AxisEffect], *, most_steps: int) -> Fit:
+    """Return a fit after a few steps, its jacobian carried along.
+
+    Raises
+    ------
+    EffectError
+        If an effect cannot sit where it is asked to.
+    """
     free = free_parameters(evidence, effects)
     if not free:
         residual = evidence.residual(effects)
         nothing = np.zeros(0)
         return Fit(tuple(effects), (), nothing, residual, np.zeros((len(residual), 0)))
     low, high, start = bounds(free)
-    found = descend(lambda x: residual_of(evidence, effects, free, x), start, low, high, most_steps)
-    return Fit(with_values(effects, free, found.x), free, *found)
+
+    def residual_at(x: FloatArray) -> FloatArray:
+        return residual_of(evidence, effects, free, x)
+
+    found = descend(residual_at, begun(residual_at, start, low, high), low, high, most_steps)
+    return _fitted(effects, free, found)
+
+
+def finished(evidence: Evidence, sketch: Fit, *, most_steps: int) -> Fit:
+    """Return a fit with as many steps more as lead on, and the jacobian of where it ends."""
+    if not sketch.free:
+        return sketch
+    low, high, _ = bounds(sketch.free)
+
+    def residual_at(x: FloatArray) -> FloatArray:
+        return residual_of(evidence, sketch.effects, sketch.free, x)
+
+    at = Descent(sketch.x, sketch.residual, sketch.jacobian, sketch.fresh)
+    found = exact(residual_at, descend(residual_at, at, low, high, most_steps), high)
+    return _fitted(sketch.effects, sketch.free, found)
+
+
+def _fitted(effects: Sequence[AxisEffect], free: tuple[Free, ...], found: Descent) -> Fit:
+    own = with_values(effects, free, found.x)
+    return Fit(own, free, found.x, found.residual, found.jacobian, found.fresh)
 
 
 def held_out(evidence: Evidence, fitted: Fit) -> FloatArray:

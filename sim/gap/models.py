@@ -52,12 +52,8 @@ def explain(
     evidence: Evidence, causes: Sequence[AxisEffect], *, most_steps: int = MOST_STEPS
 ) -> Explanation:
     """Fit causes, from the parameters that they name on, together with the model's own."""
-    return explanation(evidence, len(causes), sketched(evidence, causes, most_steps))
-
-
-def sketched(evidence: Evidence, causes: Sequence[AxisEffect], most_steps: int) -> Fit:
-    """Return a fit of causes together with the model's own parameters, after so many steps."""
-    return fit(evidence, beside(evidence, causes), most_steps=most_steps)
+    fitted = fit(evidence, beside(evidence, causes), most_steps=most_steps)
+    return explanation(evidence, len(causes), fitted)
 
 
 def explanation(evidence: Evidence, causes: int, fitted: Fit) -> Explanation:
@@ -68,7 +64,7 @@ def explanation(evidence: Evidence, causes: int, fitted: Fit) -> Explanation:
 
 def untouched(evidence: Evidence) -> Explanation:
     """Return the model as it stands, with what its own parameters could do."""
-    bare = sketched(evidence, (), 0)
+    bare = fit(evidence, beside(evidence, ()), most_steps=0)
     return Explanation((), bare, bare.residual, mean_squares(evidence, bare.residual))
 
 

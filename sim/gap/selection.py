@@ -8,13 +8,13 @@ from joblib import Parallel, delayed
 from rotemina.sim.gap.baseline import is_own
 from rotemina.sim.gap.candidates import candidates, is_slow, scouts, siblings
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.fit import Fit, fit
+from rotemina.sim.gap.fit import Fit, finished, sketched
 from rotemina.sim.gap.models import (
     MOST_STEPS,
     Explanation,
+    beside,
     explain,
     explanation,
-    sketched,
     untouched,
 )
 from rotemina.sim.gap.screening import Screened, screen
@@ -196,12 +196,13 @@ def _fitted(
     """Fit sets of causes; those that are far behind after a few steps are given up."""
     number = len(attempts[0])
     sketches: list[Fit] = Parallel(n_jobs=jobs, prefer="threads")(
-        delayed(sketched)(evidence, causes, _SKETCHED) for causes in attempts
+        delayed(sketched)(evidence, beside(evidence, causes), most_steps=_SKETCHED)
+        for causes in attempts
     )
     least = min(one.cost for one in sketches)
     ahead = [one for one in sketches if one.cost <= _BEHIND * least]
     done: list[Fit] = Parallel(n_jobs=jobs, prefer="threads")(
-        delayed(fit)(evidence, one.effects, most_steps=MOST_STEPS - _SKETCHED) for one in ahead
+        delayed(finished)(evidence, one, most_steps=MOST_STEPS - _SKETCHED) for one in ahead
     )
     behind = [one for one in sketches if one.cost > _BEHIND * least]
     return [explanation(evidence, number, one) for one in (*done, *behind)]

@@ -16,7 +16,7 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.effects.errors import EffectError
-from rotemina.sim.gap.descent import descend
+from rotemina.sim.gap.descent import begun, descend
 from rotemina.sim.gap.fit import Fit, bounds, with_values
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.response import nominal_response
@@ -92,7 +92,7 @@ class Yielding:
             return np.full(len(own), _LOST) if then is None else over_floors(then, floors)
 
         low, high, _ = bounds(fitted.free)
-        slopes = descend(answer_of, fitted.x, low, high, 0).jacobian
+        slopes = begun(answer_of, fitted.x, low, high).jacobian
         return cls(fitted, own, slopes, _information(fitted), answer_of)
 
     def left_of(self, other: "Yielding") -> float:
@@ -111,7 +111,7 @@ class Yielding:
         def residual(x: FloatArray) -> FloatArray:
             return np.concatenate([self.answer_of(x) - other.answer, root @ (x - start)])
 
-        found = descend(residual, start, low, high, _STEPS)
+        found = descend(residual, begun(residual, start, low, high), low, high, _STEPS)
         return float(found.residual @ found.residual)
 
 
