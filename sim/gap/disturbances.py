@@ -82,17 +82,19 @@ def _without_jumps(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
 
 def wander(evidence: Evidence, left: FloatArray) -> Disturbance | None:
     """Return how far a sensor wanders, by what the best explanation leaves (rows,)."""
-    total, rows = 0.0, 0
+    total, rows, proven = 0.0, 0, False
     for part in evidence.parts:
         if part.tap is not Tap.MEAS:
             continue
         record = evidence.observations[part.record].record
         own = wandering(record.time_s, left[part.rows], resting(record))
         rows += part.rows.stop - part.rows.start
-        total += 0.0 if own is None else own * (part.rows.stop - part.rows.start)
-    if total == 0.0 or _true_motion_left(evidence, left) > _SEEN_BY_REF * total / rows:
+        if own is not None and own.at_rest is not False:
+            total += own.power * (part.rows.stop - part.rows.start)
+            proven |= own.at_rest is True
+    if not proven or _true_motion_left(evidence, left) > _SEEN_BY_REF * total / rows:
         return None
-    note = "The reading wanders slowly, at rest as well, whatever the axis does."
+    note = "The reading wanders, at rest as well, whatever the axis does."
     return Disturbance("sensor_drift", Tap.MEAS, total / rows, note)
 
 

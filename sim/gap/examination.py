@@ -101,11 +101,10 @@ def examine(whole: Evidence, told: Told, *, jobs: int = 1) -> Examination:
     disturbances = _counting(whole, evidence, best, [*aside, *([drift] if drift else [])])
     ranked = _ranked(evidence, selection, best)
     doubted = [key for key, own in ranked.items() if _probability(own, key) < _DOUBTED]
-    if doubted and len(best.causes) > 1:
+    if doubted and (len(best.causes) > 1 or drift):
         # Several others would do as well in its place: it stands for what the rest leaves.
         kept = [one for one in best.causes if (one.id, one.from_axis) not in doubted]
-        causes = [one for one in kept if not is_own(evidence, one)]
-        best = attributed(evidence, selection.bare, explain(evidence, causes))
+        best = _with_only(evidence, selection, kept)
         ranked = _ranked(evidence, selection, best)
     ambiguous = [not_ruled_out(ranked[key], key) for key in best.ids]
     power = sum(one.power for one in disturbances)
@@ -122,6 +121,16 @@ def examine(whole: Evidence, told: Told, *, jobs: int = 1) -> Examination:
         ranked,
         probed(evidence, best.held_out),
     )
+
+
+def _with_only(
+    evidence: Evidence, selection: Selection, kept: Sequence[AxisEffect]
+) -> Explanation:
+    """Return the explanation by some of the causes."""
+    if not kept:
+        return selection.bare
+    causes = [one for one in kept if not is_own(evidence, one)]
+    return attributed(evidence, selection.bare, explain(evidence, causes))
 
 
 def _ranked(

@@ -1,34 +1,72 @@
-"""A sensor that wanders: what is slow, goes on at rest, and follows from nothing."""
+"""A sensor that wanders: what is not white, goes on at rest, and follows from nothing."""
+
+from dataclasses import dataclass
 
 import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray
 
-_SMOOTH_S = 0.1
-_LATER_S = 0.5  # over which a wander is told from a fixed offset
+_LATER_S = (0.02, 0.1, 0.5)  # over which a wander is told from a fixed offset
 _LEAST_PAIRS = 50
 _AT_REST = 0.3  # of the wander of all times, that rest has at least
-_SLOW = 0.85  # of what is left, that is slow at least
+_WHITE = 0.4  # of what is left, that is white at most
+_STANDS_OUT = 1.15  # times what is white, of a change that is more
+_ROUGH = 1.6  # exponent of time, with which a wander's squared change grows at most; motion: 2
 
 
-def wandering(time_s: FloatArray, left: FloatArray, resting: BoolArray) -> float | None:
-    """Return the power of the slow wander in what is left (n,) over the floor, if there is one.
+@dataclass(frozen=True, slots=True)
+class Wander:
+    """What is left of a record, as far as it is not white.
 
-    None where it is not slow, or not there at rest, where nothing else moves a reading; and where
-    no rest was recorded, as slow errors of the model look alike then.
+    ``power`` is over the floor; ``at_rest`` tells whether it goes on at rest as a wander does,
+    None where no rest was recorded that could tell.
     """
+
+    power: float
+    at_rest: bool | None
+
+
+def wandering(time_s: FloatArray, left: FloatArray, resting: BoolArray) -> Wander | None:
+    """Return what of a residual (n,) over the floor may be a wander; None where it is white.
+
+    Random walks and 1/f noise change by as much at rest, where nothing else moves a reading, and
+    by less than in proportion to time.
+    """
+    power = float(np.mean(left**2))
+    white = float(np.mean(np.diff(left) ** 2)) / 2.0
+    if white > _WHITE * power:
+        return None
+    return Wander(max(power - max(white, 1.0), 0.0), _goes_on(time_s, left, resting, white))
+
+
+def _goes_on(
+    time_s: FloatArray, left: FloatArray, resting: BoolArray, white: float
+) -> bool | None:
     period_s = float(np.median(np.diff(time_s)))
-    window = max(int(_SMOOTH_S / period_s), 1)
-    smooth = np.convolve(left, np.full(window, 1.0 / window), mode="same")
-    power = float(np.mean(smooth**2)) - 1.0 / window
-    if power < _SLOW * (float(np.mean(left**2)) - 1.0):
-        return None
-    later = max(int(_LATER_S / period_s), 1)
-    if later >= len(left):
-        return None
-    change = (smooth[later:] - smooth[:-later]) ** 2
     rested = np.concatenate([[0], np.cumsum(~resting)])
-    at_rest = rested[later + 1 :] == rested[: -later - 1]
-    if at_rest.sum() < _LEAST_PAIRS:
-        return None
-    return power if float(change[at_rest].mean()) > _AT_REST * float(change.mean()) else None
+    shares, grown = [], []
+    enough = False
+    for later_s in _LATER_S:
+        rows = max(round(later_s / period_s), 2)
+        if rows >= len(left):
+            break
+        change = (left[rows:] - left[:-rows]) ** 2
+        at_rest = rested[rows + 1 :] == rested[: -rows - 1]
+        if at_rest.sum() < _LEAST_PAIRS:
+            break
+        enough = True
+        then = float(change[at_rest].mean()) - 2.0 * white
+        if then > 2.0 * (_STANDS_OUT - 1.0) * white:
+            shares.append(then / max(float(change.mean()) - 2.0 * white, 1e-300))
+            grown.append((rows, then))
+    if not shares:
+        return False if enough else None
+    return float(np.exp(np.mean(np.log(shares)))) >= _AT_REST and not _is_smooth(grown)
+
+
+def _is_smooth(grown: list[tuple[int, float]]) -> bool:
+    """Tell whether a squared change grows with time as that of a motion does."""
+    if len(grown) < 2:
+        return False
+    (first, small), (last, large) = grown[0], grown[-1]
+    return float(np.log(large / small) / np.log(last / first)) > _ROUGH

@@ -109,13 +109,28 @@ def test_jumps_smaller_or_slower_than_lost_steps_are_left_alone():
 
 
 def test_ringing_after_a_step_of_the_command_is_no_excursion():
-    command = np.where(TIME_S > 3.0, 1000.0, 0.0)
+    change = np.where(np.diff(TIME_S > 3.0, prepend=False), 1000.0, 0.0)
+    moving = 5.0 * np.arange(len(TIME_S))
     since = np.maximum(TIME_S - 3.0, 0.0)
     ringing = 50.0 * np.exp(-since / 0.02) * np.sin(2 * np.pi * 300.0 * since) * (since > 0)
-    assert not excursions(TIME_S, ringing + NOISE, command).any()
+    assert not excursions(TIME_S, ringing + NOISE, moving, change).any()
     spiked = NOISE.copy()
     spiked[[500, 4000]] += 40.0
-    assert np.flatnonzero(excursions(TIME_S, spiked, command)).tolist() == [500, 4000]
+    found = excursions(TIME_S, spiked, moving + spiked, change)
+    assert np.flatnonzero(found).tolist() == [500, 4000]
+
+
+def test_a_reading_that_stands_still_and_leaps_is_an_excursion_and_a_slip_is_none():
+    moving = 5.0 * np.arange(len(TIME_S))
+    behind = np.zeros(len(TIME_S))
+    behind[1000:1009] = -5.0 * np.arange(1, 10)
+    reading = moving + behind + 0.3 * NOISE
+    found = excursions(TIME_S, behind + 0.3 * NOISE, reading, np.zeros(len(TIME_S)))
+    assert set(range(1003, 1009)) <= set(np.flatnonzero(found)) <= set(range(999, 1010))
+    slipping = behind.copy()
+    slipping[1009:1018] = -45.0 + 5.0 * np.arange(1, 10)
+    reading = moving + slipping + 0.3 * NOISE
+    assert not excursions(TIME_S, slipping + 0.3 * NOISE, reading, np.zeros(len(TIME_S))).any()
 
 
 def test_a_decaying_line_is_no_vibration():
@@ -141,7 +156,22 @@ def test_a_coarse_grid_is_found_where_noise_does_not_fill_it():
 def test_a_wander_must_go_on_at_rest():
     resting = TIME_S > 4.0
     walk = 0.3 * np.cumsum(NOISE)
-    assert wandering(TIME_S, walk - walk.mean(), resting) is not None
+    told = wandering(TIME_S, walk - walk.mean(), resting)
+    assert told.at_rest is True
+    assert told.power == pytest.approx(walk.var(), rel=0.05)
+    assert wandering(TIME_S, _flicker() + NOISE, resting).at_rest is True
     moving = np.where(resting, 0.0, 5.0 * np.sin(2 * np.pi * 0.5 * TIME_S))
-    assert wandering(TIME_S, moving, resting) is None
-    assert wandering(TIME_S, walk - walk.mean(), np.zeros(len(TIME_S), dtype=bool)) is None
+    assert wandering(TIME_S, moving, resting).at_rest is False
+    relaxing = moving + 40.0 * np.exp(-TIME_S / 3.0)
+    assert wandering(TIME_S, relaxing - relaxing.mean(), resting).at_rest is False
+    never = np.zeros(len(TIME_S), dtype=bool)
+    assert wandering(TIME_S, walk - walk.mean(), never).at_rest is None
+    assert wandering(TIME_S, 30.0 * NOISE, resting) is None
+
+
+def _flicker():
+    tones = np.fft.rfft(np.random.default_rng(3).standard_normal(len(TIME_S)))
+    tones[1:] /= np.sqrt(np.arange(1, len(tones)))
+    tones[0] = 0.0
+    flicker = np.fft.irfft(tones, len(TIME_S))
+    return 30.0 * flicker / flicker.std()
