@@ -14,6 +14,7 @@ from rotemina.sim.gap.blocks import block_numbers
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.floors import floors
 from rotemina.sim.gap.history import other_starts, start
+from rotemina.sim.plant.finely import respond
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.response import check_axes, run_of
 from rotemina.sim.plant.run import Run
@@ -195,7 +196,7 @@ class Evidence:
     def _answer(
         self, plant: Plant, run: Run, state: PlantState, observation: Observation
     ) -> Signals:
-        motion, _ = plant.advance(state, run.time_s, run.command, add=run.add, inputs=run.inputs)
+        motion = respond(plant, state, run)
         column = plant.axes.index(self.axis)
         signals = (motion.inputs, motion.position, motion.reading)
         taps = zip(_TAPS, (signal[:, column] for signal in signals), strict=True)

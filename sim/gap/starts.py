@@ -23,6 +23,8 @@ _PLACES = (0.2, 0.4, 0.6, 0.8, 0.92)  # of the way from the lowest to the highes
 _BEYOND = (0.04, 0.15)  # of that way, which a saturated amplifier does not go
 _LATE = ("delay", "amplifier_lag", "sensor_lag")
 _ROWS_LATE = (1.0, 3.0)
+_PPM = 1e-6
+_SKEWS = 40  # from 1 ppm on
 _LADDERS: Mapping[str, Mapping[str, tuple[float, ...]]] = {  # in presets
     "delay": {"delay": (0.3, 1.0, 4.0, 15.0)},
     "amplifier_lag": {"time_constant": (0.5, 2.0, 8.0)},
@@ -150,6 +152,26 @@ def _couplings(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[
         yield {"k": k or attached.values["k"], **start}
 
 
+def _skews(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
+    """Give the rate at which the model's readings, read by such a clock, leave least."""
+    parameter = attached.formulation.parameter("skew")
+    assert parameter is not None
+    low, high = parameter.bounds(attached.facts)
+    sizes = np.geomspace(1.0, high, _SKEWS)
+    tried = np.concatenate([-sizes[sizes <= -low], sizes])
+    left = np.zeros(len(tried))
+    answers = evidence.response(fitted.effects)
+    for observation, answer in zip(evidence.observations, answers, strict=True):
+        if Tap.MEAS not in answer:
+            continue
+        time_s, real = observation.record.time_s, observation.real[Tap.MEAS]
+        for number, skew in enumerate(tried):
+            when = time_s - (time_s - time_s[0]) * _PPM * skew
+            gap = _centred(real - np.interp(when, time_s, answer[Tap.MEAS]))
+            left[number] += float(gap @ gap) / observation.floor[Tap.MEAS] ** 2
+    yield {"skew": float(tried[int(np.argmin(left))])}
+
+
 def _clipped(attached: Attached, **values: float) -> dict[str, float]:
     clipped = {}
     for name, value in values.items():
@@ -198,4 +220,5 @@ _SPECIAL: Mapping[str, _Maker] = {
     "contact": _places,
     "saturation": _margins,
     "cross_coupling": _couplings,
+    "clock_skew": _skews,
 }

@@ -7,6 +7,7 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plant.errors import PlantError
+from rotemina.sim.plant.finely import respond
 from rotemina.sim.plant.history import measured_start, steady_start
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.run import Run
@@ -63,14 +64,8 @@ def nominal_response(robot: Robot, record: Record, *, drive: Tap = Tap.CMD) -> R
         state = measured_start(plant, record, run)
     else:
         state = plant.at_rest(run.time_s[0], run.command[0])
-    motion, _ = plant.advance(
-        state,
-        run.time_s,
-        run.command,
-        add=run.add,
-        inputs=run.inputs,
-        behind=Behind.AMPLIFIER if drive is Tap.U else Behind.COMMAND,
-    )
+    behind = Behind.AMPLIFIER if drive is Tap.U else Behind.COMMAND
+    motion = respond(plant, state, run, behind)
     return _response(plant, record, motion)
 
 
