@@ -2,6 +2,7 @@
 
 from math import sqrt
 
+from rotemina.sim.effects import bends
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import (
     EVERY_KIND,
@@ -28,6 +29,12 @@ def _over_the_range(values: Values, facts: Facts) -> tuple[float, ...]:
     return middle, 2.0 / facts.span, values["bow"], values["cubic"] / _CUBIC_PEAK
 
 
+def _series(values: Values, facts: Facts) -> tuple[float, ...]:
+    return bends.numbers(values, facts.low, facts.span)
+
+
+_TRAITS = frozenset({Trait.MEMORYLESS, Trait.RATE_INDEPENDENT, Trait.READING_ONLY})
+
 SENSOR_NONLINEARITY = Effect(
     id="sensor_nonlinearity",
     title="Sensor nonlinearity",
@@ -47,7 +54,16 @@ SENSOR_NONLINEARITY = Effect(
             ),
             acts=Reading(step=bowed),
             prepare=_over_the_range,
-            traits=frozenset({Trait.MEMORYLESS, Trait.RATE_INDEPENDENT, Trait.READING_ONLY}),
+            traits=_TRAITS,
+        ),
+        Formulation(
+            name="series",
+            equation=bends.EQUATION,
+            source=bends.SOURCE,
+            parameters=bends.parameters(),
+            acts=Reading(step=bends.bent),
+            prepare=_series,
+            traits=_TRAITS,
         ),
     ),
 )

@@ -1,11 +1,12 @@
 """A bowed characteristic: a curve in place of a straight line, without memory.
 
-Both formulations leave the ends of the range where they are, so what they do is apart from a
-gain error and an offset.
+All formulations leave the ends of the range, or of the stretch that is bent, where they are, so
+what they do is apart from a gain error and an offset.
 """
 
 import numpy as np
 
+from rotemina.sim.effects import bends
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import (
     EVERY_KIND,
@@ -52,6 +53,11 @@ def _exponential(values: Values, facts: Facts) -> tuple[float, ...]:
     return (values["curvature"], low, high - low)
 
 
+def _series(values: Values, facts: Facts) -> tuple[float, ...]:
+    low, high = _ends(facts)
+    return bends.numbers(values, low, high - low)
+
+
 _TRAITS = frozenset({Trait.MEMORYLESS, Trait.RATE_INDEPENDENT})
 
 STATIC_NONLINEARITY = Effect(
@@ -84,6 +90,15 @@ STATIC_NONLINEARITY = Effect(
             ),
             acts=Drive(step=exponential),
             prepare=_exponential,
+            traits=_TRAITS,
+        ),
+        Formulation(
+            name="series",
+            equation=bends.EQUATION,
+            source=bends.SOURCE,
+            parameters=bends.parameters(),
+            acts=Drive(step=bends.bent),
+            prepare=_series,
             traits=_TRAITS,
         ),
     ),

@@ -110,6 +110,12 @@ class Evidence:
         return Evidence(self.robot, self.axis, tuple(observations), self.heartbeat)
 
     @property
+    def reach(self) -> tuple[float, float]:
+        """The least and the greatest command, m or rad."""
+        commands = [o.record.signal(self.axis, Tap.CMD) for o in self.observations]
+        return min(float(c.min()) for c in commands), max(float(c.max()) for c in commands)
+
+    @property
     def parts(self) -> list[Part]:
         """The taps of all records in the order in which :meth:`residual` strings them together."""
         parts, begin = [], 0

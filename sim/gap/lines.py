@@ -1,10 +1,13 @@
 """The strongest line in the spectrum of what a model leaves, over position or over time."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from scipy.signal import detrend
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.fit import Fit
 from rotemina.sim.records.record import Tap
 
 _MOST_BINS = 1 << 17
@@ -18,20 +21,49 @@ _PER_PERIOD = 4  # bins of position in the shortest period
 
 
 def strongest_periods(
-    evidence: Evidence, residual: FloatArray, bounds: tuple[float, float]
+    evidence: Evidence, fitted: Fit, bounds: tuple[float, float]
 ) -> list[float]:
-    """Return the periods over position, within bounds, of the strongest line of each record.
+    """Return the periods over position, within bounds, of the strongest lines of what a fit leaves.
 
-    Over the commanded position, which the true one follows closely enough; strongest first.
+    One for each record, strongest first, made so exact that all records agree on its phase.
     """
-    lines = []
+    seen = _placed(evidence, fitted)
+    lines = [line for line in (_over_position(*one, bounds) for one in seen) if line is not None]
+    lines.sort(key=lambda line: -line[1])
+    return [float(np.clip(_in_phase(seen, period), *bounds)) for period, _ in lines]
+
+
+def _placed(evidence: Evidence, fitted: Fit) -> list[tuple[FloatArray, FloatArray]]:
+    """Return the place (n,) where the model has the axis, and what is left there, by record."""
+    answers = evidence.response(fitted.effects)
+    placed = []
     for part in evidence.parts:
         if part.tap is not Tap.U:
-            place = evidence.observations[part.record].record.signal(evidence.axis, Tap.CMD)
-            line = _over_position(place, residual[part.rows], bounds)
-            if line is not None:
-                lines.append(line)
-    return [period for period, _ in sorted(lines, key=lambda line: -line[1])]
+            placed.append((answers[part.record][part.tap], fitted.residual[part.rows]))
+    return placed
+
+
+def _in_phase(seen: Sequence[tuple[FloatArray, FloatArray]], period: float) -> float:
+    """Return the period near ``period`` by which the records agree best.
+
+    First by each record alone, whose phases may differ, then by all: they may lie far apart.
+    """
+    thinned = [(place[::_EVERY], gap[::_EVERY]) for place, gap in seen]
+    lowest = min(float(place.min()) for place, _ in thinned)
+    whole = max(float(place.max()) for place, _ in thinned) - lowest
+    ways = [float(np.ptp(place)) for place, _ in thinned]
+    widest = max(ways)
+    reach = min((way for way in ways if way > 2.0 * period), default=widest)
+    for together, wide in ((False, reach), (False, widest), (True, widest), (True, whole)):
+        rates = np.linspace(-1.0, 1.0, 2 * _FINE + 1) / wide + 1.0 / period
+        waves = np.array([[_wave(place, gap, rate) for place, gap in thinned] for rate in rates])
+        power = np.abs(waves.sum(axis=1)) if together else np.linalg.norm(waves, axis=1)
+        period = 1.0 / float(rates[int(np.argmax(power))])
+    return period
+
+
+def _wave(place: FloatArray, gap: FloatArray, rate: float) -> complex:
+    return complex(np.exp(-2j * np.pi * rate * place) @ gap)
 
 
 def strongest_frequency(

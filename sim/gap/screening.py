@@ -4,17 +4,21 @@ What the fit so far could do itself by changing its parameters is projected out,
 a candidate adds counts; then a few steps of descent on the candidate's parameters alone.
 """
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.gap.candidates import is_slow
 from rotemina.sim.gap.descent import one_step
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import Fit, bounds, free_parameters, with_values
 from rotemina.sim.gap.starts import starts
 from rotemina.sim.robot.model import AxisEffect
+
+_HARMONICS = ("sine", "cosine", "second_sine", "second_cosine")  # what parameters begin with
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,12 +43,54 @@ def screen(evidence: Evidence, fitted: Fit, candidate: AxisEffect, *, briefly: b
 
 
 def _begun(evidence: Evidence, fitted: Fit, candidate: AxisEffect) -> Screened:
-    change = evidence.residual([*fitted.effects, candidate]) - fitted.residual
-    change = _beside(fitted, change)
-    power = float(change @ change)
-    taken = max(-float(change @ fitted.beside), 0.0) ** 2 / power if power > 0.0 else 0.0
-    cost = float(fitted.beside @ fitted.beside) - taken
-    return Screened(candidate, cost / len(change))
+    """Return a start, in the amount of each of its harmonics that suits best, and what is left."""
+    directions = _directions(evidence, candidate)
+    changes = [
+        _beside(fitted, evidence.residual([*fitted.effects, one]) - fitted.residual)
+        for one in directions
+    ]
+    basis = np.stack(changes, axis=1)
+    amounts = np.linalg.lstsq(basis, -fitted.beside)[0]
+    if len(directions) == 1:
+        # An amount is no parameter: the start stays, and must not go the wrong way.
+        amounts = np.maximum(amounts, 0.0)
+        found = candidate
+    else:
+        found = _in_amounts(evidence, candidate, directions, amounts)
+    cost = float(np.mean((fitted.beside + basis @ amounts) ** 2))
+    return Screened(found, cost)
+
+
+def _directions(evidence: Evidence, candidate: AxisEffect) -> list[AxisEffect]:
+    """Return a candidate in each of its harmonics alone, or as it is where it has none."""
+    values = Attached.of(evidence.robot, candidate).values
+    harmonics = [name for name in values if name.startswith(_HARMONICS)]
+    if len(harmonics) < 2:
+        return [candidate]
+    size = max(abs(values[name]) for name in harmonics)
+    none = dict.fromkeys(harmonics, 0.0)
+    return [
+        replace(candidate, parameters={**candidate.parameters, **none, name: size})
+        for name in harmonics
+    ]
+
+
+def _in_amounts(
+    evidence: Evidence,
+    candidate: AxisEffect,
+    directions: Sequence[AxisEffect],
+    amounts: FloatArray,
+) -> AxisEffect:
+    attached = Attached.of(evidence.robot, candidate)
+    harmonics = [name for name in attached.values if name.startswith(_HARMONICS)]
+    found = dict(candidate.parameters)
+    for name, one, amount in zip(harmonics, directions, amounts, strict=True):
+        parameter = attached.formulation.parameter(name)
+        assert parameter is not None
+        found[name] = float(
+            np.clip(amount * one.parameters[name], *parameter.bounds(attached.facts))
+        )
+    return replace(candidate, parameters=found)
 
 
 def _followed(evidence: Evidence, fitted: Fit, candidate: AxisEffect) -> Screened:

@@ -11,6 +11,7 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.effects.attachment import Attached
+from rotemina.sim.gap.baseline import OWN
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import Fit
 from rotemina.sim.gap.lines import likeliest_steps, strongest_frequency, strongest_periods
@@ -19,10 +20,9 @@ from rotemina.sim.robot.model import AxisEffect, PiezoAxis
 
 _MOST_PERIODS = 3
 _MODES = (0.4, 1.7, 3.0)  # of the axis' own frequency
-_PLACES = (0.2, 0.4, 0.6, 0.8, 0.92)  # of the way from the lowest to the highest command
+_PLACES = (0.4, 0.6, 0.8, 0.92)  # of the way to the end where something is met
 _BEYOND = (0.04, 0.15)  # of that way, which a saturated amplifier does not go
 _LATE = ("delay", "amplifier_lag", "sensor_lag")
-_ROWS_LATE = (1.0, 3.0)
 _PPM = 1e-6
 _SKEWS = 40  # from 1 ppm on
 _LADDERS: Mapping[str, Mapping[str, tuple[float, ...]]] = {  # in presets
@@ -56,6 +56,8 @@ def _starts(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dic
     ladders = _LADDERS.get(attached.effect.id, {})
     if special is not None:
         yield from special(evidence, fitted, attached)
+    elif {"begin", "end"} <= names:
+        yield _stretch(evidence, attached)
     elif "period" in names:
         yield from _periods(evidence, fitted, attached)
     else:
@@ -63,20 +65,30 @@ def _starts(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dic
             if name in names:
                 yield from ({name: attached.values[name] * share} for share in presets)
                 if attached.effect.id in _LATE:
-                    yield from _by_rows(evidence, attached, name, presets[-1])
+                    yield from _late(evidence, fitted, attached, name)
                 return
         yield {}
 
 
-def _by_rows(
-    evidence: Evidence, attached: Attached, name: str, most: float
-) -> Iterator[dict[str, float]]:
-    """Give starts for what comes late by a few rows, where rows lie far apart."""
-    record = evidence.observations[0].record
-    row_s = float(np.median(np.diff(record.time_s)))
-    for rows in _ROWS_LATE:
-        if rows * row_s > 1.5 * most * attached.values[name]:
-            yield _clipped(attached, **{name: rows * row_s})
+def _late(evidence: Evidence, fitted: Fit, attached: Attached, name: str) -> Iterator[dict[str, float]]:
+    """Give the lateness that takes most away where the model's own parameters do nothing.
+
+    These may have been bent to do in its place what they can.
+    """
+    causes = [one for one in fitted.effects if one.id not in OWN]
+    residual = evidence.residual(causes)
+    answers = evidence.response(causes)
+    above = below = 0.0
+    for part in evidence.parts:
+        if part.tap is not Tap.U:
+            observation = evidence.observations[part.record]
+            pace = np.gradient(answers[part.record][part.tap], observation.record.time_s)
+            pace = _centred(pace) / observation.floor[part.tap]
+            above -= float(residual[part.rows] @ pace)
+            below += float(pace @ pace)
+    late_s = above / below if below > 0.0 else 0.0
+    if late_s > 0.0:
+        yield _clipped(attached, **{name: late_s / (2.0 * attached.values.get("damping_ratio", 0.5))})
 
 
 def _periods(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
@@ -84,7 +96,7 @@ def _periods(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[di
     assert parameter is not None
     low, high = parameter.bounds(attached.facts)
     yield {"period": attached.values["period"]}
-    for seen in strongest_periods(evidence, fitted.residual, (low, high))[:_MOST_PERIODS]:
+    for seen in strongest_periods(evidence, fitted, (low, high))[:_MOST_PERIODS]:
         yield {"period": float(np.clip(seen, low, high))}
 
 
@@ -122,19 +134,35 @@ def _modes(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict
 
 
 def _places(evidence: Evidence, _fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
+    """Give places where a contact may be met on the way up, and on the way down."""
     parameter = attached.formulation.parameter("place")
     assert parameter is not None
     low, high = parameter.bounds(attached.facts)
-    least, most = _reach(evidence)
-    for share in _PLACES:
-        place = least + share * (most - least) - attached.facts.low
-        yield {"place": float(np.clip(place, low, high))}
+    strength = next(name for name in ("stiffness", "blocked") if name in attached.values)
+    least, most = evidence.reach
+    for sign in (1.0, -1.0):
+        for share in _PLACES:
+            place = least if sign < 0.0 else most
+            place -= sign * (1.0 - share) * (most - least)
+            yield {
+                "place": float(np.clip(place - attached.facts.low, low, high)),
+                strength: sign * abs(attached.values[strength]),
+            }
+
+
+def _stretch(evidence: Evidence, attached: Attached) -> dict[str, float]:
+    """Return the stretch that is travelled, as shares of the range."""
+    least, most = evidence.reach
+    more = _BEYOND[0] * (most - least)
+    facts = attached.facts
+    shares = ((least - more - facts.low) / facts.span, (most + more - facts.low) / facts.span)
+    return _clipped(attached, begin=shares[0], end=shares[1])
 
 
 def _margins(evidence: Evidence, _fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
     facts = attached.facts
     gain = facts.gain if facts.kind == "piezo" else 1.0
-    least, most = (end / gain for end in _reach(evidence))
+    least, most = (end / gain for end in evidence.reach)
     low, high = least - facts.input_low, facts.input_high - most
     for share in _BEYOND:
         beyond = share * (most - least)
@@ -180,12 +208,6 @@ def _clipped(attached: Attached, **values: float) -> dict[str, float]:
         low, high = parameter.bounds(attached.facts)
         clipped[name] = float(np.clip(value, low, high))
     return clipped
-
-
-def _reach(evidence: Evidence) -> tuple[float, float]:
-    """Return the least and greatest command."""
-    commands = [o.record.signal(evidence.axis, Tap.CMD) for o in evidence.observations]
-    return min(float(c.min()) for c in commands), max(float(c.max()) for c in commands)
 
 
 def _regressed(evidence: Evidence, fitted: Fit, attached: Attached) -> float:

@@ -33,6 +33,7 @@ EFFECTS = [
 NOTHING = {
     "sensor_gain": {"error": 0.0},
     "sensor_nonlinearity": {"bow": 0.0, "cubic": 0.0},
+    "series": {"sine_1": 0.0},
     "sensor_lag": {"time_constant": 0.0},
     "sensor_noise": {"rms": 0.0},
     "sensor_quantization": {"step": 0.0},
@@ -79,7 +80,7 @@ def test_the_reading_is_touched_and_the_reference_is_not(effect_id, formulation)
 
 @every_effect
 def test_its_nothing_value_is_the_nominal_response_exactly(effect_id, formulation):
-    none = NOTHING.get(effect_id) or NOTHING[formulation]
+    none = NOTHING.get(formulation) or NOTHING[effect_id]
     commands = swept()
     clean = simulate(ROBOT, (), commands, np.random.default_rng(5))
     same = simulate(
