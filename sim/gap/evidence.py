@@ -109,6 +109,10 @@ class Evidence:
         """Return evidence of other observations of the same axis."""
         return Evidence(self.robot, self.axis, tuple(observations), self.heartbeat)
 
+    def has(self, tap: Tap) -> bool:
+        """Tell whether any record holds a tap."""
+        return any(tap in observation.real for observation in self.observations)
+
     @property
     def reach(self) -> tuple[float, float]:
         """The least and the greatest command, m or rad."""

@@ -187,7 +187,7 @@ def _with_twins(
     evidence: Evidence, best: Explanation, tried: Sequence[Explanation]
 ) -> tuple[Explanation, ...]:
     """Add what the sensor may do in the place of a cause, where no reference was recorded."""
-    if any(Tap.REF in observation.real for observation in evidence.observations):
+    if evidence.has(Tap.REF):
         return tuple(tried)
     more = list(tried)
     for cause in best.causes:

@@ -19,10 +19,12 @@ from rotemina.sim.gap.models import (
 )
 from rotemina.sim.gap.screening import Screened, screen
 from rotemina.sim.gap.verdict import closed
+from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
 MOST_CAUSES = 3
 LEAST_SHARE = 0.03  # of the gap's power, that a cause must close
+_SENSORS_OWN = {"sensor_gain"}  # what a gain of the axis does as well: a rival, no cause beside it
 _BENT_LOOP = {"hysteresis", "static_nonlinearity"}
 _BENT_SHARE = 0.1  # the same for what may be but the asymmetry of a real loop
 LEAST_POWER = 0.2  # in floors squared, that a cause must close
@@ -70,6 +72,8 @@ def select(evidence: Evidence, told: Told, *, jobs: int = 1) -> Selection:
     ``told`` hears stage and candidate.
     """
     own = [one for one in candidates(evidence) if not is_own(evidence, one)]
+    if not evidence.has(Tap.REF):
+        own = [one for one in own if one.id not in _SENSORS_OWN]
     bare = untouched(evidence)
     retuned = explain(evidence, ())
     best = retuned if enters(bare, bare, retuned) else bare

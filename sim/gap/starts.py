@@ -21,6 +21,8 @@ from rotemina.sim.robot.model import AxisEffect, PiezoAxis
 _MOST_PERIODS = 3
 _MODES = (0.4, 1.7, 3.0)  # of the axis' own frequency
 _PLACES = (0.4, 0.6, 0.8, 0.92)  # of the way to the end where something is met
+_CENTRES = (-0.45, 0.0)  # of the range, from mid-range
+_HARDER = (1.0, 6.0)  # presets
 _BEYOND = (0.04, 0.15)  # of that way, which a saturated amplifier does not go
 _LATE = ("delay", "amplifier_lag", "sensor_lag")
 _PPM = 1e-6
@@ -159,6 +161,17 @@ def _stretch(evidence: Evidence, attached: Attached) -> dict[str, float]:
     return _clipped(attached, begin=shares[0], end=shares[1])
 
 
+def _centres(
+    _evidence: Evidence, _fitted: Fit, attached: Attached
+) -> Iterator[dict[str, float]]:
+    for share in _CENTRES:
+        for times in _HARDER:
+            yield {
+                "centre": share * attached.facts.span,
+                "hardening": times * attached.values["hardening"],
+            }
+
+
 def _margins(evidence: Evidence, _fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
     facts = attached.facts
     gain = facts.gain if facts.kind == "piezo" else 1.0
@@ -241,6 +254,7 @@ _SPECIAL: Mapping[str, _Maker] = {
     "flexible_mode": _modes,
     "contact": _places,
     "saturation": _margins,
+    "stiffness_nonlinearity": _centres,
     "cross_coupling": _couplings,
     "clock_skew": _skews,
 }
