@@ -8,7 +8,7 @@ from rotemina.sim.records.record import Tap
 
 _LEVELS = 2  # positions between which an axis only ever went, that tell too little
 _STILL = 1e-3  # of the range of a command, within which positions are one
-_LINE = 0.99  # of a command's power in one line: a single sine
+_LINE = 0.96  # of a command's power in one line, and of its speed's: a single sine
 _LINES = 3  # spectral lines on either side that belong to one, behind a window
 _WIDE = 0.5  # of the axis' range: a sine that goes so far bends what is not straight
 
