@@ -50,6 +50,7 @@ def fine_enough(_values: Values, facts: Facts) -> float:
     return _INNER_SHARE / facts.frequency_hz if facts.frequency_hz > 0.0 else _FREE_STEP_S
 
 
+SOFTNESS = Parameter("softness", "0: rigid; 1: taken up from the start on", "", 0.0, 1.0, 0.5)
 WIDTH = Parameter("width", "of the play", "q", 0.0, 0.2, 1e-4, per="span")
 
 BACKLASH = Effect(
@@ -73,10 +74,7 @@ BACKLASH = Effect(
             name="compliant",
             equation="y = Σ yᵢ / n, yᵢ = max(x − wᵢ/2, min(x + wᵢ/2, yᵢ)), wᵢ = w (1 ± softness)",
             source="Brokate and Sprekels, Hysteresis and Phase Transitions (1996), ch. 2",
-            parameters=(
-                WIDTH,
-                Parameter("softness", "0: rigid; 1: taken up from the start on", "", 0.0, 1.0, 0.5),
-            ),
+            parameters=(WIDTH, SOFTNESS),
             acts=Motion(step=flanks, states=FLANKS),
             prepare=_spread,
             inner_step_s=fine_enough,
@@ -89,6 +87,16 @@ BACKLASH = Effect(
             parameters=(WIDTH,),
             acts=Drive(step=play, states=1),
             prepare=lambda values, facts: (0.5 * values["width"], facts.low),
+            kinds=frozenset({"stepper"}),
+            traits=frozenset({Trait.RATE_INDEPENDENT}),
+        ),
+        Formulation(
+            name="compliant_screw",
+            equation="U' = Σ Uᵢ' / n, the plays of widths w (1 ± softness), drives mass and spring",
+            source="Brokate and Sprekels, Hysteresis and Phase Transitions (1996), ch. 2",
+            parameters=(WIDTH, SOFTNESS),
+            acts=Drive(step=flanks, states=FLANKS),
+            prepare=_spread,
             kinds=frozenset({"stepper"}),
             traits=frozenset({Trait.RATE_INDEPENDENT}),
         ),

@@ -26,6 +26,7 @@ _MORE_NOISE = 1.3  # floors from which noise is more than declared
 _SETTLED_S = 0.3  # after which a held axis rests
 _AROUND_A_JUMP_S = 0.08
 _SEEN_BY_REF = 0.3  # of a wander, that the reference may see of what is left
+_JUMPING = 0.6  # of the gap's power in all records, that lost steps must close
 _SHAKEN = 0.1  # of its range, that another axis' going through all of its own may shake an axis
 _REST_ROWS = 100
 _SAME_TONE = 0.02  # relative difference of frequencies that are one
@@ -71,8 +72,9 @@ def _without_jumps(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
             power[tap] = power.get(tap, 0.0) + float(np.sum(before**2) - np.sum(after**2))
             count += len(found)
         observations.append(observation)
-    if not count:
-        return evidence, []
+    gap = {tap: _power(evidence, evidence.residual(), tap) for tap in power}
+    if all(total < _JUMPING * gap[tap] * _rows(evidence, tap) for tap, total in power.items()):
+        return evidence, []  # a play that is used up, or what else is there in all records
     note = f"{count} sudden jumps by whole multiples of four full steps were taken back."
     return evidence.with_observations(observations), [
         Disturbance("lost_steps", tap, total / _rows(evidence, tap), note)

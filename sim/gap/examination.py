@@ -154,7 +154,7 @@ def _ranked(
     """Return the rivals of each cause of an explanation."""
     tried = _with_twins(evidence, best, _with_retuned(evidence, selection, best))
     return {
-        key: rivals(evidence, best, without_own(evidence, best, tried, key), key)
+        key: rivals(evidence, best, without_own(evidence, best, tried, key), key, selection.raw)
         for key in best.ids
     }
 

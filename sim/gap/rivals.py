@@ -15,6 +15,7 @@ from rotemina.sim.records.record import Tap
 _POWER = 2.0  # of what is left: how fast a rival loses with what it leaves
 _SLACK = 0.03  # of the floor's power, which two scores at the floor differ by chance
 _TIED = 1.5  # times a score, within which another is as good
+_NEARLY = 0.02  # of the gap's power, within which another closes nearly as much
 _SURE = 3.0  # standard errors from which a difference counts in full
 _SAME = 0.2  # of the likeliest one's probability, from which a rival is not ruled out
 _SIMPLER = 6.0  # times likelier, on a tie, for each parameter less
@@ -43,11 +44,12 @@ class Rival:
 
 
 def rivals(
-    evidence: Evidence, best: Explanation, tried: Sequence[Explanation], cause: Key
+    evidence: Evidence, best: Explanation, tried: Sequence[Explanation], cause: Key, raw: float
 ) -> tuple[Rival, ...]:
     """Return what was tried in the place of a cause, and the cause itself, likeliest first.
 
-    The model's own parameters take part in all of them, causes or not.
+    The model's own parameters take part in all of them, causes or not. ``raw`` is the mean square
+    of the gap over the floor.
     """
     others = [key for key in best.ids if key != cause and key[0] not in OWN]
     found = [(cause, best)]
@@ -59,10 +61,10 @@ def rivals(
         if own != cause:
             found.append((own, one))
     least = min(len(one.fit.free) for _, one in found if _is_tied(best, one))
+    near = min(len(one.fit.free) for _, one in found if _is_near(best, one, raw))
     weights = np.array(
         [
-            _weight(evidence, best, one)
-            * _prior(key[0], len(one.fit.free) - least if _is_tied(best, one) else 0)
+            _weight(evidence, best, one) * _prior(key[0], _more_parameters(best, one, least, near))
             for key, one in found
         ]
     )
@@ -85,6 +87,22 @@ def not_ruled_out(ranked: Sequence[Rival], cause: Key) -> tuple[str, ...]:
 def _prior(effect: str, more_parameters: int) -> float:
     """Return how likely an effect is before any record: the simpler one on a tie."""
     return _PRIOR.get(effect, 1.0) * _SIMPLER ** -min(more_parameters, _MOST_MORE)
+
+
+def _more_parameters(best: Explanation, other: Explanation, least: int, near: int) -> int:
+    """Return how many parameters more count against an explanation.
+
+    All beyond the ``least`` of those that do as well; but one at most beyond those that come
+    ``near``. By other equations than a machine's own nothing is quite right, and much that one
+    explanation closes more than another may be but what its many parameters bend.
+    """
+    count = len(other.fit.free)
+    return max(count - least if _is_tied(best, other) else 0, int(count > near))
+
+
+def _is_near(best: Explanation, other: Explanation, raw: float) -> bool:
+    """Tell whether another explanation closes nearly as much of the gap."""
+    return _is_tied(best, other) or other.score - best.score < _NEARLY * (raw - 1.0)
 
 
 def _is_tied(best: Explanation, other: Explanation) -> bool:
