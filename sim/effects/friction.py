@@ -19,6 +19,7 @@ from rotemina.sim.effects.formulation import (
 )
 from rotemina.sim.robot.model import Axis
 
+SPRINGS = 8
 _INNER_SHARE = 1.0 / 60.0  # of the axis' period: the force is held for so long
 _FREE_STEP_S = 5e-4  # where no spring sets a period
 _BRISTLE_SHARE = 0.1  # of the period of the axis on its bristles, as far as
@@ -83,6 +84,39 @@ def lugre(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compil
     return -force if forward else force
 
 
+def springs(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """``f = −Σ kᵢ zᵢ − D v``; each spring follows the motion up to the deflection where it slips.
+
+    Solved for the speed that the force leaves at the end of the step, ``v + b f``: the sum rises
+    with the speed and is straight between the slips, so that Newton's steps end exactly.
+
+    p: force of one spring, backward over forward, D, each kᵢ; s: each zᵢ.
+    """
+    heavy = 1.0 + b * p[2]
+    speed = other
+    for _ in range(4 * SPRINGS):
+        total, slope = 0.0, 0.0
+        for i in range(SPRINGS):
+            pulled = p[3 + i] * (s[i] + h * speed)
+            if pulled > p[0]:
+                total += p[0]
+            elif pulled < -p[0] * p[1]:
+                total -= p[0] * p[1]
+            else:
+                total += pulled
+                slope += p[3 + i] * h
+        change = (speed * heavy - other + b * total) / (heavy + b * slope)
+        speed -= change
+        if abs(change) <= 1e-12 * abs(speed):
+            break
+    force = p[2] * speed
+    for i in range(SPRINGS):
+        pulled = min(max(p[3 + i] * (s[i] + h * speed), -p[0] * p[1]), p[0])
+        s[i] = pulled / p[3 + i] if p[3 + i] > 0.0 else 0.0
+        force += pulled
+    return -force
+
+
 def dampened(values: Values, axis: Axis) -> Axis:
     """Return the axis with more damping, or less.
 
@@ -118,6 +152,13 @@ def _bristles(values: Values, facts: Facts) -> tuple[float, ...]:
         damping / dry if dry > 0.0 else 0.0,
         values["viscous"],
     )
+
+
+def _springs(values: Values, facts: Facts) -> tuple[float, ...]:
+    """Give all springs one force; the i-th of n slips at the deflection ``L ((i + 1)/n)^s``."""
+    force = values["coulomb"] / SPRINGS
+    slips = [values["deflection"] * ((i + 1) / SPRINGS) ** values["shape"] for i in range(SPRINGS)]
+    return force, values["backward"], values["viscous"], *(force / slip for slip in slips)
 
 
 def _inner_step(_values: Values, facts: Facts) -> float:
@@ -189,6 +230,24 @@ FRICTION = Effect(
             ),
             acts=Force(step=lugre, states=1),
             prepare=_bristles,
+            inner_step_s=_bristle_step,
+            traits=frozenset({Trait.DISSIPATIVE}),
+        ),
+        Formulation(
+            name="springs",
+            equation="f = −Σ kᵢ zᵢ − D v, |kᵢ zᵢ| ≤ Fc/n, slipping at L (i/n)^s, i = 1…n = 8",
+            source="Iwan, J. Applied Mechanics 33 (1966) 893–900",
+            parameters=(
+                _dry("coulomb", "dry friction forward"),
+                Parameter("backward", "dry friction backward over forward", "", 0.3, 3.0, 1.0),
+                Parameter(
+                    "deflection", "L, where all slip", "q", 1e-8, 1e-2, 3e-5, per="span"
+                ),
+                Parameter("shape", "s, 0: all slip at once", "", 0.0, 4.0, 1.0),
+                _viscous("viscous", "viscous friction"),
+            ),
+            acts=Force(step=springs, states=SPRINGS),
+            prepare=_springs,
             inner_step_s=_bristle_step,
             traits=frozenset({Trait.DISSIPATIVE}),
         ),

@@ -17,6 +17,7 @@ from rotemina.sim.plant.plant import Plant
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
+_TELLING = {"friction": "springs"}
 _EVENTS = ("lost_steps",)
 
 
@@ -36,11 +37,11 @@ def candidates(evidence: Evidence) -> tuple[AxisEffect, ...]:
 def scouts(evidence: Evidence, own: Sequence[AxisEffect]) -> list[AxisEffect]:
     """Return the candidates that are looked at first: what is quick to simulate.
 
-    Of an effect that has no such formulation, the usual one.
+    Of an effect that has no such formulation, the one that tells most, or the usual one.
     """
     quick = [one for one in own if not is_slow(evidence, one)]
     seen = {(one.id, one.from_axis) for one in quick}
-    for one in own:
+    for one in sorted(own, key=lambda one: _TELLING.get(one.id) != one.formulation):
         if (one.id, one.from_axis) not in seen:
             seen.add((one.id, one.from_axis))
             quick.append(one)

@@ -21,6 +21,7 @@ from rotemina.sim.robot.model import AxisEffect, PiezoAxis
 _MOST_PERIODS = 3
 _MODES = (0.4, 1.7, 3.0)  # of the axis' own frequency
 _PLACES = (0.4, 0.6, 0.8, 0.92)  # of the way to the end where something is met
+_DEFLECTIONS = (0.3, 2.0)  # presets
 _CENTRES = (-0.45, 0.0)  # of the range, from mid-range
 _HARDER = (1.0, 6.0)  # presets
 _BEYOND = (0.04, 0.15)  # of that way, which a saturated amplifier does not go
@@ -161,6 +162,17 @@ def _stretch(evidence: Evidence, attached: Attached) -> dict[str, float]:
     return _clipped(attached, begin=shares[0], end=shares[1])
 
 
+def _slips(_evidence: Evidence, _fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
+    dry = next(name for name in ("coulomb", "coulomb_forward", "viscous") if name in attached.values)
+    for share in _LADDERS["friction"].get(dry, (1.0,)):
+        start = {dry: attached.values[dry] * share}
+        if "shape" not in attached.values:
+            yield start
+            continue
+        for times in _DEFLECTIONS:
+            yield {**start, "deflection": attached.values["deflection"] * times}
+
+
 def _centres(
     _evidence: Evidence, _fitted: Fit, attached: Attached
 ) -> Iterator[dict[str, float]]:
@@ -253,6 +265,7 @@ _SPECIAL: Mapping[str, _Maker] = {
     "vibration": _tones,
     "flexible_mode": _modes,
     "contact": _places,
+    "friction": _slips,
     "saturation": _margins,
     "stiffness_nonlinearity": _centres,
     "cross_coupling": _couplings,

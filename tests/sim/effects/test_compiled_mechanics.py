@@ -38,7 +38,7 @@ def test_compiled_is_plain(effect, formulation):
         id=effect.id,
         formulation=formulation.name,
         from_axis="z" if effect.coupled else None,
-        parameters={"static_ratio": 1.5} if effect.id == "friction" else {},
+        parameters={"static_ratio": 1.5} if formulation.name in ("stribeck", "lugre") else {},
     )
     attached = Attached.of(ROBOT, asked)
     facts, acts = attached.facts, formulation.acts

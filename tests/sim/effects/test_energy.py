@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rotemina.sim.effects.friction import SPRINGS
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.robot.file import parse_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -48,6 +49,10 @@ def progressive(numbers, q, _v, _hidden):
     return stiffness * depth**2 * bent ** (power + 1) / (power + 1)
 
 
+def slipping(numbers, _q, _v, hidden):
+    return 0.5 * (hidden[:, 2 : 2 + SPRINGS] ** 2 @ np.array(numbers[3 : 3 + SPRINGS]))
+
+
 def hung_mass(_numbers, q, _v, hidden):
     mass, rate = 0.3 * MASS, 2 * np.pi * 17.0
     return 0.5 * mass * (hidden[:, 3] ** 2 + rate**2 * (q - hidden[:, 2]) ** 2)
@@ -79,6 +84,14 @@ PASSIVE = {
         {"coulomb": 0.6, "deflection": 1e-6, "static_ratio": 3.0, "bristle_damping": 2.0},
         SMALL,
         bristles,
+    ),
+    "springs": (
+        "stepper",
+        "friction",
+        "springs",
+        {"coulomb": 0.6, "backward": 0.5, "deflection": 1e-4, "shape": 1.5, "viscous": 5.0},
+        SMALL,
+        slipping,
     ),
     "spring": (
         "piezo",
@@ -146,7 +159,7 @@ def energies(case, seed, periods=10, finer=1):
     start = np.random.default_rng(seed).uniform(-1, 1, 2) * size
     state = plant.at(0.0, inputs, held + start[0], start[1:] * RATE)
     time_s = np.arange(int(periods * 0.1 / step_s)) * step_s
-    if potential in (bristles, hung_mass):
+    if potential in (bristles, slipping, hung_mass):
         hidden = np.array(list(followed(plant, state, time_s)))
         q, v = hidden[:, 0], hidden[:, 1]
     else:

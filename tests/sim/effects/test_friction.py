@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.io import loadmat
 
-from rotemina.sim.effects.friction import coulomb, lugre
+from rotemina.sim.effects.friction import SPRINGS, coulomb, lugre, springs
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
@@ -248,3 +248,39 @@ def test_a_measured_axis_is_simulated_far_better_with_friction(formulation, shar
     answer = nominal_response(ball_screw(203.5, on_ball_screw(formulation)), record)
     gap = np.linalg.norm(answer.signal("q", Tap.U) - effort) / np.linalg.norm(effort)
     assert gap < 0.047
+
+
+def pulled(path):
+    """Force of springs that slip at L/8, 2L/8, … on a motion that is given."""
+    numbers = (0.1, 0.5, 0.0, *(0.1 / (1e-6 * (i + 1)) for i in range(SPRINGS)))
+    state, force = np.zeros(SPRINGS), []
+    for step in np.diff(path, prepend=0.0):
+        force.append(-springs(0.0, step / 1e-3, 0.0, 1e-3, 0.0, 0.0, numbers, state))
+    return np.array(force)
+
+
+def test_springs_slip_one_after_the_other_and_all_at_last():
+    path = np.linspace(0.0, 12e-6, 121)
+    force = pulled(path)
+    slips = 1e-6 * np.arange(1, SPRINGS + 1)
+    expected = 0.1 * np.minimum(path[:, None] / slips, 1.0).sum(axis=1)
+    np.testing.assert_allclose(force, expected, atol=1e-12)
+    assert pulled(np.concatenate([path, path[::-1]]))[-1] == pytest.approx(-0.5 * 0.8)
+
+
+def test_a_closed_loop_of_springs_is_forgotten():
+    """Masing's rules: where a minor loop closes, the force is what it was, and goes on so."""
+    out, back = np.linspace(0.0, 6e-6, 61), np.linspace(6e-6, 4.5e-6, 31)
+    on = np.linspace(6e-6, 9e-6, 31)
+    straight = pulled(np.concatenate([out, on]))
+    looped = pulled(np.concatenate([out, back, back[::-1], on]))
+    np.testing.assert_allclose(looped[-31:], straight[-31:], atol=1e-12)
+
+
+def test_springs_hold_a_pushed_axis_back_to_what_their_force_allows():
+    """The implicit solution is the one of the plastic limit: v + b f, all slipping."""
+    numbers, state = (0.1, 1.0, 3.0, *(1e6 for _ in range(SPRINGS))), np.zeros(SPRINGS)
+    force = springs(0.0, 5.0, 0.0, 1e-3, 0.0, 0.2, numbers, state)
+    left = (5.0 - 0.2 * 0.8) / (1.0 + 0.2 * 3.0)
+    assert force == pytest.approx(-(0.8 + 3.0 * left))
+    np.testing.assert_allclose(state, 0.1 / 1e6)
