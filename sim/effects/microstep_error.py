@@ -12,7 +12,7 @@ from rotemina.sim.effects.harmonics import from_mid_range, two_harmonics
 
 
 def _amplitude(name: str, meaning: str, typical: float) -> Parameter:
-    return Parameter(name, meaning, "q", -0.3, 0.3, typical, per="full_step")
+    return Parameter(name, meaning, "q", -0.6, 0.6, typical, per="full_step")
 
 
 MICROSTEP_ERROR = Effect(

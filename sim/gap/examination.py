@@ -9,7 +9,7 @@ from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.formulation import Stage
 from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.attribution import attributed, without_own
-from rotemina.sim.gap.baseline import is_own
+from rotemina.sim.gap.baseline import GAIN, is_own
 from rotemina.sim.gap.blocks import drawn_means
 from rotemina.sim.gap.diagnosis import (
     UNKNOWN,
@@ -23,7 +23,7 @@ from rotemina.sim.gap.disturbances import Disturbance, by_effect, set_aside, wan
 from rotemina.sim.gap.evidence import Evidence, block_rows
 from rotemina.sim.gap.models import Explanation, explain, mean_squares, untouched
 from rotemina.sim.gap.probe import Probe, probed
-from rotemina.sim.gap.richness import is_poor
+from rotemina.sim.gap.richness import alike_axes, is_poor
 from rotemina.sim.gap.rivals import Key, Rival, not_ruled_out, paired_blocks, rivals
 from rotemina.sim.gap.selection import (
     CLEARLY,
@@ -50,6 +50,7 @@ _TWINS = {
     "microstep_error": ("encoder_interpolation",),
 }
 _DOUBTED = 0.1  # probability below which one cause of several is none
+_BESIDE_A_WANDER = 0.3  # of the gap's power, that a cause closes at least
 _LIKELIER = 0.6  # probability from which a rival takes a cause's place
 _NEAR = 4.0  # times the best score, up to which a re-tuning alone is a rival
 _NOT_NOISE = 0.6  # of a raised floor's power: a fit that leaves less shows that it was no noise
@@ -106,6 +107,8 @@ def examine(whole: Evidence, told: Told, *, jobs: int = 1) -> Examination:
         best = attributed(evidence, selection.bare, likelier)
         ranked = _ranked(evidence, selection, best)
     doubted = [key for key, own in ranked.items() if _probability(own, key) < _DOUBTED]
+    if drift:
+        doubted += [key for key in best.ids if _bends_to(evidence, best, key)]
     if doubted and (len(best.causes) > 1 or drift):
         # Several others would do as well in its place: it stands for what the rest leaves.
         kept = [one for one in best.causes if (one.id, one.from_axis) not in doubted]
@@ -136,6 +139,13 @@ def _likelier(ranked: Mapping[Key, Sequence[Rival]]) -> Explanation | None:
     found = [own[0] for key, own in ranked.items() if (own[0].effect, own[0].from_axis) != key]
     surest = max(found, key=lambda one: one.probability, default=None)
     return None if surest is None or surest.probability < _LIKELIER else surest.explanation
+
+
+def _bends_to(evidence: Evidence, best: Explanation, key: Key) -> bool:
+    """Tell whether a cause closes so little beside a wander that it may only follow that."""
+    others = [one for one in best.causes if (one.id, one.from_axis) != key]
+    before = float(np.mean(evidence.residual(others) ** 2))
+    return closed(before, best.score) < _BESIDE_A_WANDER
 
 
 def _with_only(
@@ -186,19 +196,35 @@ def _with_retuned(
 def _with_twins(
     evidence: Evidence, best: Explanation, tried: Sequence[Explanation]
 ) -> tuple[Explanation, ...]:
-    """Add what the sensor may do in the place of a cause, where no reference was recorded."""
-    if evidence.has(Tap.REF):
-        return tuple(tried)
+    """Add what does much the same as a cause, if it was not tried.
+
+    The sensor, where no reference was recorded; another axis that moved alike, for a gain.
+    """
     more = list(tried)
     for cause in best.causes:
         own = is_own(evidence, cause)
         others = [one for one in best.causes if one is not cause and not is_own(evidence, one)]
-        for twin in _TWINS.get(cause.id, ()):
-            if any((twin, None) in one.ids for one in tried) and not own:
+        for asked in _twins(evidence, cause):
+            if any((asked.id, asked.from_axis) in one.ids for one in tried) and not own:
                 continue
-            asked = AxisEffect(axis=evidence.axis, id=twin, parameters=_alike(cause, twin))
             more.append(explain(evidence, [*others, asked]))
     return tuple(more)
+
+
+def _twins(evidence: Evidence, cause: AxisEffect) -> list[AxisEffect]:
+    found = []
+    if not evidence.has(Tap.REF):
+        for twin in _TWINS.get(cause.id, ()):
+            found.append(AxisEffect(axis=evidence.axis, id=twin, parameters=_alike(cause, twin)))
+    if cause.id == GAIN:
+        for axis, k in alike_axes(evidence).items():
+            numbers = {"k": k * cause.parameters["error"]}
+            found.append(
+                AxisEffect(
+                    axis=evidence.axis, id="cross_coupling", from_axis=axis, parameters=numbers
+                )
+            )
+    return found
 
 
 def _alike(cause: AxisEffect, twin: str) -> dict[str, float]:

@@ -30,7 +30,7 @@ from rotemina.sim.robot.model import AxisEffect, Robot
 
 _LEAST_LEFT = 0.06  # of an axis' gap, that other axes' causes must leave for it to have its own
 _SHAKES = 10.0  # times the power of a gap, that a coupled axis' one has to be the reason of it
-_LEAST_GAP = 1.25  # floors below which a gap is no matter
+_LEAST_GAP = 1.45  # floors below which a gap is no matter: an encoder at rest may be off so far
 
 
 def diagnose(

@@ -10,6 +10,7 @@ _LEVELS = 2  # positions between which an axis only ever went, that tell too lit
 _STILL = 1e-3  # of the range of a command, within which positions are one
 _LINE = 0.96  # of a command's power in one line, and of its speed's: a single sine
 _LINES = 3  # spectral lines on either side that belong to one, behind a window
+_ALIKE = 0.95  # correlation from which two axes moved alike
 _WIDE = 0.5  # of the axis' range: a sine that goes so far bends what is not straight
 
 
@@ -31,6 +32,31 @@ def is_poor(evidence: Evidence) -> bool:
         return False
     rates, sizes = (np.array(values) for values in zip(*(s for s in sines if s), strict=True))
     return bool(np.ptp(rates) < 0.1 * rates.max() and np.ptp(sizes) < 0.1 * sizes.max())
+
+
+def alike_axes(evidence: Evidence) -> dict[str, float]:
+    """Return other axes whose commands were nearly in proportion to the axis' own, with the ratio.
+
+    The axis' own motion over the other's.
+    """
+    products: dict[str, FloatArray] = {}
+    for observation in evidence.observations:
+        record = observation.record
+        own = _centred(record.signal(evidence.axis, Tap.CMD))
+        for axis in record.axes:
+            if axis != evidence.axis and record.has(axis, Tap.CMD):
+                other = _centred(record.signal(axis, Tap.CMD))
+                sums = np.array([own @ other, own @ own, other @ other])
+                products[axis] = products.get(axis, np.zeros(3)) + sums
+    return {
+        axis: float(both / others)
+        for axis, (both, own, others) in products.items()
+        if others > 0.0 and abs(both) > _ALIKE * np.sqrt(own * others)
+    }
+
+
+def _centred(signal: FloatArray) -> FloatArray:
+    return np.asarray(signal - signal.mean())
 
 
 def _sine(time_s: FloatArray, command: FloatArray) -> tuple[float, float] | None:

@@ -1,6 +1,8 @@
 """A sensor that wanders: what is not white, goes on at rest, and follows from nothing."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -45,28 +47,31 @@ def _goes_on(
     period_s = float(np.median(np.diff(time_s)))
     rested = np.concatenate([[0], np.cumsum(~resting)])
     shares, grown = [], []
-    enough = False
-    for later_s in _LATER_S:
-        rows = max(round(later_s / period_s), 2)
+    still_white: float | None = None
+    for later_s in (0.0, *_LATER_S):
+        rows = max(round(later_s / period_s), 1 if later_s == 0.0 else 2)
         if rows >= len(left):
             break
         change = (left[rows:] - left[:-rows]) ** 2
         at_rest = rested[rows + 1 :] == rested[: -rows - 1]
         if at_rest.sum() < _LEAST_PAIRS:
             break
-        enough = True
-        then = float(change[at_rest].mean()) - 2.0 * white
-        if then > 2.0 * (_STANDS_OUT - 1.0) * white:
+        there = float(change[at_rest].mean())
+        if still_white is None:
+            still_white = there / 2.0
+            continue
+        then = there - 2.0 * still_white
+        if then > 2.0 * (_STANDS_OUT - 1.0) * still_white:
             shares.append(then / max(float(change.mean()) - 2.0 * white, 1e-300))
             grown.append((rows, then))
     if not shares:
-        return False if enough else None
+        return None if still_white is None else False
     return float(np.exp(np.mean(np.log(shares)))) >= _AT_REST and not _is_smooth(grown)
 
 
-def _is_smooth(grown: list[tuple[int, float]]) -> bool:
-    """Tell whether a squared change grows with time as that of a motion does."""
-    if len(grown) < 2:
-        return False
-    (first, small), (last, large) = grown[0], grown[-1]
-    return float(np.log(large / small) / np.log(last / first)) > _ROUGH
+def _is_smooth(grown: Sequence[tuple[int, float]]) -> bool:
+    """Tell whether a squared change grows with time, from some time on, as that of a motion."""
+    return any(
+        float(np.log(large / small) / np.log(last / first)) > _ROUGH
+        for (first, small), (last, large) in pairwise(grown)
+    )
