@@ -50,7 +50,7 @@ def slew_limit(axis: Axis, rng: np.random.Generator) -> Part:
     def act(values: FloatArray, course: Course, size: float) -> FloatArray:
         return _charged(values, 10.0 * axis.span / size * course.step_s, sharpness)
 
-    return Part("slew_limit", axis, Stage.DRIVE, act, (1.0, 40.0))
+    return Part("slew_limit", axis, Stage.DRIVE, act, (1.0, 10.0))
 
 
 @numba.njit(cache=True, error_model="numpy")

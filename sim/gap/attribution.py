@@ -12,7 +12,10 @@ from rotemina.sim.robot.model import AxisEffect
 
 _REFITTED = 5
 _NEAR = 4.0  # times the best score
-_BRINGS_ALONG = {"hysteresis": (GAIN,)}  # what the shape of a loop cannot be told from
+_BRINGS_ALONG = {  # what the shape of a loop, or of a stiffening spring, cannot be told from
+    "hysteresis": (GAIN,),
+    "stiffness_nonlinearity": OWN,
+}
 
 
 def attributed(evidence: Evidence, bare: Explanation, explained: Explanation) -> Explanation:

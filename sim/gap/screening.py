@@ -18,7 +18,16 @@ from rotemina.sim.gap.fit import Fit, bounds, free_parameters, with_values
 from rotemina.sim.gap.starts import starts
 from rotemina.sim.robot.model import AxisEffect
 
-_HARMONICS = ("sine", "cosine", "second_sine", "second_cosine")  # what parameters begin with
+_AMOUNTS = (  # what parameters begin with in which an effect is linear, of either sign
+    "sine",
+    "cosine",
+    "second_sine",
+    "second_cosine",
+    "amplitude",
+    "bow",
+    "s_shape",
+    "cubic",
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,53 +52,59 @@ def screen(evidence: Evidence, fitted: Fit, candidate: AxisEffect, *, briefly: b
 
 
 def _begun(evidence: Evidence, fitted: Fit, candidate: AxisEffect) -> Screened:
-    """Return a start, in the amount of each of its harmonics that suits best, and what is left."""
-    directions = _directions(evidence, candidate)
+    """Return a start, in the amounts of what it is linear in that suit best, and what is left."""
+    names = _amounts(evidence, candidate)
+    directions = _directions(evidence, candidate, names)
     changes = [
         _beside(fitted, evidence.residual([*fitted.effects, one]) - fitted.residual)
         for one in directions
     ]
     basis = np.stack(changes, axis=1)
     amounts = np.linalg.lstsq(basis, -fitted.beside)[0]
-    if len(directions) == 1:
-        # An amount is no parameter: the start stays, and must not go the wrong way.
+    if names:
+        found = _in_amounts(evidence, candidate, names, directions, amounts)
+    else:
+        # No parameter is an amount: the start stays, and must not go the wrong way.
         amounts = np.maximum(amounts, 0.0)
         found = candidate
-    else:
-        found = _in_amounts(evidence, candidate, directions, amounts)
     cost = float(np.mean((fitted.beside + basis @ amounts) ** 2))
     return Screened(found, cost)
 
 
-def _directions(evidence: Evidence, candidate: AxisEffect) -> list[AxisEffect]:
-    """Return a candidate in each of its harmonics alone, or as it is where it has none."""
+def _amounts(evidence: Evidence, candidate: AxisEffect) -> list[str]:
     values = Attached.of(evidence.robot, candidate).values
-    harmonics = [name for name in values if name.startswith(_HARMONICS)]
-    if len(harmonics) < 2:
+    return [name for name in values if name.startswith(_AMOUNTS)]
+
+
+def _directions(
+    evidence: Evidence, candidate: AxisEffect, names: Sequence[str]
+) -> list[AxisEffect]:
+    """Return a candidate in each of its amounts alone, or as it is where it has none."""
+    if not names:
         return [candidate]
-    size = max(abs(values[name]) for name in harmonics)
-    none = dict.fromkeys(harmonics, 0.0)
+    values = Attached.of(evidence.robot, candidate).values
+    size = max(abs(values[name]) for name in names)
+    none = dict.fromkeys(names, 0.0)
     return [
         replace(candidate, parameters={**candidate.parameters, **none, name: size})
-        for name in harmonics
+        for name in names
     ]
 
 
 def _in_amounts(
     evidence: Evidence,
     candidate: AxisEffect,
+    names: Sequence[str],
     directions: Sequence[AxisEffect],
     amounts: FloatArray,
 ) -> AxisEffect:
     attached = Attached.of(evidence.robot, candidate)
-    harmonics = [name for name in attached.values if name.startswith(_HARMONICS)]
     found = dict(candidate.parameters)
-    for name, one, amount in zip(harmonics, directions, amounts, strict=True):
+    for name, one, amount in zip(names, directions, amounts, strict=True):
         parameter = attached.formulation.parameter(name)
         assert parameter is not None
-        found[name] = float(
-            np.clip(amount * one.parameters[name], *parameter.bounds(attached.facts))
-        )
+        most = parameter.bounds(attached.facts)
+        found[name] = float(np.clip(amount * one.parameters[name], *most))
     return replace(candidate, parameters=found)
 
 
