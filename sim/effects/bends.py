@@ -28,7 +28,10 @@ def parameters() -> tuple[Parameter, ...]:
         Parameter("begin", "of the stretch, from the low end of the range", "", 0.0, 1.0, 0.0),
         Parameter("end", "of the stretch", "", 0.0, 1.0, 1.0),
         Parameter(_SINES[0], "a₁, a bow", "", -0.2, 0.2, 0.005),
-        *(Parameter(name, f"a{k}", "", -0.2, 0.2, 0.0) for name, k in zip(_SINES[1:], "₂₃₄")),
+        *(
+            Parameter(name, f"a{k}", "", -0.2, 0.2, 0.0)
+            for name, k in zip(_SINES[1:], "₂₃₄", strict=True)
+        ),
     )
 
 

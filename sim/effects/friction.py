@@ -240,9 +240,7 @@ FRICTION = Effect(
             parameters=(
                 _dry("coulomb", "dry friction forward"),
                 Parameter("backward", "dry friction backward over forward", "", 0.3, 3.0, 1.0),
-                Parameter(
-                    "deflection", "L, where all slip", "q", 1e-8, 1e-2, 3e-5, per="span"
-                ),
+                Parameter("deflection", "L, where all slip", "q", 1e-8, 1e-2, 3e-5, per="span"),
                 Parameter("shape", "s, 0: all slip at once", "", 0.0, 4.0, 1.0),
                 _viscous("viscous", "viscous friction"),
             ),

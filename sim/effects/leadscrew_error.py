@@ -27,7 +27,9 @@ LEADSCREW_ERROR = Effect(
             equation="y = x + s₁ sin α + c₁ cos α + s₂ sin 2α + c₂ cos 2α, α = 2π (x − xₘ)/P",
             source="ISO 3408-3 (2006): travel deviation within 2π rad",
             parameters=(
-                Parameter("period", "P, one turn or a fraction of it", "q", 0.05, 1.2, 1.0, per="pitch"),
+                Parameter(
+                    "period", "P, one turn or a fraction of it", "q", 0.05, 1.2, 1.0, per="pitch"
+                ),
                 _amplitude("sine", "s₁, counted from mid-range xₘ", 0.002),
                 _amplitude("cosine", "c₁", 0.0),
                 _amplitude("sine_2", "s₂, twice a period", 0.0),

@@ -164,7 +164,7 @@ def _without_excursions(evidence: Evidence) -> tuple[Evidence, list[Disturbance]
 
 
 def _commanded_change(evidence: Evidence, record: Record) -> FloatArray:
-    """Return how far (n,) commands went in a row: the axis' own, or others as these may shake it."""
+    """Return how far (n,) commands went in a row: the axis' own, and others' as they shake it."""
     change = np.zeros(len(record.time_s))
     span = Facts.of(evidence.robot.axes[evidence.axis]).span
     for axis in record.axes:

@@ -26,9 +26,9 @@ def excursions(
 ) -> BoolArray:
     """Return which rows (n,) are outliers of a gap over its floor.
 
-    They stand out from their neighbours, come and go abruptly, and no ``change`` (n,) of
-    commands from row to row, in floors, came shortly before; or the ``reading`` (n,), in floors, stands still while the axis
-    moves on. Where more than a twentieth would be outliers, none is one.
+    They stand out from their neighbours, come and go abruptly, and no ``change`` (n,) of commands
+    from row to row, in floors, came shortly before; or the ``reading`` (n,), in floors, stands
+    still while the axis moves on. Where more than a twentieth would be outliers, none is one.
     """
     found = _away(time_s, gap, change) | _held(gap, reading)
     return found if found.mean() <= _MOST else np.zeros(len(gap), dtype=np.bool_)

@@ -20,9 +20,7 @@ _SHIFTS = 12
 _PER_PERIOD = 4  # bins of position in the shortest period
 
 
-def strongest_periods(
-    evidence: Evidence, fitted: Fit, bounds: tuple[float, float]
-) -> list[float]:
+def strongest_periods(evidence: Evidence, fitted: Fit, bounds: tuple[float, float]) -> list[float]:
     """Return the periods over position, within bounds, of the strongest lines of what a fit leaves.
 
     One for each record, strongest first, made so exact that all records agree on its phase.

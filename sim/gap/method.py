@@ -3,9 +3,10 @@
 Where the gap lies (:mod:`~rotemina.sim.gap.where`), which effects may cause it
 (:mod:`~rotemina.sim.gap.candidates`, :mod:`~rotemina.sim.gap.screening`), how well they do on data
 that their fit did not see (:mod:`~rotemina.sim.gap.fit`, :mod:`~rotemina.sim.gap.selection`), what
-can be told apart (:mod:`~rotemina.sim.gap.rivals`), by which further experiment
-(:mod:`~rotemina.sim.gap.experiment`), and what can be said (:mod:`~rotemina.sim.gap.verdict`),
-axis by axis, the larger gaps first: what one axis does may show on another.
+can be told apart (:mod:`~rotemina.sim.gap.rivals`, :mod:`~rotemina.sim.gap.contest`), by which
+further experiment (:mod:`~rotemina.sim.gap.experiment`), and what can be said
+(:mod:`~rotemina.sim.gap.verdict`), axis by axis, the larger gaps first: what one axis does may show
+on another.
 """
 
 import hashlib
@@ -19,10 +20,11 @@ from rotemina.sim.gap.caution import remarks
 from rotemina.sim.gap.diagnosis import AxisDiagnosis, Diagnosis, Verdict
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.examination import Examination, examine, told_of
+from rotemina.sim.gap.examination import Examination, examine
 from rotemina.sim.gap.experiment import experiments
 from rotemina.sim.gap.intake import check
 from rotemina.sim.gap.progress import Listener, Progress, unheard
+from rotemina.sim.gap.telling import told_of
 from rotemina.sim.gap.where import Place, locate
 from rotemina.sim.plant.group import coupled_axes
 from rotemina.sim.records.record import Record, Tap

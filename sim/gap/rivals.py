@@ -89,6 +89,11 @@ def _prior(effect: str, more_parameters: int) -> float:
     return _PRIOR.get(effect, 1.0) * _SIMPLER ** -min(more_parameters, _MOST_MORE)
 
 
+def probability(ranked: Sequence[Rival], cause: Key) -> float:
+    """Return the probability of a cause among its rivals."""
+    return next(one.probability for one in ranked if (one.effect, one.from_axis) == cause)
+
+
 def _more_parameters(best: Explanation, other: Explanation, least: int, near: int) -> int:
     """Return how many parameters more count against an explanation.
 

@@ -60,7 +60,7 @@ def _begun(evidence: Evidence, fitted: Fit, candidate: AxisEffect) -> Screened:
         for one in directions
     ]
     basis = np.stack(changes, axis=1)
-    amounts = np.linalg.lstsq(basis, -fitted.beside)[0]
+    amounts = np.asarray(np.linalg.lstsq(basis, -fitted.beside)[0], dtype=np.float64)
     if names:
         found = _in_amounts(evidence, candidate, names, directions, amounts)
     else:

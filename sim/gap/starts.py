@@ -73,7 +73,9 @@ def _starts(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dic
         yield {}
 
 
-def _late(evidence: Evidence, fitted: Fit, attached: Attached, name: str) -> Iterator[dict[str, float]]:
+def _late(
+    evidence: Evidence, fitted: Fit, attached: Attached, name: str
+) -> Iterator[dict[str, float]]:
     """Give the lateness that takes most away where the model's own parameters do nothing.
 
     These may have been bent to do in its place what they can.
@@ -91,7 +93,8 @@ def _late(evidence: Evidence, fitted: Fit, attached: Attached, name: str) -> Ite
             below += float(pace @ pace)
     late_s = above / below if below > 0.0 else 0.0
     if late_s > 0.0:
-        yield _clipped(attached, **{name: late_s / (2.0 * attached.values.get("damping_ratio", 0.5))})
+        share = 2.0 * attached.values.get("damping_ratio", 0.5)  # of a time constant, that is late
+        yield _clipped(attached, **{name: late_s / share})
 
 
 def _periods(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
@@ -163,7 +166,8 @@ def _stretch(evidence: Evidence, attached: Attached) -> dict[str, float]:
 
 
 def _slips(_evidence: Evidence, _fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
-    dry = next(name for name in ("coulomb", "coulomb_forward", "viscous") if name in attached.values)
+    names = ("coulomb", "coulomb_forward", "viscous")
+    dry = next(name for name in names if name in attached.values)
     for share in _LADDERS["friction"].get(dry, (1.0,)):
         start = {dry: attached.values[dry] * share}
         if "shape" not in attached.values:
@@ -173,9 +177,7 @@ def _slips(_evidence: Evidence, _fitted: Fit, attached: Attached) -> Iterator[di
             yield {**start, "deflection": attached.values["deflection"] * times}
 
 
-def _centres(
-    _evidence: Evidence, _fitted: Fit, attached: Attached
-) -> Iterator[dict[str, float]]:
+def _centres(_evidence: Evidence, _fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
     for share in _CENTRES:
         for times in _HARDER:
             yield {

@@ -41,9 +41,7 @@ def wandering(time_s: FloatArray, left: FloatArray, resting: BoolArray) -> Wande
     return Wander(max(power - max(white, 1.0), 0.0), _goes_on(time_s, left, resting, white))
 
 
-def _goes_on(
-    time_s: FloatArray, left: FloatArray, resting: BoolArray, white: float
-) -> bool | None:
+def _goes_on(time_s: FloatArray, left: FloatArray, resting: BoolArray, white: float) -> bool | None:
     period_s = float(np.median(np.diff(time_s)))
     rested = np.concatenate([[0], np.cumsum(~resting)])
     shares, grown = [], []

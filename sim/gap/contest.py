@@ -1,0 +1,144 @@
+"""Which of the causes found stand, beside all that might be there in their place."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from rotemina.sim.effects.registry import effect_named
+from rotemina.sim.gap.attribution import attributed, without_own
+from rotemina.sim.gap.baseline import GAIN, is_own
+from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.models import Explanation, explain
+from rotemina.sim.gap.richness import alike_axes
+from rotemina.sim.gap.rivals import Key, Rival, probability, rivals
+from rotemina.sim.gap.selection import Selection
+from rotemina.sim.gap.verdict import closed
+from rotemina.sim.records.record import Tap
+from rotemina.sim.robot.model import AxisEffect
+
+_TWINS = {
+    "gain_error": ("sensor_gain",),
+    "static_nonlinearity": ("sensor_nonlinearity",),
+    "amplifier_lag": ("sensor_lag",),
+    "delay": ("sensor_lag",),
+    "leadscrew_error": ("encoder_interpolation",),
+    "microstep_error": ("encoder_interpolation",),
+}
+_DOUBTED = 0.1  # probability below which one cause of several is none
+_BESIDE_A_WANDER = 0.3  # of the gap's power, that a cause closes at least
+_LIKELIER = 0.6  # probability from which a rival takes a cause's place
+_NEAR = 4.0  # times the best score, up to which a re-tuning alone is a rival
+
+Ranking = Mapping[Key, tuple[Rival, ...]]
+
+
+def contested(
+    evidence: Evidence, selection: Selection, best: Explanation, *, wanders: bool
+) -> tuple[Explanation, Ranking]:
+    """Return the explanation by the causes that stand, and the rivals of each.
+
+    A rival that does about as well with fewer parameters takes a cause's place. A cause in whose
+    place several others would do as well is none, as it stands for what the rest leaves; nor is
+    one that closes little where the sensor ``wanders``.
+    """
+    ranked = _ranked(evidence, selection, best)
+    likelier = _likelier(ranked)
+    if likelier is not None:
+        best = attributed(evidence, selection.bare, likelier)
+        ranked = _ranked(evidence, selection, best)
+    doubted = [key for key, own in ranked.items() if probability(own, key) < _DOUBTED]
+    if wanders:
+        doubted += [key for key in best.ids if _bends_to(evidence, best, key)]
+    if doubted and (len(best.causes) > 1 or wanders):
+        kept = [one for one in best.causes if (one.id, one.from_axis) not in doubted]
+        best = _with_only(evidence, selection, kept)
+        ranked = _ranked(evidence, selection, best)
+    return best, ranked
+
+
+def _likelier(ranked: Mapping[Key, Sequence[Rival]]) -> Explanation | None:
+    """Return the explanation with a rival in the place of a cause, if that is by far likelier.
+
+    It does about as well with fewer parameters.
+    """
+    found = [own[0] for key, own in ranked.items() if (own[0].effect, own[0].from_axis) != key]
+    surest = max(found, key=lambda one: one.probability, default=None)
+    return None if surest is None or surest.probability < _LIKELIER else surest.explanation
+
+
+def _bends_to(evidence: Evidence, best: Explanation, key: Key) -> bool:
+    """Tell whether a cause closes so little beside a wander that it may only follow that."""
+    others = [one for one in best.causes if (one.id, one.from_axis) != key]
+    before = float(np.mean(evidence.residual(others) ** 2))
+    return closed(before, best.score) < _BESIDE_A_WANDER
+
+
+def _with_only(evidence: Evidence, selection: Selection, kept: Sequence[AxisEffect]) -> Explanation:
+    """Return the explanation by some of the causes."""
+    if not kept:
+        return selection.bare
+    causes = [one for one in kept if not is_own(evidence, one)]
+    return attributed(evidence, selection.bare, explain(evidence, causes))
+
+
+def _ranked(
+    evidence: Evidence, selection: Selection, best: Explanation
+) -> dict[Key, tuple[Rival, ...]]:
+    """Return the rivals of each cause of an explanation."""
+    tried = _with_twins(evidence, best, _with_retuned(evidence, selection, best))
+    return {
+        key: rivals(evidence, best, without_own(evidence, best, tried, key), key, selection.raw)
+        for key in best.ids
+    }
+
+
+def _with_retuned(
+    evidence: Evidence, selection: Selection, best: Explanation
+) -> tuple[Explanation, ...]:
+    """Return what was tried, the model's own parameters by name if they come near."""
+    if not selection.tried or selection.retuned.score > _NEAR * best.score:
+        return selection.tried
+    named = attributed(evidence, selection.bare, selection.retuned)
+    others = [one for one in selection.tried if one is not selection.retuned]
+    return (*others, replace(named, causes=named.causes[:1]))
+
+
+def _with_twins(
+    evidence: Evidence, best: Explanation, tried: Sequence[Explanation]
+) -> tuple[Explanation, ...]:
+    """Add what does much the same as a cause, if it was not tried.
+
+    The sensor, where no reference was recorded; another axis that moved alike, for a gain.
+    """
+    more = list(tried)
+    for cause in best.causes:
+        own = is_own(evidence, cause)
+        others = [one for one in best.causes if one is not cause and not is_own(evidence, one)]
+        for asked in _twins(evidence, cause):
+            if any((asked.id, asked.from_axis) in one.ids for one in tried) and not own:
+                continue
+            more.append(explain(evidence, [*others, asked]))
+    return tuple(more)
+
+
+def _twins(evidence: Evidence, cause: AxisEffect) -> list[AxisEffect]:
+    found = []
+    if not evidence.has(Tap.REF):
+        for twin in _TWINS.get(cause.id, ()):
+            found.append(AxisEffect(axis=evidence.axis, id=twin, parameters=_alike(cause, twin)))
+    if cause.id == GAIN:
+        for axis, k in alike_axes(evidence).items():
+            numbers = {"k": k * cause.parameters["error"]}
+            found.append(
+                AxisEffect(
+                    axis=evidence.axis, id="cross_coupling", from_axis=axis, parameters=numbers
+                )
+            )
+    return found
+
+
+def _alike(cause: AxisEffect, twin: str) -> dict[str, float]:
+    """Return the numbers of a cause that its twin has too."""
+    names = {parameter.name for parameter in effect_named(twin).formulations[0].parameters}
+    return {name: value for name, value in cause.parameters.items() if name in names}

@@ -1,0 +1,211 @@
+"""What is said of an axis: an examination in words and numbers."""
+
+import numpy as np
+
+from rotemina.sim.effects.attachment import Attached
+from rotemina.sim.effects.formulation import Stage
+from rotemina.sim.effects.registry import effect_named
+from rotemina.sim.gap.blocks import drawn_means
+from rotemina.sim.gap.diagnosis import (
+    UNKNOWN,
+    AxisDiagnosis,
+    Cause,
+    FittedParameter,
+    Ranked,
+    Verdict,
+)
+from rotemina.sim.gap.disturbances import Disturbance
+from rotemina.sim.gap.evidence import Evidence, block_rows
+from rotemina.sim.gap.examination import Examination
+from rotemina.sim.gap.models import Explanation
+from rotemina.sim.gap.rivals import not_ruled_out, paired_blocks, probability
+from rotemina.sim.gap.selection import NOTICED
+from rotemina.sim.gap.shrinkage import at_tap, closing, floor_of, rms, shrinkage
+from rotemina.sim.gap.verdict import closed
+from rotemina.sim.gap.where import Place
+from rotemina.sim.records.record import Tap
+from rotemina.sim.robot.model import AxisEffect
+
+_SURE = 1.96  # standard deviations of a 95 % interval
+_SURE_OF_DISTURBANCES = 0.95
+_RANKED = 8  # rivals that are listed
+
+
+def told_of(
+    examination: Examination, places: tuple[Place, ...], rng: np.random.Generator
+) -> AxisDiagnosis:
+    """Put an examination into words and numbers."""
+    evidence, best = examination.evidence, examination.best
+    explained = examination.verdict is Verdict.EXPLAINED
+    causes: list[Cause] = []
+    if explained:
+        causes = [_cause(examination, number, rng) for number in range(len(best.causes))]
+        causes += [_disturbance(examination, one) for one in examination.disturbances]
+        causes.sort(key=lambda one: -one.gap_before)
+    elif examination.verdict is Verdict.UNKNOWN:
+        causes = [_unknown(examination, places, rng)]
+    shown = best if explained else examination.selection.retuned
+    return AxisDiagnosis(
+        axis=evidence.axis,
+        verdict=examination.verdict,
+        places=places,
+        causes=tuple(causes),
+        shrinkage=tuple(
+            shrinkage(evidence, examination.selection.retuned, shown, examination.probe, tap, rng)
+            for tap in dict.fromkeys(place.tap for place in places if place.significant)
+        ),
+        ranking=_ranking(examination, rng),
+        remarks=_remarks(examination),
+        fitted=examination.fitted,
+    )
+
+
+def _cause(examination: Examination, number: int, rng: np.random.Generator) -> Cause:
+    evidence, best = examination.evidence, examination.best
+    asked = best.causes[number]
+    key = asked.id, asked.from_axis
+    attached = Attached.of(evidence.robot, asked)
+    others = [one for one in best.causes if one is not asked]
+    before = evidence.residual(others)
+    tap = _first_tap(evidence, attached.effect.stage)
+    shown, floor = at_tap(evidence, tap), floor_of(evidence, tap)
+    share, interval = closing(evidence, before, best.held_out, tap, rng)
+    ranked = examination.ranked[key]
+    return Cause(
+        axis=evidence.axis,
+        effect=asked.id,
+        formulation=attached.formulation.name,
+        stage=attached.effect.stage.value,
+        tap=tap,
+        from_axis=asked.from_axis,
+        probability=probability(ranked, key),
+        ambiguous_with=not_ruled_out(ranked, key),
+        gap_before=floor * rms(before[shown]),
+        gap_after=floor * rms(best.held_out[shown]),
+        closed=share,
+        closed_interval=interval,
+        parameters=_parameters(evidence, best, asked),
+    )
+
+
+def _disturbance(examination: Examination, one: Disturbance) -> Cause:
+    evidence, best = examination.evidence, examination.best
+    floor = floor_of(evidence, one.tap)
+    left = best.by_tap[one.tap]
+    if one.effect == "sensor_drift":
+        left = max(left - one.power, 1.0)
+    before = left + one.power
+    share = closed(before, left)
+    return Cause(
+        axis=evidence.axis,
+        effect=one.effect,
+        formulation=None,
+        stage=effect_named(one.effect).stage.value,
+        tap=one.tap,
+        from_axis=None,
+        probability=_SURE_OF_DISTURBANCES,
+        ambiguous_with=(),
+        gap_before=floor * float(np.sqrt(before)),
+        gap_after=floor * float(np.sqrt(left)),
+        closed=share,
+        closed_interval=(share, share),
+    )
+
+
+def _unknown(
+    examination: Examination, places: tuple[Place, ...], rng: np.random.Generator
+) -> Cause:
+    evidence = examination.evidence
+    tap = next((one.tap for one in places if one.significant), places[-1].tap)
+    shown, floor = at_tap(evidence, tap), floor_of(evidence, tap)
+    before, after = evidence.residual(), examination.best.held_out
+    share, interval = closing(evidence, before, after, tap, rng)
+    left = 1.0 - closed(examination.selection.raw, examination.best.score)
+    return Cause(
+        axis=evidence.axis,
+        effect=UNKNOWN,
+        formulation=None,
+        stage=None,
+        tap=tap,
+        from_axis=None,
+        probability=float(np.clip(left, 0.5, 0.99)),
+        ambiguous_with=(),
+        gap_before=floor * rms(before[shown]),
+        gap_after=floor * rms(after[shown]),
+        closed=share,
+        closed_interval=interval,
+    )
+
+
+def _parameters(
+    evidence: Evidence, best: Explanation, asked: AxisEffect
+) -> tuple[FittedParameter, ...]:
+    fitted = best.fit
+    number = next(n for n, one in enumerate(fitted.effects) if one is asked or one == asked)
+    attached = Attached.of(evidence.robot, asked)
+    deviation = fitted.deviation(block_rows(evidence))
+    told = []
+    for free, x, spread in zip(fitted.free, fitted.x, deviation, strict=True):
+        if free.effect != number:
+            continue
+        parameter = attached.formulation.parameter(free.name)
+        assert parameter is not None
+        low, high = (float((x + sign * _SURE * spread) * free.size) for sign in (-1.0, 1.0))
+        told.append(
+            FittedParameter(
+                name=free.name,
+                value=asked.parameters[free.name],
+                unit=parameter.unit_on(attached.facts),
+                interval=(low, high) if np.isfinite(spread) else None,
+                at_bound=fitted.at_bound.get((number, free.name)),
+            )
+        )
+    return tuple(told)
+
+
+def _first_tap(evidence: Evidence, stage: Stage) -> Tap:
+    """Return the first tap behind a stage that was measured."""
+    order = {Stage.ELECTRONICS: 0, Stage.ACTUATOR: 1, Stage.MECHANICS: 1, Stage.SENSOR: 2}
+    taps = [Tap.U, Tap.REF, Tap.MEAS]
+    measured = {tap for observation in evidence.observations for tap in observation.taps}
+    behind = [tap for tap in taps[order[stage] :] if tap in measured]
+    return behind[0] if behind else next(tap for tap in reversed(taps) if tap in measured)
+
+
+def _ranking(examination: Examination, rng: np.random.Generator) -> tuple[Ranked, ...]:
+    evidence, best = examination.evidence, examination.best
+    if not best.causes:
+        return ()
+    leading = (best.causes[0].id, best.causes[0].from_axis)
+    tap = next(reversed(evidence.observations[0].taps))
+    told = []
+    for one in examination.ranked[leading][:_RANKED]:
+        left = one.explanation.held_out
+        drawn = np.sqrt(drawn_means(paired_blocks(evidence, [left], tap), rng)[:, 0])
+        low, high = np.percentile(drawn, [2.5, 97.5])
+        formulation = next(
+            (c.formulation for c in one.explanation.causes if c.id == one.effect), None
+        )
+        told.append(
+            Ranked(
+                effect=one.effect,
+                formulation=formulation,
+                from_axis=one.from_axis,
+                probability=one.probability,
+                held_out_rms=rms(left[at_tap(evidence, tap)]),
+                held_out_interval=(float(low), float(high)),
+            )
+        )
+    return tuple(told)
+
+
+def _remarks(examination: Examination) -> tuple[str, ...]:
+    best, probe = examination.best, examination.probe
+    said = tuple(one.note for one in examination.disturbances)
+    if best.score <= NOTICED or not probe.depends_on:
+        return said
+    groups = ", ".join(f"{name} ({share:.0%})" for name, share in probe.depends_on[:3])
+    return (
+        *said,
+        f"What is left depends on {groups}, as far as simple features predict it.",
+    )
