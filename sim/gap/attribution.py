@@ -14,7 +14,7 @@ _REFITTED = 5
 _NEAR = 4.0  # times the best score
 _BRINGS_ALONG = {  # what the shape of a loop, or of a stiffening spring, cannot be told from
     "hysteresis": (GAIN,),
-    "stiffness_nonlinearity": OWN,
+    "stiffness_nonlinearity": (GAIN,),
 }
 
 

@@ -26,6 +26,8 @@ _TWINS = {
     "microstep_error": ("encoder_interpolation",),
 }
 _DOUBTED = 0.1  # probability below which one cause of several is none
+_LITTLE = 0.1  # of the gap's power, below which a cause must be surer
+_DOUBTED_OF_LITTLE = 0.6
 _BESIDE_A_WANDER = 0.3  # of the gap's power, that a cause closes at least
 _LIKELIER = 0.6  # probability from which a rival takes a cause's place
 _NEAR = 4.0  # times the best score, up to which a re-tuning alone is a rival
@@ -47,7 +49,11 @@ def contested(
     if likelier is not None:
         best = attributed(evidence, selection.bare, likelier)
         ranked = _ranked(evidence, selection, best)
-    doubted = [key for key, own in ranked.items() if probability(own, key) < _DOUBTED]
+    doubted = [
+        key
+        for key, own in ranked.items()
+        if probability(own, key) < _least_sure(evidence, selection, best, key)
+    ]
     if wanders:
         doubted += [key for key in best.ids if _bends_to(evidence, best, key)]
     if doubted and (len(best.causes) > 1 or wanders):
@@ -65,6 +71,13 @@ def _likelier(ranked: Mapping[Key, Sequence[Rival]]) -> Explanation | None:
     found = [own[0] for key, own in ranked.items() if (own[0].effect, own[0].from_axis) != key]
     surest = max(found, key=lambda one: one.probability, default=None)
     return None if surest is None or surest.probability < _LIKELIER else surest.explanation
+
+
+def _least_sure(evidence: Evidence, selection: Selection, best: Explanation, key: Key) -> float:
+    """Return the probability that a cause needs: more where it closes little of the gap."""
+    others = [one for one in best.causes if (one.id, one.from_axis) != key]
+    share = float(np.mean(evidence.residual(others) ** 2)) - best.score
+    return _DOUBTED if share >= _LITTLE * (selection.raw - 1.0) else _DOUBTED_OF_LITTLE
 
 
 def _bends_to(evidence: Evidence, best: Explanation, key: Key) -> bool:

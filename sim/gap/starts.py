@@ -14,7 +14,8 @@ from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.gap.baseline import OWN
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import Fit
-from rotemina.sim.gap.lines import likeliest_steps, strongest_frequency, strongest_periods
+from rotemina.sim.gap.lines import strongest_frequency, strongest_periods
+from rotemina.sim.gap.teeth import likeliest_grid
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect, PiezoAxis
 
@@ -115,9 +116,10 @@ def _quanta(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dic
     gain = attached.facts.gain if inputs else 1.0
     origin = attached.facts.low if attached.effect.id == "quantization" else 0.0
     yield {"step": attached.values["step"]}
-    seen = likeliest_steps(evidence, fitted.residual, (max(low * gain, 1e-12), high * gain), origin)
+    within = max(low * gain, 1e-12), high * gain
+    seen = likeliest_grid(evidence, fitted, attached.asked, within, origin, gain)
     if seen is not None:
-        yield {"step": float(np.clip(seen[0] / gain, low, high)), "shift": seen[1]}
+        yield _clipped(attached, **seen)
 
 
 def _tones(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
