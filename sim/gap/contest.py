@@ -27,7 +27,7 @@ _TWINS = {
 }
 _DOUBTED = 0.1  # probability below which one cause of several is none
 _LITTLE = 0.1  # of the gap's power, below which a cause must be surer
-_DOUBTED_OF_LITTLE = 0.6
+_DOUBTED_OF_LITTLE = 0.8
 _BESIDE_A_WANDER = 0.3  # of the gap's power, that a cause closes at least
 _LIKELIER = 0.6  # probability from which a rival takes a cause's place
 _NEAR = 4.0  # times the best score, up to which a re-tuning alone is a rival

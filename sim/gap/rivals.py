@@ -19,7 +19,8 @@ _NEARLY = 0.02  # of the gap's power, within which another closes nearly as much
 _SURE = 3.0  # standard errors from which a difference counts in full
 _SAME = 0.2  # of the likeliest one's probability, from which a rival is not ruled out
 _SIMPLER = 6.0  # times likelier, on a tie, for each parameter less
-_MOST_MORE = 3  # parameters that count so
+_MOST_MORE = 2  # parameters that count so
+_ANOTHER_MACHINE = 0.02  # times as likely, with an own parameter of the model at its bound
 _PRIOR: Mapping[str, float] = {  # others: 1
     "sensor_gain": 0.5,
     "sensor_nonlinearity": 0.5,
@@ -64,7 +65,9 @@ def rivals(
     near = min(len(one.fit.free) for _, one in found if _is_near(best, one, raw))
     weights = np.array(
         [
-            _weight(evidence, best, one) * _prior(key[0], _more_parameters(best, one, least, near))
+            _weight(evidence, best, one)
+            * _prior(key[0], _more_parameters(best, one, least, near))
+            * _as_the_machine(one)
             for key, one in found
         ]
     )
@@ -92,6 +95,12 @@ def _prior(effect: str, more_parameters: int) -> float:
 def probability(ranked: Sequence[Rival], cause: Key) -> float:
     """Return the probability of a cause among its rivals."""
     return next(one.probability for one in ranked if (one.effect, one.from_axis) == cause)
+
+
+def _as_the_machine(one: Explanation) -> float:
+    """Return how likely it is that the model's own parameters are so far off."""
+    own = [number for number, effect in enumerate(one.fit.effects) if effect.id in OWN]
+    return _ANOTHER_MACHINE if any(number in own for number, _ in one.fit.at_bound) else 1.0
 
 
 def _more_parameters(best: Explanation, other: Explanation, least: int, near: int) -> int:
