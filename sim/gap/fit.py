@@ -28,6 +28,7 @@ _TOLERANCES = {  # beyond, it is another machine, or another effect
     ("resonance_mismatch", "damping_error"): (-0.8, 4.0),
 }
 _TOUCHED = 0.7  # of the way that an axis goes, over which a contact may act
+_AT_ONCE_S = 5e-4  # over which an axis may be asked to go all its way
 _LOST = 1e6  # floors by which a model that cannot be simulated is off
 _SMALL_SHARE = 0.01  # of its scale, as the size of a parameter whose preset is zero
 _UNBOUNDED = 1e6  # sizes up to which a parameter without a bound may go
@@ -287,6 +288,8 @@ def free_parameters(evidence: Evidence, effects: Sequence[AxisEffect]) -> tuple[
             )
             if (asked.id, parameter.name) == ("contact", "place"):
                 low, high = _met_on_the_way(evidence, attached)
+            if (asked.id, parameter.name) == ("slew_limit", "rate"):
+                high = max(min(high, _asked_rate(evidence, attached)), 2.0 * low)
             preset = parameter.preset(attached.facts)
             scale = max(parameter.scale(attached.facts), parameter.spared(attached.facts))
             size = abs(preset) or _SMALL_SHARE * scale
@@ -312,6 +315,15 @@ def _met_on_the_way(evidence: Evidence, attached: Attached) -> tuple[float, floa
     shares = (1.0 - _TOUCHED, 1.0) if _comes_from_below(attached) else (0.0, _TOUCHED)
     low, high = ((least + share * (most - least)) - attached.facts.low for share in shares)
     return max(low, 0.0), min(high, attached.facts.span)
+
+
+def _asked_rate(evidence: Evidence, attached: Attached) -> float:
+    """Return a rate, in inputs per second, that hardly anything asks for; beyond it is no limit.
+
+    A soft limit that never acts would pass for a lag.
+    """
+    least, most = evidence.reach
+    return (most - least) / attached.facts.gain / _AT_ONCE_S
 
 
 def _comes_from_below(attached: Attached) -> bool:

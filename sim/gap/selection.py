@@ -34,14 +34,14 @@ NOTICED = 2.0  # mean square over the floor from which what others leave may hav
 _FITTED = 6  # effects that are fitted in full after screening
 _FITTED_LATER = 4
 _FITTED_SLOWLY = 2  # beside a cause that takes long to simulate
-_BEAM = 2  # explanations that are extended
+_BEAM = (2, 1, 1)  # explanations that are extended, with one, two, three causes
 _ALSO = 2.5  # times the score of the best, up to which another is extended
-_HOPELESS = 30.0  # times the cost of the best candidate
+_HOPELESS = 10.0  # times the cost of the best candidate
 _WORTH_GOING_ON = (0.25, 0.5, 1.0)  # share closed by one, two causes, to look for another
 _WORTH_A_FIRST_TRY = 4.0  # times what quick formulations leave, that a slow one may promise
 _WORTH_A_TRY = 0.8  # the same beside other causes, where each step takes longer still
 _SKETCHED = 3  # steps after which attempts are compared
-_BEHIND = 6.0  # times the cost of the best, from which an attempt is given up
+_BEHIND = 3.0  # times the cost of the best, from which an attempt is given up
 _LEAST_PROMISE = 0.5  # of the score: a best candidate that leaves more is no clear cause
 
 Told = Callable[[str, str | None], None]
@@ -92,7 +92,7 @@ def select(evidence: Evidence, told: Told, *, jobs: int = 1) -> Selection:
             best = found[0]
         elif level > 0 or _is_little(bare, best):
             break  # two causes may still do what one alone does not do better than a re-tuning
-        beam = [one for one in found[:_BEAM] if one.score < _ALSO * found[0].score]
+        beam = [one for one in found[: _BEAM[level]] if one.score < _ALSO * found[0].score]
         if best.score < NOTICED or closed(bare.score, best.score) < _WORTH_GOING_ON[level]:
             break
     simplest = _simplified(evidence, bare, best)
