@@ -18,12 +18,14 @@ FINE = 1024
 FADING = {"static_ratio": 2.0, "stribeck_speed": 1e-2, "viscous_forward": 20.0}
 DRY = {"coulomb_forward": 0.6, "coulomb_backward": 0.5}
 BRISTLES = {"coulomb": 0.6, "deflection": 1e-4, "static_ratio": 1.5, "stribeck_speed": 2e-3}
+SLIPPING = {"coulomb": 0.6, "backward": 0.8, "deflection": 1e-4}
 ELASTIC = {"place": 0.7, "stiffness": 5.0, "damping_ratio": 0.0}
 CASES = {
     # effect, formulation, parameters, amplitude, least order that is asked for, error at first
     "dry friction": ("friction", "stribeck", DRY, 1e-3, 1.5, 2e-3),
     "fading friction": ("friction", "stribeck", {**DRY, **FADING}, 1e-3, 0.8, 0.1),
     "lugre": ("friction", "lugre", BRISTLES, 1e-3, 0.85, 0.03),
+    "springs": ("friction", "springs", SLIPPING, 1e-3, 0.85, 0.03),
     "flexure": ("stiffness_nonlinearity", "cubic", {"hardening": 0.5}, 1.0, 1.9, 0.01),
     "elastic contact": ("contact", "spring", ELASTIC, 1.0, 1.8, 0.05),
     "damped contact": ("contact", "spring", {**ELASTIC, "damping_ratio": 0.1}, 1.0, 0.85, 0.01),
