@@ -88,7 +88,9 @@ def springs(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # comp
     """``f = −Σ kᵢ zᵢ − D v``; each spring follows the motion up to the deflection where it slips.
 
     Solved for the speed that the force leaves at the end of the step, ``v + b f``: the sum rises
-    with the speed and is straight between the slips, so that Newton's steps end exactly.
+    with the speed and is straight between the slips, so that Newton's steps end exactly. A spring
+    that the step follows pulls by the mean of begin and end, which keeps its energy; one that is
+    too stiff for that by the end, which damps.
 
     p: force of one spring, backward over forward, D, each kᵢ; s: each zᵢ.
     """
@@ -97,23 +99,29 @@ def springs(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # comp
     for _ in range(4 * SPRINGS):
         total, slope = 0.0, 0.0
         for i in range(SPRINGS):
-            pulled = p[3 + i] * (s[i] + h * speed)
+            stiff = b * p[3 + i] * h
+            late = (0.5 + stiff) / (1.0 + stiff)
+            before = p[3 + i] * s[i]
+            pulled = before + p[3 + i] * h * speed
             if pulled > p[0]:
-                total += p[0]
+                pulled = p[0]
             elif pulled < -p[0] * p[1]:
-                total -= p[0] * p[1]
+                pulled = -p[0] * p[1]
             else:
-                total += pulled
-                slope += p[3 + i] * h
+                slope += late * p[3 + i] * h
+            total += late * pulled + (1.0 - late) * before
         change = (speed * heavy - other + b * total) / (heavy + b * slope)
         speed -= change
         if abs(change) <= 1e-12 * abs(speed):
             break
     force = p[2] * speed
     for i in range(SPRINGS):
-        pulled = min(max(p[3 + i] * (s[i] + h * speed), -p[0] * p[1]), p[0])
+        stiff = b * p[3 + i] * h
+        late = (0.5 + stiff) / (1.0 + stiff)
+        before = p[3 + i] * s[i]
+        pulled = min(max(before + p[3 + i] * h * speed, -p[0] * p[1]), p[0])
         s[i] = pulled / p[3 + i] if p[3 + i] > 0.0 else 0.0
-        force += pulled
+        force += late * pulled + (1.0 - late) * before
     return -force
 
 
@@ -167,8 +175,17 @@ def _inner_step(_values: Values, facts: Facts) -> float:
 
 def _bristle_step(values: Values, facts: Facts) -> float:
     """Return a step that follows the axis on its bristles, if that asks for little more work."""
-    longest = _inner_step(values, facts)
-    rate = sqrt(values["coulomb"] / values["deflection"] / facts.mass)
+    return _following(values["coulomb"] / values["deflection"], facts)
+
+
+def _springs_step(values: Values, facts: Facts) -> float:
+    """Return a step that follows the axis on all its springs, if that asks for little more work."""
+    return _following(sum(_springs(values, facts)[3:]), facts)
+
+
+def _following(stiffness: float, facts: Facts) -> float:
+    longest = _inner_step({}, facts)
+    rate = sqrt(stiffness / facts.mass)
     period = 2.0 * pi / rate if rate > 0.0 else inf
     return min(longest, max(_BRISTLE_SHARE * period, longest / _FINER))
 
@@ -246,7 +263,7 @@ FRICTION = Effect(
             ),
             acts=Force(step=springs, states=SPRINGS),
             prepare=_springs,
-            inner_step_s=_bristle_step,
+            inner_step_s=_springs_step,
             traits=frozenset({Trait.DISSIPATIVE}),
         ),
         Formulation(

@@ -25,7 +25,7 @@ CASES = {
     "dry friction": ("friction", "stribeck", DRY, 1e-3, 1.5, 2e-3),
     "fading friction": ("friction", "stribeck", {**DRY, **FADING}, 1e-3, 0.8, 0.1),
     "lugre": ("friction", "lugre", BRISTLES, 1e-3, 0.85, 0.03),
-    "springs": ("friction", "springs", SLIPPING, 1e-3, 0.85, 0.03),
+    "springs": ("friction", "springs", SLIPPING, 1e-3, 0.85, 0.1),
     "flexure": ("stiffness_nonlinearity", "cubic", {"hardening": 0.5}, 1.0, 1.9, 0.01),
     "elastic contact": ("contact", "spring", ELASTIC, 1.0, 1.8, 0.05),
     "damped contact": ("contact", "spring", {**ELASTIC, "damping_ratio": 0.1}, 1.0, 0.85, 0.01),
