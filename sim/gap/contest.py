@@ -27,7 +27,7 @@ _TWINS = {
 }
 _DOUBTED = 0.1  # probability below which one cause of several is none
 _LITTLE = 0.1  # of the gap's power, below which a cause must be surer
-_DOUBTED_OF_LITTLE = 0.8
+_DOUBTED_OF_LITTLE = 0.9
 _BESIDE_A_WANDER = 0.3  # of the gap's power, that a cause closes at least
 _LIKELIER = 0.6  # probability from which a rival takes a cause's place
 _NEAR = 4.0  # times the best score, up to which a re-tuning alone is a rival
@@ -36,13 +36,14 @@ Ranking = Mapping[Key, tuple[Rival, ...]]
 
 
 def contested(
-    evidence: Evidence, selection: Selection, best: Explanation, *, wanders: bool
+    evidence: Evidence, selection: Selection, best: Explanation, aside: float, *, wanders: bool
 ) -> tuple[Explanation, Ranking]:
     """Return the explanation by the causes that stand, and the rivals of each.
 
     A rival that does about as well with fewer parameters takes a cause's place. A cause in whose
     place several others would do as well is none, as it stands for what the rest leaves; nor is
-    one that closes little where the sensor ``wanders``.
+    one that closes little where the sensor ``wanders``. ``aside`` is the power, in floors squared,
+    of what was set aside: a cause beside it closes a share of the whole.
     """
     ranked = _ranked(evidence, selection, best)
     likelier = _likelier(ranked)
@@ -52,11 +53,11 @@ def contested(
     doubted = [
         key
         for key, own in ranked.items()
-        if probability(own, key) < _least_sure(evidence, selection, best, key)
+        if probability(own, key) < _least_sure(evidence, selection.raw + aside, best, key)
     ]
     if wanders:
         doubted += [key for key in best.ids if _bends_to(evidence, best, key)]
-    if doubted and (len(best.causes) > 1 or wanders):
+    if doubted and (len(best.causes) > 1 or wanders or aside > selection.raw):
         kept = [one for one in best.causes if (one.id, one.from_axis) not in doubted]
         best = _with_only(evidence, selection, kept)
         ranked = _ranked(evidence, selection, best)
@@ -73,11 +74,11 @@ def _likelier(ranked: Mapping[Key, Sequence[Rival]]) -> Explanation | None:
     return None if surest is None or surest.probability < _LIKELIER else surest.explanation
 
 
-def _least_sure(evidence: Evidence, selection: Selection, best: Explanation, key: Key) -> float:
+def _least_sure(evidence: Evidence, raw: float, best: Explanation, key: Key) -> float:
     """Return the probability that a cause needs: more where it closes little of the gap."""
     others = [one for one in best.causes if (one.id, one.from_axis) != key]
     share = float(np.mean(evidence.residual(others) ** 2)) - best.score
-    return _DOUBTED if share >= _LITTLE * (selection.raw - 1.0) else _DOUBTED_OF_LITTLE
+    return _DOUBTED if share >= _LITTLE * (raw - 1.0) else _DOUBTED_OF_LITTLE
 
 
 def _bends_to(evidence: Evidence, best: Explanation, key: Key) -> bool:

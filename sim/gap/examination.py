@@ -17,6 +17,7 @@ from rotemina.sim.gap.verdict import decide
 from rotemina.sim.robot.model import AxisEffect
 
 _GAP = 1.5  # mean square over the floor from which there is something to explain
+_TAILS = 0.1  # of a noisy sensor's power, that outliers have beyond the tails of its noise
 _NOT_NOISE = 0.6  # of a raised floor's power: a fit that leaves less shows that it was no noise
 
 Told = Callable[[str, str | None], None]
@@ -63,9 +64,9 @@ def examine(whole: Evidence, told: Told, *, jobs: int = 1) -> Examination:
     told("deciding", None)
     drift = wander(evidence, best.fit.residual)
     disturbances = _counting(whole, evidence, best, [*aside, *([drift] if drift else [])])
-    best, ranked = contested(evidence, selection, best, wanders=drift is not None)
-    ambiguous = [not_ruled_out(ranked[key], key) for key in best.ids]
     power = sum(one.power for one in disturbances)
+    best, ranked = contested(evidence, selection, best, power, wanders=drift is not None)
+    ambiguous = [not_ruled_out(ranked[key], key) for key in best.ids]
     wandered = sum(one.power for one in disturbances if one.effect == "sensor_drift")
     verdict = decide(selection.raw + power - wandered, max(best.score - wandered, 1.0), ambiguous)
     if is_poor(whole) and verdict is not Verdict.NONE and not disturbances:
@@ -101,9 +102,11 @@ def _counting(
         for tap, mean in best.by_tap.items()
     }
     counting = []
+    noisy = any(one.effect == "sensor_noise" for one in found)
     for one in by_effect(found):
         left = by_tap[one.tap] - 1.0
-        share = one.power >= LEAST_SHARE * (raw[one.tap] - 1.0)
+        least = _TAILS if noisy and one.effect == "sensor_outliers" else LEAST_SHARE
+        share = one.power >= least * (raw[one.tap] - 1.0)
         if one.power >= LEAST_POWER and (share or one.power >= CLEARLY * left):
             counting.append(one)
     return tuple(counting)
