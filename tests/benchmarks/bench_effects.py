@@ -143,11 +143,10 @@ def test_one_axis_one_effect(capsys):
     lines = []
     for effect in all_effects()[0].values():
         for formulation in effect.formulations:
-            axis = next(
-                name
-                for name in ("thx", "x")
-                if ROBOT.axes[name].kind in (formulation.kinds or effect.kinds)
-            )
+            kinds = formulation.kinds or effect.kinds
+            axis = next((name for name in ("thx", "x") if ROBOT.axes[name].kind in kinds), None)
+            if axis is None:
+                continue  # for an axis that a force moves, which this robot has not
             asked = AxisEffect(
                 axis=axis,
                 id=effect.id,
