@@ -1,9 +1,10 @@
-"""Array types shared by the model: float64 throughout."""
+"""Array types shared by the model: double precision throughout."""
 
 import numpy as np
 from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
 IntArray = NDArray[np.int64]
 BoolArray = NDArray[np.bool_]
 

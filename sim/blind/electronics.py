@@ -5,8 +5,8 @@ from math import pi
 import numba
 import numpy as np
 
-from rotemina.sim.arrays import FloatArray
-from rotemina.sim.blind.filters import ComplexArray, lagged, mode_poles, shifted
+from rotemina.sim.arrays import ComplexArray, FloatArray
+from rotemina.sim.blind.filters import lagged, mode_poles, shifted
 from rotemina.sim.blind.part import Axis, Course, Part, Stage
 
 

@@ -3,12 +3,9 @@
 from math import pi
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import signal
 
-from rotemina.sim.arrays import FloatArray
-
-ComplexArray = NDArray[np.complex128]
+from rotemina.sim.arrays import ComplexArray, FloatArray
 
 
 def lagged(values: FloatArray, poles: ComplexArray | FloatArray, step_s: float) -> FloatArray:

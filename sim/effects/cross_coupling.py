@@ -21,6 +21,7 @@ from rotemina.sim.effects.formulation import (
     Trait,
     Values,
 )
+from rotemina.sim.effects.modes import modal_parameters, modal_part
 
 
 def leak(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
@@ -82,6 +83,15 @@ CROSS_COUPLING = Effect(
             parameters=(_K, _FREQUENCY, _DAMPING),
             acts=Part(part=_while_moving),
             traits=_LINEAR | {Trait.TRANSIENT},
+        ),
+        Formulation(
+            name="modes",
+            equation="y = x + Σ (aₖ zₖ + bₖ żₖ/ωₖ), z̈ₖ + 2ζₖωₖ żₖ + ωₖ² zₖ = ωₖ² U_j",
+            source="Gustavsen and Semlyen, IEEE Trans. Power Delivery 14 (1999) 1052-1061",
+            parameters=modal_parameters("q/…"),
+            acts=Part(part=modal_part),
+            traits=_LINEAR,
+            by_spectra=True,
         ),
     ),
 )

@@ -15,6 +15,7 @@ from rotemina.sim.effects.formulation import (
     Trait,
     Values,
 )
+from rotemina.sim.effects.modes import modal_parameters, modal_part
 
 FREQUENCY = Parameter("frequency", "of the mode", "Hz", 0.02, 50.0, 1.7, per="pace_hz")
 DAMPING = Parameter("damping_ratio", "of the mode", "", 1e-4, 2.0, 0.03)
@@ -121,6 +122,16 @@ FLEXIBLE_MODE = Effect(
             ),
             acts=Part(part=_series),
             traits=_LINEAR,
+        ),
+        Formulation(
+            name="modes",
+            equation="y = q + Σ (aₖ zₖ + bₖ żₖ/ωₖ), z̈ₖ + 2ζₖωₖ żₖ + ωₖ² zₖ = ωₖ² U",
+            source="Gustavsen and Semlyen, IEEE Trans. Power Delivery 14 (1999) 1052-1061",
+            parameters=modal_parameters(""),
+            acts=Part(part=modal_part),
+            traits=frozenset({Trait.LINEAR, Trait.MEMORYLESS}),
+            kinds=frozenset({"piezo", "stepper"}),
+            by_spectra=True,
         ),
     ),
 )

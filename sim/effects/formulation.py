@@ -264,6 +264,8 @@ class Formulation:
         The longest step with which it is accurate, from values and facts.
     kinds : frozenset of str
         Axis kinds that can carry it; empty for all those of its effect.
+    by_spectra : bool
+        Whether a diagnosis finds its many parameters at once, from spectra, and not by a search.
     """
 
     name: str
@@ -275,6 +277,7 @@ class Formulation:
     prepare: Callable[[Values, Facts], Sequence[float]] | None = None
     inner_step_s: Callable[[Values, Facts], float] = no_inner_step
     kinds: frozenset[str] = frozenset()
+    by_spectra: bool = False
 
     def numbers(self, values: Values, facts: Facts) -> FloatArray:
         """Return what the step function gets as ``p``."""

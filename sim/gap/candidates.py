@@ -72,6 +72,8 @@ def _formulations(
     for formulation in effect.formulations:
         if isinstance(formulation.acts, Reading) and formulation.acts.random:
             continue
+        if formulation.by_spectra:
+            continue
         for source in sources:
             asked = AxisEffect(
                 axis=evidence.axis, id=effect.id, formulation=formulation.name, from_axis=source

@@ -8,7 +8,8 @@ from rotemina.sim.gap.contest import Ranking, contested
 from rotemina.sim.gap.diagnosis import Verdict
 from rotemina.sim.gap.disturbances import Disturbance, by_effect, set_aside, wander
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.models import Explanation, mean_squares, untouched
+from rotemina.sim.gap.many_modes import many_modes
+from rotemina.sim.gap.models import Explanation, explain, mean_squares, untouched
 from rotemina.sim.gap.probe import Probe, probed
 from rotemina.sim.gap.richness import is_poor
 from rotemina.sim.gap.rivals import not_ruled_out
@@ -48,6 +49,9 @@ class Examination:
 
 def examine(whole: Evidence, told: Told, *, jobs: int = 1) -> Examination:
     """Look for the causes of an axis' gap."""
+    modal = many_modes(whole, told)
+    if modal is not None:
+        return _of_modes(whole, modal)
     evidence, aside = set_aside(whole)
     selection, best = _explained(evidence, told, jobs)
     raised = [one for one in aside if one.effect == "sensor_noise"]
@@ -79,6 +83,17 @@ def examine(whole: Evidence, told: Told, *, jobs: int = 1) -> Examination:
         verdict,
         ranked,
         probed(evidence, best.held_out),
+    )
+
+
+def _of_modes(evidence: Evidence, modal: Explanation) -> Examination:
+    """Return what was found on an axis that rings in many modes; nothing else is looked for."""
+    bare = untouched(evidence)
+    selection = Selection(bare, explain(evidence, ()), modal, (modal,))
+    best, ranked = contested(evidence, selection, modal, 0.0, wanders=False)
+    verdict = decide(selection.raw, max(best.score, 1.0), ())
+    return Examination(
+        evidence, (), selection, best, verdict, ranked, probed(evidence, best.held_out)
     )
 
 

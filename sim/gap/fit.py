@@ -184,7 +184,7 @@ def held_out(evidence: Evidence, fitted: Fit) -> FloatArray:
     """Return what is left (rows,) of each record by a fit to all the others.
 
     Each fit is one Gauss-Newton step away from the fit to all. Directions in which the other
-    records say hardly anything stay where they are. A single record is halved.
+    records say hardly anything stay where they are. A single record is left out by quarters.
     """
     if not fitted.free:
         return fitted.residual
@@ -278,10 +278,12 @@ def bounds(free: Sequence[Free]) -> tuple[FloatArray, FloatArray, FloatArray]:
 
 
 def free_parameters(evidence: Evidence, effects: Sequence[AxisEffect]) -> tuple[Free, ...]:
-    """Return the parameters of effects, numbered as these."""
+    """Return the parameters of effects, numbered as these, but for those found by spectra."""
     free: list[Free] = []
     for number, asked in enumerate(effects):
         attached = Attached.of(evidence.robot, asked)
+        if attached.formulation.by_spectra:
+            continue
         for parameter in attached.formulation.parameters:
             low, high = _TOLERANCES.get((asked.id, parameter.name)) or parameter.bounds(
                 attached.facts

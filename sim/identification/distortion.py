@@ -4,12 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.sim.arrays import ComplexArray, FloatArray, IntArray
 from rotemina.sim.identification.errors import ExcitationError
 from rotemina.sim.identification.frequency_response import EXCITED_ABOVE
 from rotemina.sim.identification.multisine import PeriodSpectra, period_spectra
 from rotemina.sim.identification.signals import Signals, check_moving
-from rotemina.sim.identification.transfer_function import ComplexArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -4,14 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.sim.arrays import ComplexArray, FloatArray, IntArray
 from rotemina.sim.identification.errors import (
     ExcitationError,
     IdentificationError,
     TooShortError,
 )
 from rotemina.sim.identification.signals import Signals, check_moving
-from rotemina.sim.identification.transfer_function import ComplexArray
 
 EXCITED_ABOVE = 1e-2  # of the largest input amplitude, from which a line counts as excited
 

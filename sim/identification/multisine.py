@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.sim.arrays import ComplexArray, FloatArray, IntArray
 from rotemina.sim.identification.errors import ExcitationError, SettingError, TooShortError
 from rotemina.sim.identification.frequency_response import (
     EXCITED_ABOVE,
@@ -14,7 +14,6 @@ from rotemina.sim.identification.frequency_response import (
     excited_lines,
 )
 from rotemina.sim.identification.signals import Signals
-from rotemina.sim.identification.transfer_function import ComplexArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -10,9 +10,9 @@ import numpy as np
 from pydantic import TypeAdapter, ValidationError
 from pydantic.dataclasses import dataclass
 
-from rotemina.sim.arrays import FloatArray
+from rotemina.sim.arrays import ComplexArray, FloatArray
 from rotemina.sim.identification.errors import ModelFileError, SettingError
-from rotemina.sim.identification.transfer_function import ComplexArray, TransferFunction
+from rotemina.sim.identification.transfer_function import TransferFunction
 from rotemina.sim.robot.model import FORBID_UNKNOWN, Count, Number, Positive
 from rotemina.sim.robot.schema_errors import describe
 

@@ -4,9 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rotemina.sim.arrays import FloatArray
+from rotemina.sim.arrays import ComplexArray, FloatArray
 from rotemina.sim.identification.errors import ExcitationError, SettingError, TooShortError
-from rotemina.sim.identification.transfer_function import ComplexArray
 
 _LEAST_LINES = 4
 _OVERDAMPED = 0.5**0.5  # damping ratio from which a mode shows no peak

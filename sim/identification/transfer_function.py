@@ -3,12 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from rotemina.sim.arrays import FloatArray, read_only
+from rotemina.sim.arrays import ComplexArray, FloatArray, read_only
 from rotemina.sim.identification.errors import SettingError
-
-ComplexArray = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from rotemina.sim.arrays import FloatArray
+from rotemina.sim.arrays import ComplexArray, FloatArray
 from rotemina.sim.identification.errors import SettingError, TooShortError
 from rotemina.sim.identification.frequency_response import (
     EXCITED_ABOVE,
@@ -12,7 +12,6 @@ from rotemina.sim.identification.frequency_response import (
     excited_lines,
 )
 from rotemina.sim.identification.signals import Signals
-from rotemina.sim.identification.transfer_function import ComplexArray
 
 _SHORTEST = 8
 

@@ -18,9 +18,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotemina.sim.arrays import FloatArray
+from rotemina.sim.arrays import ComplexArray, FloatArray
 from rotemina.sim.errors import InputError
-from rotemina.sim.modes.vibration import ComplexArray
 from rotemina.sim.plant.group import Group, groups_of
 from rotemina.sim.plant.sampling import step_matrices
 from rotemina.sim.robot.model import CascadeController, Robot

@@ -5,7 +5,8 @@ from enum import StrEnum
 
 import numpy as np
 
-from rotemina.sim.modes.vibration import ComplexArray, poles_of
+from rotemina.sim.arrays import ComplexArray
+from rotemina.sim.modes.vibration import poles_of
 from rotemina.sim.robot.model import Robot
 
 # A real part smaller than this share of the largest pole is told from zero by rounding alone.

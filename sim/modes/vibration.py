@@ -16,10 +16,9 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from rotemina.sim.arrays import FloatArray
+from rotemina.sim.arrays import ComplexArray, FloatArray
 from rotemina.sim.plant.group import groups_of
 from rotemina.sim.robot.matrices import InertiaMatrices, inertia_matrices
 from rotemina.sim.robot.model import Robot
@@ -28,8 +27,6 @@ from rotemina.sim.robot.model import Robot
 _DOUBLE_POLE_SHARE = 1e-7
 _SINGULAR = 1e-12  # eigenvalue of a stiffness scaled to a unit diagonal that counts as zero
 _EQUAL = 1e-9  # relative difference by which rounding may part equal axes of a mode
-
-ComplexArray = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -172,7 +169,7 @@ def _pole_vectors(part: InertiaMatrices) -> Iterator[tuple[complex, ComplexArray
 
 
 def _normalised(
-    whole: InertiaMatrices, shapes: NDArray[np.float64] | ComplexArray
+    whole: InertiaMatrices, shapes: FloatArray | ComplexArray
 ) -> tuple[ComplexArray, tuple[str, ...]]:
     """Scale each column to unit modal mass and turn it real and positive where it is strongest."""
     if not whole.axes:

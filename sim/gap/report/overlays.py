@@ -7,7 +7,7 @@ from markupsafe import Markup
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
+from rotemina.sim.arrays import BoolArray, ComplexArray, FloatArray, IntArray
 from rotemina.sim.decimation import envelope
 from rotemina.sim.gap.report.charts import plain_logarithm
 from rotemina.sim.gap.report.pictures import Role, legend, picture
@@ -16,7 +16,6 @@ from rotemina.sim.gap.report.traces import Trace
 from rotemina.sim.identification.errors import TimeGridError
 from rotemina.sim.identification.frequency_response import FrequencyResponse
 from rotemina.sim.identification.signals import Signals, uniform_rate
-from rotemina.sim.identification.transfer_function import ComplexArray
 from rotemina.sim.identification.welch import welch_response
 
 _WIDTH = 12.0

@@ -11,6 +11,7 @@ from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import fit
 from rotemina.sim.gap.method import diagnose
 from rotemina.sim.gap.models import explain
+from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.file import load_robot
@@ -129,3 +130,39 @@ class TestPiezoStack:
         assert first == {"hysteresis"}
         # A well damped mode at 19 Hz, of nearly all the motion, is a lag of second order too.
         assert any(one & (LATE | {"flexible_mode"}) for one in others)
+
+
+class TestSteeringMirror:
+    """FSM: relative error of the readings; a linear model of each line alone leaves 4.4 %."""
+
+    robot = load_robot("fsm")
+
+    def error(self, effects, folder, level):
+        """Return the relative error over all axes of the test records of a level, mV."""
+        records = read(self.robot, folder, *(f"fsm_{level}mV_test_{n}" for n in range(3)))
+        left = whole = 0.0
+        for record in records:
+            answer = nominal_response(corrected(self.robot, effects), record)
+            for name in self.robot.axes:
+                real = record.signal(name, Tap.MEAS)
+                apart = real - answer.signal(name, Tap.MEAS)
+                left += float(np.sum((apart - apart.mean()) ** 2))
+                whole += float(np.sum((real - real.mean()) ** 2))
+        return float(np.sqrt(left / whole))
+
+    def test_coupling_and_modes_are_named_and_foretell_other_multisines(self, real_dir):
+        names = [f"fsm_200mV_train_{n}" for n in range(6)]
+        diagnosis = diagnose(self.robot, read(self.robot, real_dir, *names), jobs=2)
+        assert diagnosis.verdict is Verdict.EXPLAINED
+        for axis in self.robot.axes:
+            assert sorted(named(diagnosis, axis), key=min) == [
+                {"cross_coupling"},
+                {"cross_coupling"},
+                {"flexible_mode"},
+            ]
+        errors = {level: self.error(diagnosis.fitted, real_dir, level) for level in (100, 200, 300)}
+        print(*(f"{level} mV: {share:.2%}" for level, share in errors.items()))
+        assert errors[200] <= 0.05
+        # One linear model of a loop that grows with its amplitude: no better elsewhere.
+        assert errors[100] <= 0.25
+        assert errors[300] <= 0.20
