@@ -9,7 +9,7 @@ from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.attribution import attributed, without_own
 from rotemina.sim.gap.baseline import GAIN, is_own
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.models import Explanation, explain
+from rotemina.sim.gap.models import Explanation, explain, mean_squares
 from rotemina.sim.gap.richness import alike_axes
 from rotemina.sim.gap.rivals import Key, Rival, probability, rivals
 from rotemina.sim.gap.selection import Selection
@@ -53,7 +53,7 @@ def contested(
     doubted = [
         key
         for key, own in ranked.items()
-        if probability(own, key) < _least_sure(evidence, selection.raw + aside, best, key)
+        if probability(own, key) < _least_sure(evidence, selection.bare, aside, best, key)
     ]
     if wanders:
         doubted += [key for key in best.ids if _bends_to(evidence, best, key)]
@@ -74,11 +74,17 @@ def _likelier(ranked: Mapping[Key, Sequence[Rival]]) -> Explanation | None:
     return None if surest is None or surest.probability < _LIKELIER else surest.explanation
 
 
-def _least_sure(evidence: Evidence, raw: float, best: Explanation, key: Key) -> float:
-    """Return the probability that a cause needs: more where it closes little of the gap."""
+def _least_sure(
+    evidence: Evidence, bare: Explanation, aside: float, best: Explanation, key: Key
+) -> float:
+    """Return the probability that a cause needs: more where it closes little of any tap's gap."""
     others = [one for one in best.causes if (one.id, one.from_axis) != key]
-    share = float(np.mean(evidence.residual(others) ** 2)) - best.score
-    return _DOUBTED if share >= _LITTLE * (raw - 1.0) else _DOUBTED_OF_LITTLE
+    before = mean_squares(evidence, evidence.residual(others))
+    much = any(
+        before[tap] - left >= _LITTLE * (bare.by_tap[tap] + aside - 1.0)
+        for tap, left in best.by_tap.items()
+    )
+    return _DOUBTED if much else _DOUBTED_OF_LITTLE
 
 
 def _bends_to(evidence: Evidence, best: Explanation, key: Key) -> bool:

@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from rotemina.sim.gap.attribution import attributed
+from rotemina.sim.gap.baseline import OWN
 from rotemina.sim.gap.contest import Ranking, contested
 from rotemina.sim.gap.diagnosis import Verdict
 from rotemina.sim.gap.disturbances import Disturbance, by_effect, set_aside, wander
@@ -19,6 +20,7 @@ from rotemina.sim.robot.model import AxisEffect
 
 _GAP = 1.5  # mean square over the floor from which there is something to explain
 _TAILS = 0.1  # of a noisy sensor's power, that outliers have beyond the tails of its noise
+_MUCH_BETTER = 0.7  # of a score: what else would correct the model is taken along
 _NOT_NOISE = 0.6  # of a raised floor's power: a fit that leaves less shows that it was no noise
 
 Told = Callable[[str, str | None], None]
@@ -28,7 +30,9 @@ Told = Callable[[str, str | None], None]
 class Examination:
     """What was found on an axis, before it is put into words.
 
-    ``evidence`` is without what was set aside; ``disturbances`` are what of that counts.
+    ``evidence`` is without what was set aside; ``disturbances`` are what of that counts. The fit
+    of ``best`` may hold more than its causes: what corrects the model further but is too small, or
+    too much like something else, to be named.
     """
 
     evidence: Evidence
@@ -75,6 +79,8 @@ def examine(whole: Evidence, told: Told, *, jobs: int = 1) -> Examination:
     verdict = decide(selection.raw + power - wandered, max(best.score - wandered, 1.0), ambiguous)
     if is_poor(whole) and verdict is not Verdict.NONE and not disturbances:
         verdict = Verdict.INSUFFICIENT
+    if verdict is Verdict.EXPLAINED and drift is None:
+        best = _fullest(selection, best)
     return Examination(
         evidence,
         disturbances,
@@ -84,6 +90,23 @@ def examine(whole: Evidence, told: Told, *, jobs: int = 1) -> Examination:
         ranked,
         probed(evidence, best.held_out),
     )
+
+
+def _fullest(selection: Selection, best: Explanation) -> Explanation:
+    """Return what explains most with the same causes and more, if that is much more."""
+    named = set(best.ids)
+    fuller = [
+        one
+        for one in selection.tried
+        if named < {(own.id, own.from_axis) for own in one.fit.effects}
+        and {key for key in named if key[0] not in OWN} < set(one.ids)
+        and one.score < _MUCH_BETTER * best.score
+    ]
+    if not fuller:
+        return best
+    one = min(fuller, key=lambda one: one.score)
+    causes = [own for own in one.fit.effects if (own.id, own.from_axis) in named]
+    return replace(one, causes=tuple(causes))
 
 
 def _of_modes(evidence: Evidence, modal: Explanation) -> Examination:

@@ -16,6 +16,7 @@ from scipy.optimize import lsq_linear
 from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.errors import EffectError
+from rotemina.sim.gap.baseline import OWN
 from rotemina.sim.gap.descent import Descent, begun, descend, exact
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.plant.errors import PlantError
@@ -27,6 +28,7 @@ _TOLERANCES = {  # beyond, it is another machine, or another effect
     ("resonance_mismatch", "frequency_error"): (-0.3, 0.3),
     ("resonance_mismatch", "damping_error"): (-0.8, 4.0),
 }
+_STEPPED = ("quantization", "sensor_quantization")
 _TOUCHED = 0.7  # of the way that an axis goes, over which a contact may act
 _AT_ONCE_S = 5e-4  # over which an axis may be asked to go all its way
 _LOST = 1e6  # floors by which a model that cannot be simulated is off
@@ -278,11 +280,15 @@ def bounds(free: Sequence[Free]) -> tuple[FloatArray, FloatArray, FloatArray]:
 
 
 def free_parameters(evidence: Evidence, effects: Sequence[AxisEffect]) -> tuple[Free, ...]:
-    """Return the parameters of effects, numbered as these, but for those found by spectra."""
+    """Return the parameters of effects, numbered as these, but for those found by spectra.
+
+    A grid of steps is found so, too. Beside others it stays: a slope over its jumps tells nothing.
+    """
     free: list[Free] = []
+    others = sum(asked.id not in OWN for asked in effects)
     for number, asked in enumerate(effects):
         attached = Attached.of(evidence.robot, asked)
-        if attached.formulation.by_spectra:
+        if attached.formulation.by_spectra or (asked.id in _STEPPED and others > 1):
             continue
         for parameter in attached.formulation.parameters:
             low, high = _TOLERANCES.get((asked.id, parameter.name)) or parameter.bounds(

@@ -28,6 +28,12 @@ def strongest_periods(evidence: Evidence, fitted: Fit, bounds: tuple[float, floa
     return [float(np.clip(_in_phase(seen, period), *bounds)) for period, _ in lines]
 
 
+def line_over(place: FloatArray, gap: FloatArray, bounds: tuple[float, float]) -> float | None:
+    """Return the period, within bounds, of the strongest line of ``gap`` over ``place``, (n,)."""
+    line = _over_position(place, gap, bounds)
+    return None if line is None else line[0]
+
+
 def _placed(evidence: Evidence, fitted: Fit) -> list[tuple[FloatArray, FloatArray]]:
     """Return the place (n,) where the model has the axis, and what is left there, by record."""
     answers = evidence.response(fitted.effects)

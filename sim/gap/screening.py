@@ -27,6 +27,7 @@ _AMOUNTS = (  # what parameters begin with in which an effect is linear, of eith
     "bow",
     "s_shape",
     "cubic",
+    "hardening",
 )
 
 

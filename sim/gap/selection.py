@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+import numpy as np
 from joblib import Parallel, delayed
 
 from rotemina.sim.gap.baseline import is_own
@@ -24,6 +25,9 @@ from rotemina.sim.robot.model import AxisEffect
 
 MOST_CAUSES = 3
 LEAST_SHARE = 0.03  # of the gap's power, that a cause must close
+_NARROW = {
+    "bouc_wen": 1.3
+}  # times a score, of what hardly holds beyond the swings it was fitted to
 _SENSORS_OWN = {"sensor_gain"}  # what a gain of the axis does as well: a rival, no cause beside it
 _BENT_LOOP = {"hysteresis", "static_nonlinearity"}
 _BENT_SHARE = 0.1  # the same for what may be but the asymmetry of a real loop
@@ -230,11 +234,19 @@ def _chosen(screened: Sequence[Screened], most: int) -> list[AxisEffect]:
 
 
 def _unique(found: Sequence[Explanation]) -> list[Explanation]:
-    """Return the best of each set of effects, best first."""
+    """Return the best of each set of effects, best first.
+
+    Of two formulations that do about as well, the one with the better chances elsewhere.
+    """
     best: dict[tuple[tuple[str, str | None], ...], Explanation] = {}
-    for one in sorted(found, key=lambda one: one.score):
+    for one in sorted(found, key=_merit):
         best.setdefault(one.ids, one)
-    return list(best.values())
+    return sorted(best.values(), key=lambda one: one.score)
+
+
+def _merit(one: Explanation) -> float:
+    handicap = [_NARROW.get(cause.formulation or "", 1.0) for cause in one.causes]
+    return one.score * float(np.prod(handicap))
 
 
 def _simplified(evidence: Evidence, bare: Explanation, best: Explanation) -> Explanation:

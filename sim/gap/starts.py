@@ -116,7 +116,8 @@ def _quanta(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dic
     gain = attached.facts.gain if inputs else 1.0
     origin = attached.facts.low if attached.effect.id == "quantization" else 0.0
     yield {"step": attached.values["step"]}
-    within = max(low * gain, 1e-12), high * gain
+    finest = min(o.floor[tap] for o in evidence.observations for tap in o.floor if tap is not Tap.U)
+    within = max(low * gain, finest), high * gain
     seen = likeliest_grid(evidence, fitted, attached.asked, within, origin, gain)
     if seen is not None:
         yield _clipped(attached, **seen)

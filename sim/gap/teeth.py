@@ -1,31 +1,39 @@
 """Where the steps of a coarse converter lie: how wide they are, and where one begins.
 
-From one end of a travel to the other there may be thousands. No fit finds them downhill, but what
-they leave over position is a sawtooth: its line in the spectrum tells the width well enough for
-the record with the fewest teeth, that record tells it well enough for the next one, and so on.
+From one end of a travel to the other there may be thousands. No fit finds them downhill, but over
+the command what they leave, seen from the input, is a sawtooth: its line in the spectrum tells the
+width well enough for one record, that record tells it well enough for the next one, and so on.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import Fit
-from rotemina.sim.gap.lines import strongest_periods
+from rotemina.sim.gap.inverse import at_input
+from rotemina.sim.gap.lines import line_over
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
 _SHIFTS = 12
-_WIDTHS = 5  # on the first record
-_OFF = 0.25  # of a tooth, that the line may be off at the ends of a record
+_OFF = 0.5  # of a tooth, that a width may be off at the ends of a record
 _FINE = 12  # parts of a tooth, to which the next record is matched
+_MOST = 600  # widths that are tried on a further record
 _PARTS = (0.04, 0.02, 0.008, 0.003, 0.001)  # of a tooth, by which a grid is moved at last
-_MOST = 120  # widths that are tried on a further record
-_PROMISES = 0.15  # of what is left of a record, that a sawtooth takes away at once
-_CLOSES = 0.25  # the same, filtered by the mechanics
-_PERIODS = 2  # lines that are looked at
+_PROMISES = 0.08  # of what is left of a record, that a sawtooth takes away
+_CANDIDATES = 3  # lines that are looked at
+
+
+class Seen(NamedTuple):
+    """What is left (n,) of a record over a place (n,), from which teeth are counted, m or rad."""
+
+    record: int
+    place: FloatArray
+    left: FloatArray
 
 
 def likeliest_grid(
@@ -47,107 +55,147 @@ def likeliest_grid(
     gain : float
         Of the step's own unit to m or rad.
     """
-    search = _Search(evidence, fitted, candidate, bounds, origin, gain)
-    for period in list(dict.fromkeys(strongest_periods(evidence, fitted, bounds)))[:_PERIODS]:
-        for record in search.clearest(period):
-            found = search.matched(record, period)
-            if found is not None:
-                return found
-    return None
+    seen = _seen(evidence, fitted, candidate, origin)
+    found: tuple[float, Grid] | None = None
+    for line in _lines(seen, bounds):
+        share, grid = _matched(seen, line)
+        if found is None or share > found[0]:
+            found = share, grid
+    if found is None or found[0] < _PROMISES:
+        return None
+    grid = _Polish(evidence, fitted, candidate, bounds, gain).polished(found[1], seen)
+    return {"step": grid.width / gain, "shift": grid.shift}
 
 
-class _Search:
-    def __init__(
-        self,
-        evidence: Evidence,
-        fitted: Fit,
-        candidate: AxisEffect,
-        bounds: tuple[float, float],
-        origin: float,
-        gain: float,
-    ) -> None:
-        self._evidence, self._fitted, self._candidate = evidence, fitted, candidate
-        self._bounds, self._gain = bounds, gain
-        self._places = [
-            o.record.signal(evidence.axis, Tap.CMD) - origin for o in evidence.observations
+class Grid(NamedTuple):
+    """Teeth: their width, m or rad, and by which part of one they are shifted."""
+
+    width: float
+    shift: float
+
+    def moved(self, centre: float, reach: float, far: float, here: float) -> "Grid":
+        """Return a grid moved by parts of a tooth: ``here`` at a centre, ``far`` further away."""
+        width = self.width + far * self.width**2 / reach
+        phase = centre / self.width - self.shift + here
+        shift = centre / width - phase
+        return Grid(width, shift - round(shift))
+
+    def taken(self, one: Seen) -> float:
+        """Return how much of what is left it takes away, as a sum of squares."""
+        turns = one.place / self.width - self.shift
+        teeth = np.rint(turns) - turns
+        teeth = teeth - teeth.mean()
+        return float(max(teeth @ one.left, 0.0) ** 2 / (teeth @ teeth + 1e-30))
+
+
+def _seen(evidence: Evidence, fitted: Fit, candidate: AxisEffect, origin: float) -> list[Seen]:
+    """Return what is left where the converter is: at the command, or at the sensor."""
+    if candidate.id == "quantization":
+        places = [o.record.signal(evidence.axis, Tap.CMD) - origin for o in evidence.observations]
+        return [
+            Seen(part.record, places[part.record], left)
+            for part, left in at_input(evidence, fitted)
         ]
+    answers = evidence.response(fitted.effects)
+    return [
+        Seen(part.record, answers[part.record][part.tap] - origin, fitted.residual[part.rows])
+        for part in evidence.parts
+        if part.tap is Tap.MEAS
+    ]
 
-    def clearest(self, period: float) -> list[int]:
-        """Return the records of which a sawtooth of this width takes a share, the most first."""
-        shares: dict[int, float] = {}
-        for part in self._evidence.parts:
-            gap = self._fitted.residual[part.rows]
-            power = float(gap @ gap)
-            if part.tap is not Tap.U and power > 0.0:
-                place = self._places[part.record]
-                taken = max(_likeness(place, gap, period, k / _SHIFTS) for k in range(_SHIFTS))
-                shares[part.record] = max(shares.get(part.record, 0.0), taken / power)
-        clear = [number for number, share in shares.items() if share >= _PROMISES]
-        return sorted(clear, key=lambda number: -shares[number])
 
-    def matched(self, record: int, period: float) -> dict[str, float] | None:
-        """Return the grid that suits a record, and then one record more at a time."""
-        centre = float(self._places[record].mean())
-        teeth = max(float(np.ptp(self._places[record])) / period, 1.0)
-        widths = period * (1.0 + np.linspace(-_OFF, _OFF, _WIDTHS) / teeth)
-        tried = [(width, k / _SHIFTS - 0.5) for width in widths for k in range(_SHIFTS)]
-        own = [record]
-        width, shift = min(tried, key=lambda one: self._left(one, own))
-        rows = [part.rows for part in self._evidence.parts if part.record == record]
-        before = sum(float(np.sum(self._fitted.residual[part] ** 2)) for part in rows)
-        if self._left((width, shift), own) > (1.0 - _CLOSES) * before:
-            return None
-        reached = float(np.abs(self._places[record] - centre).max())
-        others = [number for number in range(len(self._places)) if number != record]
-        for other in sorted(others, key=lambda number: self._away(number, centre)):
-            own.append(other)
-            away = self._away(other, centre)
-            if away > reached:
-                phase = centre / width - shift
-                count = int(min(2.0 * _OFF * away / reached * _FINE, _MOST)) + 1
-                widths = width + np.linspace(-_OFF, _OFF, count) * width**2 / reached
-                grids = [(float(one), _wrapped(centre / one - phase)) for one in widths]
-                width, shift = min(grids, key=lambda one: self._left(one, own))
-                reached = away
-        width, shift = self._polished(width, shift, centre, reached, own)
-        return {"step": width / self._gain, "shift": shift}
+def _lines(seen: Sequence[Seen], bounds: tuple[float, float]) -> list[tuple[int, float]]:
+    """Return parts and periods of the lines that promise most, one of each record at most."""
+    found: dict[int, tuple[float, int, float]] = {}
+    for number, one in enumerate(seen):
+        period = line_over(one.place, one.left, bounds)
+        if period is not None:
+            share = max(Grid(period, k / _SHIFTS).taken(one) for k in range(_SHIFTS))
+            promise = share / (float(one.left @ one.left) + 1e-30)
+            nothing = (0.0, number, period)
+            found[one.record] = max(found.get(one.record, nothing), (promise, number, period))
+    best = sorted(found.values(), reverse=True)[:_CANDIDATES]
+    return [(number, period) for _, number, period in best]
 
-    def _polished(
-        self, width: float, shift: float, centre: float, reached: float, records: Sequence[int]
-    ) -> tuple[float, float]:
-        """Return a grid moved by ever smaller parts of a tooth, at ``centre`` and far from it."""
+
+def _matched(seen: Sequence[Seen], line: tuple[int, float]) -> tuple[float, Grid]:
+    """Return the grid that suits one part, and then one part more at a time.
+
+    And the share of what is left that it takes away, on the average of the records, each by the
+    tap that shows teeth best.
+    """
+    number, period = line
+    first = seen[number]
+    centre = float(first.place.mean())
+    reached = max(float(np.abs(first.place - centre).max()), period)
+    own = [first]
+    tried = [
+        Grid(period, k / _SHIFTS).moved(centre, reached, far, 0.0)
+        for far in np.linspace(-_OFF, _OFF, 2 * _FINE + 1)
+        for k in range(_SHIFTS)
+    ]
+    grid = max(tried, key=lambda one: _shares(one, own).sum())
+    others = [one for k, one in enumerate(seen) if k != number]
+    for other in sorted(others, key=lambda one: _away(one, centre)):
+        own.append(other)
+        away = _away(other, centre)
+        if away > reached:
+            count = int(min(2.0 * _OFF * away / reached * _FINE, _MOST)) + 1
+            tried = [
+                grid.moved(centre, reached, far, 0.0) for far in np.linspace(-_OFF, _OFF, count)
+            ]
+            grid = max(tried, key=lambda one: _shares(one, own).sum())
+            reached = away
+    for part in _PARTS:
+        tried = [
+            grid.moved(centre, reached, far, here)
+            for far in (-part, 0.0, part)
+            for here in (-part, 0.0, part)
+        ]
+        grid = max(tried, key=lambda one: _shares(one, own).sum())
+    best: dict[int, float] = {}
+    for one, share in zip(seen, _shares(grid, seen), strict=True):
+        best[one.record] = max(best.get(one.record, 0.0), float(share))
+    return float(np.mean(list(best.values()))), grid
+
+
+def _shares(grid: Grid, seen: Sequence[Seen]) -> FloatArray:
+    return np.array([grid.taken(one) / (float(one.left @ one.left) + 1e-30) for one in seen])
+
+
+def _away(one: Seen, centre: float) -> float:
+    return float(np.abs(one.place - centre).max())
+
+
+@dataclass(frozen=True, eq=False)
+class _Polish:
+    """The last moves of a grid, by simulation."""
+
+    evidence: Evidence
+    fitted: Fit
+    candidate: AxisEffect
+    bounds: tuple[float, float]
+    gain: float
+
+    def polished(self, grid: Grid, seen: Sequence[Seen]) -> Grid:
+        """Return a grid moved by ever smaller parts of a tooth, at the centre and far from it."""
+        places = np.concatenate([one.place for one in seen])
+        centre = float(places.mean())
+        reach = max(float(np.abs(places - centre).max()), grid.width)
         for part in _PARTS:
-            tried = []
-            for there in (-part, 0.0, part):
-                moved = width + there * width**2 / reached
-                phase = centre / width - shift
-                tried += [
-                    (moved, _wrapped(centre / moved - phase - here)) for here in (-part, 0.0, part)
-                ]
-            width, shift = min(tried, key=lambda one: self._left(one, records))
-        return width, shift
+            tried = [
+                grid.moved(centre, reach, far, here)
+                for far in (-part, 0.0, part)
+                for here in (-part, 0.0, part)
+            ]
+            grid = min(tried, key=self._left)
+        return grid
 
-    def _away(self, record: int, centre: float) -> float:
-        return float(np.abs(self._places[record] - centre).max())
-
-    def _left(self, grid: tuple[float, float], records: Sequence[int]) -> float:
-        """Return the sum of squares that a grid, its width and shift, leaves of some records."""
-        width, shift = grid
-        if not self._bounds[0] <= width <= self._bounds[1]:
+    def _left(self, grid: Grid) -> float:
+        """Return the sum of squares that a grid leaves."""
+        if not self.bounds[0] <= grid.width <= self.bounds[1]:
             return np.inf
-        numbers: Mapping[str, float] = {"step": width / self._gain, "shift": shift}
-        asked = replace(self._candidate, parameters={**self._candidate.parameters, **numbers})
-        left = self._evidence.residual([*self._fitted.effects, asked], records)
+        numbers: Mapping[str, float] = {"step": grid.width / self.gain, "shift": grid.shift}
+        asked = replace(self.candidate, parameters={**self.candidate.parameters, **numbers})
+        left = self.evidence.residual([*self.fitted.effects, asked])
         return float(left @ left)
-
-
-def _wrapped(shift: float) -> float:
-    return shift - round(shift)
-
-
-def _likeness(place: FloatArray, gap: FloatArray, period: float, shift: float) -> float:
-    """Return how much of a gap (n,) a sawtooth over place (n,) takes away."""
-    turns = place / period - shift
-    teeth = np.rint(turns) - turns
-    teeth = teeth - teeth.mean()
-    return float(max(teeth @ gap, 0.0) ** 2 / (teeth @ teeth + 1e-30))
