@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from rotemina.sim.gap.baseline import GAIN, OWN, baseline
+from rotemina.sim.gap.baseline import GAIN, OWN, RESONANCE, baseline
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import fit
 from rotemina.sim.gap.models import Explanation, explanation
@@ -12,9 +12,12 @@ from rotemina.sim.robot.model import AxisEffect
 
 _REFITTED = 5
 _NEAR = 4.0  # times the best score
-_BRINGS_ALONG = {  # what the shape of a loop, or of a stiffening spring, cannot be told from
+_BRINGS_ALONG = {  # what a loop, a curve, a stiffening spring, or a mass on a spring moves as well
     "hysteresis": (GAIN,),
+    "static_nonlinearity": (GAIN,),
+    "sensor_nonlinearity": (GAIN,),
     "stiffness_nonlinearity": (GAIN,),
+    "flexible_mode": (RESONANCE,),
 }
 
 

@@ -3,6 +3,8 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from rotemina.sim.gap.attribution import attributed
 from rotemina.sim.gap.baseline import OWN
 from rotemina.sim.gap.contest import Ranking, contested
@@ -20,6 +22,7 @@ from rotemina.sim.robot.model import AxisEffect
 
 _GAP = 1.5  # mean square over the floor from which there is something to explain
 _TAILS = 0.1  # of a noisy sensor's power, that outliers have beyond the tails of its noise
+_STILL_OUT = 0.5  # of their power, that outliers keep beside an explanation
 _MUCH_BETTER = 0.7  # of a score: what else would correct the model is taken along
 _NOT_NOISE = 0.6  # of a raised floor's power: a fit that leaves less shows that it was no noise
 
@@ -69,6 +72,7 @@ def examine(whole: Evidence, told: Told, *, jobs: int = 1) -> Examination:
             ]
         )
         selection, best = _explained(evidence, told, jobs)
+    aside = tuple(one for one in aside if not _was_explained(whole, evidence, best, one))
     told("deciding", None)
     drift = wander(evidence, best.fit.residual)
     disturbances = _counting(whole, evidence, best, [*aside, *([drift] if drift else [])])
@@ -90,6 +94,24 @@ def examine(whole: Evidence, told: Told, *, jobs: int = 1) -> Examination:
         ranked,
         probed(evidence, best.held_out),
     )
+
+
+def _was_explained(
+    whole: Evidence, evidence: Evidence, best: Explanation, one: Disturbance
+) -> bool:
+    """Tell whether readings that stood out do so no more once the gap is explained.
+
+    What rings, or ends at a limit, may look like spikes and dropouts to a model that lacks it.
+    """
+    if one.effect != "sensor_outliers":
+        return False
+    left, power, rows = whole.residual(best.fit.effects), 0.0, 0
+    for part in evidence.parts:
+        kept = evidence.observations[part.record].kept.get(part.tap)
+        if part.tap is one.tap:
+            rows += part.rows.stop - part.rows.start
+            power += 0.0 if kept is None else float(np.sum(left[part.rows][~kept] ** 2))
+    return power / rows < _STILL_OUT * one.power
 
 
 def _fullest(selection: Selection, best: Explanation) -> Explanation:

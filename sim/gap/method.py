@@ -32,6 +32,7 @@ from rotemina.sim.robot.model import AxisEffect, Robot
 
 _LEAST_LEFT = 0.06  # of an axis' gap, that other axes' causes must leave for it to have its own
 _SHAKES = 10.0  # times the power of a gap, that a coupled axis' one has to be the reason of it
+_LEAST_BEYOND_THE_SENSOR = 2.5  # floors of a finer reference, that a sensor does not see
 _LEAST_GAP = 1.45  # floors below which a gap is no matter: an encoder at rest may be off so far
 
 
@@ -182,8 +183,12 @@ def _excess(one: AxisDiagnosis) -> float:
 
 
 def _has_gap(places: Sequence[Place]) -> bool:
+    """Tell whether a gap matters: beside the sensor's, one at a finer reference must be clear."""
+    by_sensor = any(place.tap is Tap.MEAS for place in places)
+    least = {Tap.REF: _LEAST_BEYOND_THE_SENSOR} if by_sensor else {}
     return any(
-        place.significant and place.gap_rms > _LEAST_GAP * place.noise_floor for place in places
+        place.significant and place.gap_rms > least.get(place.tap, _LEAST_GAP) * place.noise_floor
+        for place in places
     )
 
 

@@ -143,21 +143,25 @@ def _parameters(
     fitted = best.fit
     number = next(n for n, one in enumerate(fitted.effects) if one is asked or one == asked)
     attached = Attached.of(evidence.robot, asked)
+    if attached.formulation.by_spectra:
+        return ()  # too many to be read; the corrected model holds them
     deviation = fitted.deviation(block_rows(evidence))
+    spreads = {
+        free.name: (free.size, x, spread)
+        for free, x, spread in zip(fitted.free, fitted.x, deviation, strict=True)
+        if free.effect == number
+    }
     told = []
-    for free, x, spread in zip(fitted.free, fitted.x, deviation, strict=True):
-        if free.effect != number:
-            continue
-        parameter = attached.formulation.parameter(free.name)
-        assert parameter is not None
-        low, high = (float((x + sign * _SURE * spread) * free.size) for sign in (-1.0, 1.0))
+    for parameter in attached.formulation.parameters:
+        size, x, spread = spreads.get(parameter.name, (0.0, 0.0, np.inf))
+        low, high = (float((x + sign * _SURE * spread) * size) for sign in (-1.0, 1.0))
         told.append(
             FittedParameter(
-                name=free.name,
-                value=asked.parameters[free.name],
+                name=parameter.name,
+                value=attached.values[parameter.name],
                 unit=parameter.unit_on(attached.facts),
                 interval=(low, high) if np.isfinite(spread) else None,
-                at_bound=fitted.at_bound.get((number, free.name)),
+                at_bound=fitted.at_bound.get((number, parameter.name)),
             )
         )
     return tuple(told)
