@@ -32,10 +32,12 @@ def floors(robot: Robot, record: Record, axis: str) -> Mapping[Tap, float]:
     for tap in _TAPS:
         if not record.has(axis, tap) or (tap is Tap.U and not _answers_u(robot, axis, record)):
             continue
-        floor = noise_floor(robot, record, axis, tap).rms
+        floor, source = noise_floor(robot, record, axis, tap)
         signal = record.signal(axis, tap)
-        if floor is None and (tap is not Tap.U or record.closed_loop):
-            floor = unforetold(signal)
+        if source != "declared" and (tap is not Tap.U or record.closed_loop):
+            # A held axis may shake, or be on its way: that is no noise of its sensor.
+            known = [level for level in (floor, unforetold(signal)) if level is not None]
+            floor = min(known, default=None)
         if floor is None:
             continue
         if tap is not Tap.MEAS:  # that a sensor reads in coarser steps than declared is an effect

@@ -116,8 +116,8 @@ def _quanta(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dic
     gain = attached.facts.gain if inputs else 1.0
     origin = attached.facts.low if attached.effect.id == "quantization" else 0.0
     yield {"step": attached.values["step"]}
-    finest = min(o.floor[tap] for o in evidence.observations for tap in o.floor if tap is not Tap.U)
-    within = max(low * gain, finest), high * gain
+    floors = [o.floor[tap] for o in evidence.observations for tap in o.floor if tap is not Tap.U]
+    within = max(low * gain, min(floors, default=1e-12)), high * gain
     seen = likeliest_grid(evidence, fitted, attached.asked, within, origin, gain)
     if seen is not None:
         yield _clipped(attached, **seen)
@@ -190,7 +190,21 @@ def _centres(_evidence: Evidence, _fitted: Fit, attached: Attached) -> Iterator[
 
 
 def _margins(evidence: Evidence, _fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
+    """Give ends beyond which an amplifier does not go: a little of the way that is asked for."""
     facts = attached.facts
+    seen = [one.real[Tap.U] for one in evidence.observations if Tap.U in one.real]
+    if seen:
+        # What saturates goes no further than it was seen to go.
+        ends = min(float(u.min()) for u in seen), max(float(u.max()) for u in seen)
+        yield _clipped(
+            attached,
+            low_margin=ends[0] - facts.input_low,
+            high_margin=facts.input_high - ends[1],
+        )
+    if facts.kind == "force":  # whose commands ask for no voltage
+        if not seen:
+            yield {}
+        return
     gain = facts.gain if facts.kind == "piezo" else 1.0
     least, most = (end / gain for end in evidence.reach)
     low, high = least - facts.input_low, facts.input_high - most

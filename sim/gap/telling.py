@@ -153,7 +153,7 @@ def _parameters(
     }
     told = []
     for parameter in attached.formulation.parameters:
-        size, x, spread = spreads.get(parameter.name, (0.0, 0.0, np.inf))
+        size, x, spread = spreads.get(parameter.name, (1.0, 0.0, np.inf))
         low, high = (float((x + sign * _SURE * spread) * size) for sign in (-1.0, 1.0))
         told.append(
             FittedParameter(

@@ -5,6 +5,8 @@ from collections.abc import Sequence
 from rotemina.sim.gap.diagnosis import Verdict
 
 _MOST_LEFT = 0.3  # of the gap's power, that an explanation may leave
+_LEFT_OF_MUCH = 0.13  # the same where that is far above the floor
+_MUCH = 25.0  # mean square over the floor that is far above it
 _MOST_RIVALS = 4  # from which a record cannot tell
 
 
@@ -19,7 +21,7 @@ def decide(raw: float, left: float, ambiguous: Sequence[Sequence[str]]) -> Verdi
     ambiguous : sequence of sequence of str
         For each cause, the effects that cannot be told from it.
     """
-    if closed(raw, left) < 1.0 - _MOST_LEFT:
+    if closed(raw, left) < 1.0 - (_LEFT_OF_MUCH if left > _MUCH else _MOST_LEFT):
         return Verdict.UNKNOWN
     if any(len(others) >= _MOST_RIVALS for others in ambiguous):
         return Verdict.INSUFFICIENT
