@@ -97,7 +97,7 @@ def made_diagnosis():
         Verdict,
     )
     from rotemina.sim.gap.regimes import Regime
-    from rotemina.sim.gap.where import Place
+    from rotemina.sim.gap.where import Place, Portion
     from rotemina.sim.records.record import Tap
     from rotemina.sim.robot.file import load_robot
     from rotemina.sim.robot.model import AxisEffect
@@ -111,9 +111,11 @@ def made_diagnosis():
             noise_floor=floor,
             excess=excess,
             excess_interval=(excess - spread, excess + spread),
-            worst_band_hz=(0.5, 4.0),
-            worst_regime=Regime.REVERSAL,
-            by_regime={Regime.REVERSAL: 2.0 * excess, Regime.REST: 0.5 * excess},
+            by_regime={
+                Regime.REVERSAL: Portion(0.8, (0.7, 0.9), 2.0 * excess),
+                Regime.REST: Portion(0.2, (0.1, 0.3), 0.5 * excess),
+            },
+            by_band={(0.5, 4.0): Portion(0.9, (0.8, 1.0)), (4.0, 10.0): Portion(0.1, (0.0, 0.2))},
         )
 
     width = FittedParameter("width", 1.1e-4, "rad", (1.0e-4, 1.2e-4))

@@ -1,45 +1,59 @@
-"""In which frequencies a gap lies."""
+"""In which frequencies a gap lies: a signal split into bands that add up to it."""
 
-from typing import NamedTuple
+from collections.abc import Sequence
 
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.records.record import Record
 
-_PER_DECADE = 3
-_SEGMENTS = 4  # at least, of a record, for its spectrum
+_HALF_DECADES = (1.0, 3.0)  # bands begin at these parts of each decade
 _EVEN = 1e-3  # relative spread of sample intervals up to which a record counts as evenly sampled
+_LEAST_ROWS = 64
 
 
-class Spectrum(NamedTuple):
-    """Power (b,) of a gap above its floor, in floors squared, in bands ``edges_hz`` (b + 1,)."""
-
-    edges_hz: FloatArray
-    power: FloatArray
-
-    @property
-    def worst_hz(self) -> tuple[float, float]:
-        """The band that holds most."""
-        band = int(np.argmax(self.power))
-        return float(self.edges_hz[band]), float(self.edges_hz[band + 1])
+def band_edges(records: Sequence[Record]) -> FloatArray:
+    """Return edges at 1, 3, 10, … Hz that hold every record's lowest and highest frequency."""
+    lowest = min(1.0 / one.duration_s for one in records)
+    highest = max(0.5 * (len(one.time_s) - 1) / one.duration_s for one in records)
+    decades = range(int(np.floor(np.log10(lowest))), int(np.ceil(np.log10(highest))) + 1)
+    steps = np.array([part * 10.0**decade for decade in decades for part in _HALF_DECADES])
+    first = max(int(np.searchsorted(steps, lowest, side="right")) - 1, 0)
+    last = int(np.searchsorted(steps, highest, side="left"))
+    return steps[first : last + 1]
 
 
-def spectrum(time_s: FloatArray, gap: FloatArray) -> Spectrum | None:
-    """Return the spectrum of a gap (n,) over its floor; None where it cannot be told.
+def bands(time_s: FloatArray, signal: FloatArray, edges_hz: FloatArray) -> FloatArray:
+    """Split a signal (n,) into bands (b, n) that add up to it, by its cosine transform.
 
-    The floor is taken as white.
+    The transform mirrors the signal at its ends, so that a drift does not leak into every band.
+    What lies below the first edge or above the last counts to the band beside it.
     """
-    from scipy.signal import welch  # takes its time to import
+    from scipy.fft import dct, idct  # takes its time to import
 
-    intervals = np.diff(time_s)
-    if len(intervals) < 8 * _SEGMENTS or np.ptp(intervals) > _EVEN * float(intervals.mean()):
-        return None
-    rate_hz = 1.0 / float(intervals.mean())
-    frequency_hz, density = welch(gap, rate_hz, nperseg=2 * len(gap) // (_SEGMENTS + 1))
-    lowest, highest = float(frequency_hz[1]), float(frequency_hz[-1])
-    bands = max(int(np.ceil(_PER_DECADE * np.log10(highest / lowest))), 1)
-    edges_hz = np.geomspace(lowest, highest, bands + 1)
-    above = (density - 2.0 / rate_hz) * (frequency_hz[1] - frequency_hz[0])
-    place = np.clip(np.searchsorted(edges_hz, frequency_hz, side="right") - 1, 0, bands - 1)
-    power = np.bincount(place[1:], above[1:], bands)
-    return Spectrum(edges_hz, np.maximum(power, 0.0))
+    place = _band_of_lines(time_s, edges_hz)
+    lines = dct(signal, norm="ortho")
+    split = np.where(place == np.arange(len(edges_hz) - 1)[:, None], lines, 0.0)
+    return np.asarray(idct(split, norm="ortho", axis=1))
+
+
+def white_shares(time_s: FloatArray, edges_hz: FloatArray) -> FloatArray:
+    """Return the share (b,) of white noise that lies in each band."""
+    place = _band_of_lines(time_s, edges_hz)
+    return np.bincount(place, minlength=len(edges_hz) - 1) / len(time_s)
+
+
+def is_even(record: Record) -> bool:
+    """Tell whether a record is sampled evenly, and long enough, to be split into bands."""
+    intervals = np.diff(record.time_s)
+    if len(intervals) < _LEAST_ROWS:
+        return False
+    return float(np.ptp(intervals)) <= _EVEN * float(intervals.mean())
+
+
+def _band_of_lines(time_s: FloatArray, edges_hz: FloatArray) -> np.ndarray:
+    """Return the band (n,) of each line of the cosine transform of n samples."""
+    count = len(time_s)
+    rate_hz = (count - 1) / float(time_s[-1] - time_s[0])
+    frequency_hz = np.arange(count) * rate_hz / (2.0 * count)
+    return np.searchsorted(edges_hz[1:-1], frequency_hz, side="right")

@@ -21,7 +21,7 @@ from rotemina.sim.gap.diagnosis import (
     Verdict,
 )
 from rotemina.sim.gap.report.quantities import named_unit
-from rotemina.sim.gap.where import Place
+from rotemina.sim.gap.where import Place, Portion
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.robot.writing import robot_text
@@ -121,10 +121,20 @@ def _where(places: Sequence[Place]) -> list[Json]:
             "worst_regime": str(place.worst_regime) if place.worst_regime is not None else None,
             "excess": _number(place.excess),
             "excess_interval": _interval(place.excess_interval),
-            "by_regime": {str(regime): _number(x) for regime, x in place.by_regime.items()},
+            "by_regime": {
+                str(regime): {"excess": _number(one.excess), **_portion(one)}
+                for regime, one in place.by_regime.items()
+            },
+            "by_band": [
+                {"band_hz": _interval(band), **_portion(one)} for band, one in place.by_band.items()
+            ],
         }
         for place, (share, interval) in zip(places, shares(places), strict=True)
     ]
+
+
+def _portion(one: Portion) -> Json:
+    return {"share": _number(one.share), "share_interval": _interval(one.share_interval)}
 
 
 def _cause(cause: Cause, robot: Robot) -> Json:

@@ -1,18 +1,23 @@
-"""What an axis was doing when: the regimes over which a gap is split."""
+"""What an axis was doing when, and where it was: the regimes over which a gap is split."""
 
+from collections.abc import Sequence
+from dataclasses import dataclass
 from enum import StrEnum
+from typing import Self
 
 import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray
+from rotemina.sim.robot.model import Axis, StepperAxis
 
 _AFTER_REVERSAL_S = 0.05
 _SETTLING_S = 0.1  # after a step, before an axis counts as resting
 _FAST = 0.5  # of the greatest speed of a record
+_LARGE = 0.5  # of the greatest swing of all records
 
 
 class Regime(StrEnum):
-    """What an axis or its neighbours were doing."""
+    """What an axis or its neighbours were doing, how far it swung, and where it was."""
 
     REST = "rest"
     SETTLING = "settling"
@@ -22,14 +27,57 @@ class Regime(StrEnum):
     FAST = "fast"
     SLOW = "slow"
     OTHER_AXIS = "other axis moving"
+    LARGE_SWING = "large swing"
+    SMALL_SWING = "small swing"
+    LOW_END = "low end of the way"
+    MIDDLE = "middle of the way"
+    HIGH_END = "high end of the way"
+    FIRST_QUARTER = "first quarter of a turn"
+    SECOND_QUARTER = "second quarter of a turn"
+    THIRD_QUARTER = "third quarter of a turn"
+    LAST_QUARTER = "last quarter of a turn"
+
+
+DOING = tuple(Regime)[: tuple(Regime).index(Regime.LARGE_SWING)]
+_ENDS = (Regime.LOW_END, Regime.MIDDLE, Regime.HIGH_END)
+_QUARTERS = (
+    Regime.FIRST_QUARTER,
+    Regime.SECOND_QUARTER,
+    Regime.THIRD_QUARTER,
+    Regime.LAST_QUARTER,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Ways:
+    """Where an axis went in all records: from where to where, its greatest swing, m or rad.
+
+    ``turn`` is what a turn of its screw moves it by; None where it has none.
+    """
+
+    low: float
+    high: float
+    swing: float
+    turn: float | None = None
+
+    @classmethod
+    def of(cls, commands: Sequence[FloatArray], axis: Axis | None = None) -> Self:
+        """Gather the ways of an axis from its commands, each (n,)."""
+        return cls(
+            min(float(one.min()) for one in commands),
+            max(float(one.max()) for one in commands),
+            max(float(_swings(one).max(initial=0.0)) for one in commands),
+            axis.pitch if isinstance(axis, StepperAxis) else None,
+        )
 
 
 def regimes(
-    time_s: FloatArray, command: FloatArray, others_move: BoolArray
+    time_s: FloatArray, command: FloatArray, others_move: BoolArray, ways: Ways
 ) -> dict[Regime, BoolArray]:
     """Return the rows (n,) of each regime; forward and fast overlap, rest and reversal do not.
 
-    ``others_move`` (n,) tells where another axis was under way.
+    ``others_move`` (n,) tells where another axis was under way. Swings are counted under way,
+    ends of the way and quarters of a turn at rest as well.
     """
     speed = np.gradient(command, time_s) if len(time_s) > 1 else np.zeros(len(time_s))
     moving = np.diff(command, prepend=command[0]) != 0.0
@@ -52,7 +100,37 @@ def regimes(
         Regime.FAST: under_way & fast,
         Regime.SLOW: under_way & ~fast,
         Regime.OTHER_AXIS: rest & others_move,
+        **_by_swing(command, ways, ~rest),
+        **_by_place(command, ways),
     }
+
+
+def _by_swing(command: FloatArray, ways: Ways, under_way: BoolArray) -> dict[Regime, BoolArray]:
+    large = _swings(command) >= _LARGE * ways.swing
+    return {Regime.LARGE_SWING: under_way & large, Regime.SMALL_SWING: under_way & ~large}
+
+
+def _by_place(command: FloatArray, ways: Ways) -> dict[Regime, BoolArray]:
+    way = max(ways.high - ways.low, 1e-300)
+    third = np.minimum(3.0 * (command - ways.low) / way, 2.0).astype(np.int64)
+    found = {regime: third == number for number, regime in enumerate(_ENDS)}
+    if ways.turn is not None and way >= ways.turn:
+        quarter = np.floor(4.0 * np.mod(command / ways.turn, 1.0)).astype(np.int64)
+        found |= {regime: quarter == number for number, regime in enumerate(_QUARTERS)}
+    else:
+        found |= {regime: np.zeros(len(command), dtype=np.bool_) for regime in _QUARTERS}
+    return found
+
+
+def _swings(command: FloatArray) -> FloatArray:
+    """Return for each row (n,) how far the axis goes from one turning point to the next."""
+    steps = np.diff(command)
+    going = np.flatnonzero(steps)
+    turns = going[1:][np.diff(np.sign(steps[going])) != 0.0]
+    ends = np.concatenate([[0], turns, [len(command) - 1]]).astype(np.int64)
+    rows = np.diff(ends)
+    rows[-1] += 1
+    return np.asarray(np.repeat(np.abs(np.diff(command[ends])), rows))
 
 
 def _since(time_s: FloatArray, happened: BoolArray) -> FloatArray:

@@ -2,18 +2,31 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.effects.formulation import Stage
-from rotemina.sim.gap.bands import Spectrum, spectrum
+from rotemina.sim.gap.bands import band_edges, bands, is_even, white_shares
 from rotemina.sim.gap.blocks import Blocks, block_numbers, drawn_means, summed
 from rotemina.sim.gap.evidence import Evidence, Observation
-from rotemina.sim.gap.regimes import Regime, regimes
+from rotemina.sim.gap.regimes import DOING, Regime, Ways, regimes
 from rotemina.sim.records.record import Record, Tap
 
 _LIKELY = 0.95  # of intervals
+
+
+class Portion(NamedTuple):
+    """What lies in a band, or in a regime: its share of the gap's power above the floor.
+
+    ``excess`` is its mean square over the floor's, less one; None of a band.
+    """
+
+    share: float
+    share_interval: tuple[float, float]
+    excess: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,12 +43,10 @@ class Place:
         ``(gap² − floor²) / floor²``.
     excess_interval : tuple of float
         Its 95 % interval.
-    worst_band_hz : tuple of float, optional
-        Where most of it lies; None where sampling does not allow to tell.
-    worst_regime : Regime, optional
-        Where its mean square is greatest.
-    by_regime : mapping of Regime to float
-        Mean square over the floor's, less one; regimes that do not occur are missing.
+    by_regime : mapping of Regime to Portion
+        Those that occur. They overlap: an axis that goes forward is also fast or slow.
+    by_band : mapping of (low, high), Hz, to Portion
+        Empty where no record is sampled evenly.
     """
 
     axis: str
@@ -45,9 +56,19 @@ class Place:
     noise_floor: float
     excess: float
     excess_interval: tuple[float, float]
-    worst_band_hz: tuple[float, float] | None
-    worst_regime: Regime | None
-    by_regime: Mapping[Regime, float]
+    by_regime: Mapping[Regime, Portion]
+    by_band: Mapping[tuple[float, float], Portion]
+
+    @property
+    def worst_band_hz(self) -> tuple[float, float] | None:
+        """The band that holds most; None where sampling does not allow to tell."""
+        return max(self.by_band, key=lambda band: self.by_band[band].share, default=None)
+
+    @property
+    def worst_regime(self) -> Regime | None:
+        """What the axis was doing where the mean square is greatest."""
+        doing = {regime: self.by_regime[regime] for regime in DOING if regime in self.by_regime}
+        return max(doing, key=lambda regime: doing[regime].excess or 0.0, default=None)
 
     @property
     def significant(self) -> bool:
@@ -69,42 +90,95 @@ def locate(evidence: Evidence, rng: np.random.Generator) -> tuple[Place, ...]:
             for observation, gap in zip(evidence.observations, gaps, strict=True)
             if tap in gap
         ]
-        places.append(_place(evidence.axis, tap, taps, seen, rng))
+        places.append(_place(evidence, tap, taps, seen, rng))
     return tuple(places)
 
 
 def _place(
-    axis: str,
+    evidence: Evidence,
     tap: Tap,
     taps: Sequence[Tap],
     seen: Sequence[tuple[Observation, FloatArray]],
     rng: np.random.Generator,
 ) -> Place:
-    totals, rows = [], []
-    for observation, gap in seen:
-        record = observation.record
-        numbers = block_numbers(record.time_s, record.signal(axis, Tap.CMD))
-        blocks = summed(numbers, gap[:, None] ** 2)
-        totals.append(blocks.total)
-        rows.append(blocks.rows)
-    together = Blocks(np.concatenate(totals), np.concatenate(rows))
-    mean = float(together.total.sum() / together.rows.sum())
+    axis = evidence.axis
+    even = [observation.record for observation, _ in seen if is_even(observation.record)]
+    edges_hz = band_edges(even) if even else np.zeros(1)
+    described = evidence.robot.axes[axis]
+    ways = Ways.of([one.record.signal(axis, Tap.CMD) for one, _ in seen], described)
+    parts = [_squares(observation.record, axis, gap, edges_hz, ways) for observation, gap in seen]
+    together = Blocks(
+        np.concatenate([one.total for one in parts]), np.concatenate([one.rows for one in parts])
+    )
+    mean = together.total.sum(axis=0) / together.rows.sum()
+    drawn = drawn_means(together, rng)
     tail = 50.0 * (1.0 - _LIKELY)
-    low, high = np.percentile(drawn_means(together, rng)[:, 0], [tail, 100.0 - tail])
+    low, high = np.percentile(drawn[:, 0], [tail, 100.0 - tail])
     floor = float(np.sqrt(np.mean([observation.floor[tap] ** 2 for observation, _ in seen])))
-    by_regime = _by_regime(axis, seen)
+    portions = _portions(mean, drawn)
+    regime_portions, band_portions = portions[: len(Regime)], portions[len(Regime) :]
     return Place(
         axis=axis,
         tap=tap,
         stage=_stage(tap, taps),
-        gap_rms=floor * float(np.sqrt(mean)),
+        gap_rms=floor * float(np.sqrt(mean[0])),
         noise_floor=floor,
-        excess=mean - 1.0,
+        excess=float(mean[0]) - 1.0,
         excess_interval=(float(low) - 1.0, float(high) - 1.0),
-        worst_band_hz=_worst_band(seen),
-        worst_regime=max(by_regime, key=lambda regime: by_regime[regime], default=None),
-        by_regime=by_regime,
+        by_regime={
+            regime: one
+            for regime, one in zip(Regime, regime_portions, strict=True)
+            if one.excess is not None
+        },
+        by_band={
+            (float(begin), float(end)): one._replace(excess=None)
+            for (begin, end), one in zip(pairwise(edges_hz), band_portions, strict=True)
+        },
     )
+
+
+def _squares(
+    record: Record, axis: str, gap: FloatArray, edges_hz: FloatArray, ways: Ways
+) -> Blocks:
+    """Return sums over blocks of the gap's square, whole and in regimes and bands.
+
+    After these, of what white noise of variance 1 would have there.
+    """
+    command = record.signal(axis, Tap.CMD)
+    own = regimes(record.time_s, command, others_move(record, axis), ways)
+    masks = np.stack([own[regime] for regime in Regime], axis=1)
+    split = np.zeros((len(gap), len(edges_hz) - 1))
+    noise = np.zeros(len(edges_hz) - 1)
+    if len(noise) and is_even(record):
+        split = bands(record.time_s, gap, edges_hz).T ** 2
+        noise = white_shares(record.time_s, edges_hz)
+    columns = [
+        gap[:, None] ** 2,
+        gap[:, None] ** 2 * masks,
+        split,
+        masks.astype(np.float64),
+        np.tile(noise, (len(gap), 1)),
+    ]
+    return summed(block_numbers(record.time_s, command), np.hstack(columns))
+
+
+def _portions(mean: FloatArray, drawn: FloatArray) -> list[Portion]:
+    """Return the portions of regimes and bands: means (c,) and drawn ones (draws, c)."""
+    count = (len(mean) - 1) // 2
+    above, noise = mean[1 : 1 + count], mean[1 + count :]
+    share = (above - noise) / max(float(mean[0]) - 1.0, 1e-12)
+    own = drawn[:, 1 : 1 + count] - drawn[:, 1 + count :]
+    shares = own / np.maximum(drawn[:, :1] - 1.0, 1e-12)
+    tail = 50.0 * (1.0 - _LIKELY)
+    low, high = np.clip(np.percentile(shares, [tail, 100.0 - tail], axis=0), 0.0, 1.0)
+    return [
+        Portion(
+            float(np.clip(share[k], 0.0, 1.0)),
+            (float(low[k]), float(high[k])),
+            float(above[k] / noise[k]) - 1.0 if noise[k] > 0.0 else None,
+        )
+        for k in range(count)
+    ]
 
 
 def _stage(tap: Tap, taps: Sequence[Tap]) -> Stage:
@@ -116,18 +190,6 @@ def _stage(tap: Tap, taps: Sequence[Tap]) -> Stage:
     return Stage.ACTUATOR
 
 
-def _by_regime(axis: str, seen: Sequence[tuple[Observation, FloatArray]]) -> dict[Regime, float]:
-    squares = dict.fromkeys(Regime, 0.0)
-    rows = dict.fromkeys(Regime, 0)
-    for observation, gap in seen:
-        record = observation.record
-        command = record.signal(axis, Tap.CMD)
-        for regime, own in regimes(record.time_s, command, others_move(record, axis)).items():
-            squares[regime] += float(np.sum(gap[own] ** 2))
-            rows[regime] += int(own.sum())
-    return {regime: squares[regime] / rows[regime] - 1.0 for regime in Regime if rows[regime]}
-
-
 def others_move(record: Record, axis: str) -> BoolArray:
     """Tell (n,) where another axis is under way."""
     moving = np.zeros(len(record.time_s), dtype=np.bool_)
@@ -136,14 +198,3 @@ def others_move(record: Record, axis: str) -> BoolArray:
             command = record.signal(other, Tap.CMD)
             moving |= np.diff(command, prepend=command[0]) != 0.0
     return moving
-
-
-def _worst_band(
-    seen: Sequence[tuple[Observation, FloatArray]],
-) -> tuple[float, float] | None:
-    found: list[tuple[float, Spectrum]] = []
-    for observation, gap in seen:
-        own = spectrum(observation.record.time_s, gap)
-        if own is not None:
-            found.append((float(own.power.max()), own))
-    return max(found, key=lambda entry: entry[0])[1].worst_hz if found else None

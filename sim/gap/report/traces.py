@@ -10,6 +10,7 @@ from rotemina.sim.gap.diagnosis import Diagnosis
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.model import Axis
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,6 +28,8 @@ class Trace:
         distance of an answer from what was measured is taken out: an offset is a nuisance.
     floor : float
         Rms of what no model can explain.
+    described : Axis, optional
+        The axis as the robot file has it.
     """
 
     number: int
@@ -37,6 +40,7 @@ class Trace:
     raw: FloatArray
     corrected: FloatArray
     floor: float
+    described: Axis | None = None
 
     @property
     def time_s(self) -> FloatArray:
@@ -89,7 +93,8 @@ def traces(diagnosis: Diagnosis, axis: str, records: Sequence[Record]) -> tuple[
         for tap, real in observation.real.items():
             answers = _beside(real, raw[tap]), _beside(real, corrected[tap])
             floor = observation.floor[tap]
-            found.append(Trace(number, record, axis, tap, real, *answers, floor))
+            described = diagnosis.robot.axes[axis]
+            found.append(Trace(number, record, axis, tap, real, *answers, floor, described))
     return tuple(found)
 
 

@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from rotemina.sim.effects.formulation import Stage
-from rotemina.sim.gap.bands import spectrum
 from rotemina.sim.gap.blocks import Blocks, block_numbers, drawn_means, summed
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.regimes import Regime, regimes
+from rotemina.sim.gap.regimes import Regime, Ways, regimes
 from rotemina.sim.gap.where import locate
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
@@ -77,20 +76,71 @@ def test_a_vibration_is_found_in_its_band():
 def test_backlash_is_found_after_reversals_and_a_delay_under_way():
     late = AxisEffect(axis="x", id="delay", parameters={"delay": 4e-3})
     found = places([late], "x", 1e-3)[Tap.REF]
-    assert found.by_regime[Regime.REST] < 1.0 < found.by_regime[Regime.FAST]
+    assert found.by_regime[Regime.REST].excess < 1.0 < found.by_regime[Regime.FAST].excess
+
+
+def test_a_loop_shows_on_large_swings_more_than_on_small_ones():
+    def swings(size):
+        time_s = np.arange(6000) / 1000.0
+        wave = 2.0 / np.pi * np.arcsin(np.sin(2.0 * np.pi * time_s))
+        return size * np.where(time_s < 3.0, 1.0, 0.2) * wave
+
+    own = ROBOT.axes["zn"]
+    command = sum(own.range) / 2 + swings(0.3 * own.span)
+    record = Record.from_signals(np.arange(6000) / 1000.0, {("zn", Tap.CMD): command}, {"zn": "m"})
+    loop = AxisEffect(axis="zn", id="hysteresis", parameters={"shape": 1.5})
+    seen = simulate(ROBOT, [loop], record, np.random.default_rng(0))
+    (found,) = (
+        one
+        for one in locate(Evidence.of(ROBOT, "zn", [seen]), np.random.default_rng(1))
+        if one.tap is Tap.MEAS
+    )
+    large, small = found.by_regime[Regime.LARGE_SWING], found.by_regime[Regime.SMALL_SWING]
+    assert large.excess > 4.0 * small.excess
+    assert large.share + small.share == pytest.approx(1.0, abs=0.01)
+    low, high = large.share_interval
+    assert low <= large.share <= high
+    assert sum(one.share for one in found.by_band.values()) == pytest.approx(1.0, abs=0.02)
+
+
+def test_an_error_of_the_screw_shows_by_quarters_of_its_turn():
+    own = ROBOT.axes["x"]
+    time_s = np.arange(8000) / 1000.0
+    command = sum(own.range) / 2 + 4.0 * own.pitch * time_s / 8.0
+    turn = Ways.of([command], own)
+    assert turn.turn == own.pitch
+    found = regimes(time_s, command, np.zeros(8000, dtype=bool), turn)
+    quarters = [found[one] for one in Regime if one.value.endswith("of a turn")]
+    assert [int(rows.sum()) for rows in quarters] == pytest.approx([2000] * 4, abs=2)
+    assert np.sum(quarters, axis=0).max() == 1
+    still = Ways.of([command[:10]], own)  # hardly moves: no phase of a turn to speak of
+    found = regimes(time_s[:10], command[:10], np.zeros(10, dtype=bool), still)
+    assert not any(found[one].any() for one in Regime if one.value.endswith("of a turn"))
+
+
+def test_ends_of_the_way_and_swings_cover_every_row():
+    time_s = np.arange(900) / 1000.0
+    command = np.interp(time_s, [0.0, 0.3, 0.5, 0.9], [0.0, 3.0, 2.0, 2.0])
+    found = regimes(time_s, command, np.zeros(900, dtype=bool), Ways.of([command]))
+    ends = [Regime.LOW_END, Regime.MIDDLE, Regime.HIGH_END]
+    assert np.all(np.sum([found[one] for one in ends], axis=0) == 1)
+    assert found[Regime.LARGE_SWING][100]
+    assert found[Regime.SMALL_SWING][400]
+    assert not (found[Regime.SMALL_SWING] | found[Regime.LARGE_SWING])[850]
 
 
 def test_regimes_of_a_ramp_with_a_turn_and_a_rest():
     time_s = np.arange(1000) / 1000.0
     command = np.interp(time_s, [0.0, 0.3, 0.6, 1.0], [0.0, 1.0, 0.0, 0.0])
-    found = regimes(time_s, command, np.zeros(1000, dtype=bool))
+    ways = Ways.of([command])
+    found = regimes(time_s, command, np.zeros(1000, dtype=bool), ways)
     assert found[Regime.FORWARD][100]
     assert found[Regime.BACKWARD][500]
     assert found[Regime.REVERSAL][310]
     assert not found[Regime.REVERSAL][400]
     assert found[Regime.SETTLING][650]
     assert found[Regime.REST][800]
-    other = regimes(time_s, command, np.ones(1000, dtype=bool))
+    other = regimes(time_s, command, np.ones(1000, dtype=bool), ways)
     assert other[Regime.OTHER_AXIS][800]
 
 
@@ -112,12 +162,14 @@ def test_drawn_means_spread_as_the_blocks_do():
     assert isinstance(blocks, Blocks)
 
 
-def test_white_noise_at_its_floor_has_no_power_above_it():
-    time_s = np.arange(20000) / 1000.0
-    own = spectrum(time_s, np.random.default_rng(2).standard_normal(20000))
-    assert own.power.sum() < 0.2
-
-
-def test_uneven_samples_tell_no_spectrum():
-    time_s = np.cumsum(np.random.default_rng(3).uniform(0.5, 1.5, 500)) * 1e-3
-    assert spectrum(time_s, np.ones(500)) is None
+def test_uneven_samples_tell_no_band():
+    rng = np.random.default_rng(3)
+    time_s = np.cumsum(rng.uniform(0.5, 1.5, 500)) * 1e-3
+    command = 3e-5 + 1e-5 * np.sin(20.0 * time_s)
+    reading = 1.1 * command + 1e-9 * rng.standard_normal(500)
+    signals = {("zn", Tap.CMD): command, ("zn", Tap.MEAS): reading}
+    record = Record.from_signals(time_s, signals, {"zn": "m"})
+    (found,) = locate(Evidence.of(ROBOT, "zn", [record]), rng)
+    assert found.significant
+    assert found.by_band == {}
+    assert found.worst_band_hz is None

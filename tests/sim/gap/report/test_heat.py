@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from rotemina.sim.gap.bands import bands
 from rotemina.sim.gap.regimes import Regime
-from rotemina.sim.gap.report.heat import bands, heat
+from rotemina.sim.gap.report.heat import heat
 from rotemina.sim.gap.report.overlays import path
 from rotemina.sim.gap.report.traces import Trace
 from rotemina.sim.records.record import Record, Tap
