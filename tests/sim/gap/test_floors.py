@@ -51,3 +51,16 @@ def test_an_effort_that_drives_the_model_is_no_answer():
     found = floors(load_robot("emps"), measured("q", "open_loop"), "q")
     assert list(found) == [Tap.MEAS]
     assert found[Tap.MEAS] == pytest.approx(1e-7, rel=0.1)
+
+
+def test_a_held_axis_that_shakes_has_no_more_noise_for_that():
+    rng = np.random.default_rng(2)
+    path = np.interp(TIME_S, [0.0, 1.0, 5.0], [0.05, 0.1, 0.1])
+    shaken = 0.1 * np.sin(2.0 * np.pi * 11.0 * TIME_S) + 1e-2 * rng.standard_normal(5000)
+    record = Record.from_signals(
+        TIME_S,
+        {("q", Tap.CMD): path, ("q", Tap.U): shaken, ("q", Tap.MEAS): path},
+        {"q": "m"},
+        {"mode": "closed_loop"},
+    )
+    assert floors(load_robot("emps"), record, "q")[Tap.U] == pytest.approx(1e-2, rel=0.2)

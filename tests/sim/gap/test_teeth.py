@@ -1,0 +1,70 @@
+"""The grid of a coarse converter, found through mechanics that ring with every step."""
+
+import numpy as np
+import pytest
+
+from rotemina.sim.effects.attachment import Attached
+from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.inverse import at_input
+from rotemina.sim.gap.models import untouched
+from rotemina.sim.gap.starts import starts
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.simulation.simulation import simulate
+
+ROBOT = load_robot("rotemina")
+
+
+def recorded(axis, effects, *shares, rate_hz=1000.0, seed=0):
+    """Sweeps of growing pace over shares of the range, one record each."""
+    own, rng = ROBOT.axes[axis], np.random.default_rng(seed)
+    records = []
+    for share in shares:
+        time_s = np.arange(6000) / rate_hz
+        wave = np.sin(2.0 * np.pi * (0.1 * time_s + 0.05 * time_s**2))
+        command = sum(own.range) / 2 + share * own.span * wave
+        record = Record.from_signals(time_s, {(axis, Tap.CMD): command}, {axis: own.unit})
+        records.append(simulate(ROBOT, effects, record, rng))
+    return records
+
+
+def grids(axis, records):
+    evidence = Evidence.of(ROBOT, axis, records)
+    asked = AxisEffect(axis=axis, id="quantization")
+    return [one.parameters for one in starts(evidence, untouched(evidence).fit, asked)]
+
+
+@pytest.mark.parametrize(
+    ("axis", "volts", "shares"),
+    [("thx", 0.6, (0.15, 0.28)), ("thx", 0.25, (0.2, 0.11)), ("zn", 0.4, (0.3,))],
+)
+def test_width_and_shift_of_steps_are_found(axis, volts, shares):
+    steps = AxisEffect(axis=axis, id="quantization", parameters={"step": volts, "shift": 0.2})
+    records = recorded(axis, [steps], *shares)
+    evidence = Evidence.of(ROBOT, axis, records)
+    (_, found) = grids(axis, records)
+    attached = Attached.of(ROBOT, steps)
+    steps_of_way = max(shares) * attached.facts.input_span / volts
+    assert found["step"] == pytest.approx(volts, rel=0.01 / steps_of_way)
+    assert found["shift"] == pytest.approx(0.2, abs=0.05)
+    before = float(np.mean(evidence.residual() ** 2))
+    named = AxisEffect(axis=axis, id="quantization", parameters=found)
+    assert np.mean(evidence.residual([named]) ** 2) - 1.0 < 0.05 * (before - 1.0)
+
+
+def test_a_healthy_axis_shows_no_steps():
+    assert len(grids("thx", recorded("thx", [], 0.2, 0.1))) == 1
+
+
+def test_a_ringing_gap_is_undone_to_what_caused_it_at_the_input():
+    steps = AxisEffect(axis="thx", id="quantization", parameters={"step": 0.6, "shift": 0.0})
+    records = recorded("thx", [steps], 0.2)
+    evidence = Evidence.of(ROBOT, "thx", records)
+    clean = simulate(ROBOT, [], records[0])
+    wanted = records[0].signal("thx", Tap.U) - clean.signal("thx", Tap.U)
+    wanted = (wanted - wanted.mean()) * Attached.of(ROBOT, steps).facts.gain
+    for part, found in at_input(evidence, untouched(evidence).fit):
+        inner = slice(400, -400)  # ends are tapered
+        likeness = np.corrcoef(found[inner], wanted[inner])[0, 1]
+        assert likeness > (0.97 if part.tap is not Tap.MEAS else 0.8), part.tap
