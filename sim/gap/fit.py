@@ -19,18 +19,11 @@ from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.gap.baseline import OWN
 from rotemina.sim.gap.descent import Descent, begun, descend, exact
 from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.tolerances import tolerance
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.robot.model import AxisEffect
 
-_TOLERANCES = {  # beyond, it is another machine, or another effect
-    ("encoder_interpolation", "period"): (1e-7, 2e-4),  # a screw's, beyond
-    ("flexible_mode", "damping_ratio"): (1e-4, 0.35),  # a lag, beyond
-    ("resonance_mismatch", "frequency_error"): (-0.3, 0.3),
-    ("resonance_mismatch", "damping_error"): (-0.8, 4.0),
-}
 _STEPPED = ("quantization", "sensor_quantization")
-_TOUCHED = 0.7  # of the way that an axis goes, over which a contact may act
-_AT_ONCE_S = 5e-4  # over which an axis may be asked to go all its way
 _LOST = 1e6  # floors by which a model that cannot be simulated is off
 _SMALL_SHARE = 0.01  # of its scale, as the size of a parameter whose preset is zero
 _UNBOUNDED = 1e6  # sizes up to which a parameter without a bound may go
@@ -291,13 +284,7 @@ def free_parameters(evidence: Evidence, effects: Sequence[AxisEffect]) -> tuple[
         if attached.formulation.by_spectra or (asked.id in _STEPPED and others > 1):
             continue
         for parameter in attached.formulation.parameters:
-            low, high = _TOLERANCES.get((asked.id, parameter.name)) or parameter.bounds(
-                attached.facts
-            )
-            if (asked.id, parameter.name) == ("contact", "place"):
-                low, high = _met_on_the_way(evidence, attached)
-            if (asked.id, parameter.name) == ("slew_limit", "rate"):
-                high = max(min(high, _asked_rate(evidence, attached)), 2.0 * low)
+            low, high = tolerance(attached, parameter, evidence.reach)
             preset = parameter.preset(attached.facts)
             scale = max(parameter.scale(attached.facts), parameter.spared(attached.facts))
             size = abs(preset) or _SMALL_SHARE * scale
@@ -312,31 +299,6 @@ def free_parameters(evidence: Evidence, effects: Sequence[AxisEffect]) -> tuple[
                 )
             )
     return tuple(free)
-
-
-def _met_on_the_way(evidence: Evidence, attached: Attached) -> tuple[float, float]:
-    """Return where a contact may be, from the low end of the range: a good part of the way is free.
-
-    What acts wherever the axis goes is no contact but another characteristic of it.
-    """
-    least, most = evidence.reach
-    shares = (1.0 - _TOUCHED, 1.0) if _comes_from_below(attached) else (0.0, _TOUCHED)
-    low, high = ((least + share * (most - least)) - attached.facts.low for share in shares)
-    return max(low, 0.0), min(high, attached.facts.span)
-
-
-def _asked_rate(evidence: Evidence, attached: Attached) -> float:
-    """Return a rate, in inputs per second, that hardly anything asks for; beyond it is no limit.
-
-    A soft limit that never acts would pass for a lag.
-    """
-    least, most = evidence.reach
-    return (most - least) / attached.facts.gain / _AT_ONCE_S
-
-
-def _comes_from_below(attached: Attached) -> bool:
-    strength = attached.values.get("stiffness", attached.values.get("blocked", 1.0))
-    return strength >= 0.0
 
 
 def with_values(
