@@ -34,6 +34,8 @@ _FEW = 4  # modes that three causes and the model's own make
 _AT_LEAST = 6  # modes that ring, each closing more than a trifle
 _TRIFLE = 0.001  # of the gap's power
 _LEFT = 0.1  # of the gap's power, that they may leave
+_SLOWEST = 0.01  # of a record's first line: what is slower is a constant
+_DAMPED = 1e-5  # damping ratio below which a mode is a line of noise
 _EXCITED = 1e-6  # of the strongest line's power, from which a line is driven
 
 
@@ -202,7 +204,9 @@ def _effects(
 ) -> tuple[AxisEffect, ...]:
     """Return the modes as effects of the axis, with the shares that suit these records best."""
     spectra = axis.spectra(records, sources)
-    rate, damping = np.abs(np.log(poles)) / axis.step_s, _damping(poles)
+    slowest = 2.0 * np.pi * _SLOWEST / (axis.step_s * _period(axis.evidence.observations[0].record))
+    rate = np.maximum(np.abs(np.log(poles)) / axis.step_s, slowest)
+    damping = np.maximum(_damping(poles), _DAMPED)
     answers = np.concatenate(
         [_answers(spectra.z, *mode, axis.step_s) for mode in zip(rate, damping, strict=True)]
     ).T
