@@ -80,7 +80,12 @@ def examine(whole: Evidence, told: Told, *, jobs: int = 1) -> Examination:
     best, ranked = contested(evidence, selection, best, power, wanders=drift is not None)
     ambiguous = [not_ruled_out(ranked[key], key) for key in best.ids]
     wandered = sum(one.power for one in disturbances if one.effect == "sensor_drift")
-    verdict = decide(selection.raw + power - wandered, max(best.score - wandered, 1.0), ambiguous)
+    verdict = decide(
+        selection.raw + power - wandered,
+        max(best.score - wandered, 1.0),
+        ambiguous,
+        wanders=drift is not None,
+    )
     if is_poor(whole) and verdict is not Verdict.NONE and not disturbances:
         verdict = Verdict.INSUFFICIENT
     if verdict is Verdict.EXPLAINED and drift is None:

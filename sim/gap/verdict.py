@@ -10,7 +10,9 @@ _MUCH = 25.0  # mean square over the floor that is far above it
 _MOST_RIVALS = 4  # from which a record cannot tell
 
 
-def decide(raw: float, left: float, ambiguous: Sequence[Sequence[str]]) -> Verdict:
+def decide(
+    raw: float, left: float, ambiguous: Sequence[Sequence[str]], *, wanders: bool = False
+) -> Verdict:
     """Return the verdict on an axis that has a gap.
 
     Parameters
@@ -20,8 +22,11 @@ def decide(raw: float, left: float, ambiguous: Sequence[Sequence[str]]) -> Verdi
         data that it did not see.
     ambiguous : sequence of sequence of str
         For each cause, the effects that cannot be told from it.
+    wanders : bool
+        Whether a sensor wanders, whose share is known but roughly.
     """
-    if closed(raw, left) < 1.0 - (_LEFT_OF_MUCH if left > _MUCH else _MOST_LEFT):
+    much = left > _MUCH and not wanders
+    if closed(raw, left) < 1.0 - (_LEFT_OF_MUCH if much else _MOST_LEFT):
         return Verdict.UNKNOWN
     if any(len(others) >= _MOST_RIVALS for others in ambiguous):
         return Verdict.INSUFFICIENT
