@@ -1,0 +1,79 @@
+"""What board and host say: every message fits into a frame and comes back as it was."""
+
+from dataclasses import fields
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rotemina.drivers.errors import ProtocolError
+from rotemina.drivers.mc68hc11.framing import MAX_PAYLOAD, STOP_TYPE
+from rotemina.drivers.mc68hc11.messages import (
+    MESSAGES,
+    Captured,
+    MoveVelocity,
+    SetPoint,
+    Stop,
+    Telemetry,
+    message_of,
+)
+
+BOUNDS = {
+    "B": (0, 2**8),
+    "b": (-(2**7), 2**7),
+    "H": (0, 2**16),
+    "I": (0, 2**32),
+    "i": (-(2**31), 2**31),
+}
+
+
+@st.composite
+def messages(draw, kind):
+    numbers = [draw(st.integers(low, high - 1)) for low, high in map(BOUNDS.get, layout(kind))]
+    if len(numbers) < len(fields(kind)):
+        numbers.append(draw(st.binary(max_size=MAX_PAYLOAD - kind.LAYOUT.size)))
+    return kind(*numbers)
+
+
+def layout(kind):
+    return kind.LAYOUT.format.lstrip(">")
+
+
+@pytest.mark.parametrize("kind", MESSAGES.values(), ids=lambda kind: kind.__name__)
+@given(data=st.data())
+def test_a_message_comes_back_as_it_was(kind, data):
+    message = data.draw(messages(kind))
+    payload = message.packed()
+    assert len(payload) <= MAX_PAYLOAD
+    assert message_of(kind.TYPE, payload) == message
+
+
+@pytest.mark.parametrize("kind", MESSAGES.values(), ids=lambda kind: kind.__name__)
+def test_a_payload_of_another_length_is_refused(kind):
+    size = kind.LAYOUT.size
+    has_tail = len(fields(kind)) > len(layout(kind))
+    for wrong in {size - 1, size if has_tail else size + 1} - {-1, size if has_tail else -1}:
+        with pytest.raises(ProtocolError, match=f"{kind.__name__}: a payload of {wrong} bytes"):
+            kind.unpacked(bytes(wrong))
+
+
+@given(st.integers(0, 255), st.binary(max_size=MAX_PAYLOAD))
+def test_any_payload_is_a_message_or_refused(type_, payload):
+    try:
+        message = message_of(type_, payload)
+    except ProtocolError:
+        return
+    assert message.packed() == payload
+
+
+def test_numbers_are_packed_as_the_documentation_says():
+    assert MoveVelocity(0, -1000, 150).packed().hex(" ") == "00 ff ff fc 18 00 96"
+    assert SetPoint(1, 2, 3, -1).packed().hex() == "00000001" + "00000002" + "00000003" + "ffffffff"
+    assert len(Telemetry(0, 0, 0, 0, 0, 0, 0, bytes(5)).packed()) == MAX_PAYLOAD
+    assert len(Captured(0, bytes(22)).packed()) == MAX_PAYLOAD
+    assert Stop.TYPE == STOP_TYPE
+
+
+def test_a_number_that_does_not_fit_is_refused():
+    with pytest.raises(ProtocolError, match=r"MoveVelocity\(axis=0, speed=3000000000"):
+        MoveVelocity(0, 3_000_000_000, 150).packed()
