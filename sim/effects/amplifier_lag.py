@@ -72,6 +72,35 @@ def second_order(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  #
     return x - (pace_after - pace + 2.0 * ratio * (gap_after - gap)) / theta
 
 
+def third_order(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """``τ₁ u̇ + u = x``, then ``τ² ÿ + 2ζτ ẏ + y = u`` with τ₁ = r τ and ζ < 1.
+
+    While x is held, u nears it by ``g exp(−t/τ₁)``, and y follows ``x + G exp(−t/τ₁)`` with
+    ``G = g/(1 − 2ζ/r + 1/r²)``; what it is off by is a free oscillation, as in `second_order`.
+
+    p: τ, ζ, r; s: y, τ ẏ, u.
+    """
+    if p[0] <= 0.0:
+        s[0], s[1], s[2] = x, 0.0, x
+        return x
+    if h == 0.0:
+        return s[0]
+    ratio, theta, share = p[1], h / p[0], 1.0 / p[2]
+    width = np.sqrt(1.0 - ratio * ratio)
+    decay = np.exp(-ratio * theta)
+    c, sine = decay * np.cos(width * theta), decay * np.sin(width * theta) / width
+    fallen = -np.expm1(-theta * share)
+    lead = (s[2] - x) / (1.0 - 2.0 * ratio * share + share * share)
+    gap, pace = s[0] - x - lead, s[1] + lead * share
+    gap_after = c * gap + sine * (pace + ratio * gap)
+    pace_after = c * pace - sine * (ratio * pace + gap)
+    left = lead * (1.0 - fallen)
+    s[0], s[1] = x + left + gap_after, pace_after - left * share
+    s[2] = x + (s[2] - x) * (1.0 - fallen)
+    mean = lead * fallen / (theta * share)
+    return x + mean - (pace_after - pace + 2.0 * ratio * (gap_after - gap)) / theta
+
+
 def inner_step(values: Values, facts: Facts) -> float:
     """Return a step over which the mean of the output may be held."""
     idle = values.get("time_constant") == 0.0
@@ -106,6 +135,19 @@ AMPLIFIER_LAG = Effect(
             source=_SOURCE,
             parameters=(TIME_CONSTANT, Parameter("damping_ratio", "ζ", "", 0.05, 5.0, 0.7)),
             acts=Drive(step=second_order, states=2, timed=True),
+            inner_step_s=inner_step,
+            traits=_LINEAR,
+        ),
+        Formulation(
+            name="third_order",
+            equation="r τ u̇ + u = x, τ² ÿ + 2ζτ ẏ + y = u",
+            source=_SOURCE,
+            parameters=(
+                TIME_CONSTANT,
+                Parameter("damping_ratio", "ζ; 0.5 with r = 1: Butterworth", "", 0.05, 0.95, 0.5),
+                Parameter("ratio", "r, of both time constants", "", 0.05, 20.0, 1.0),
+            ),
+            acts=Drive(step=third_order, states=3, timed=True),
             inner_step_s=inner_step,
             traits=_LINEAR,
         ),

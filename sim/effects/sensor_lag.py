@@ -68,6 +68,38 @@ def second_order(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  #
     return s[1]
 
 
+def third_order(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """``T₁ u̇ + u = x``, then ``T² ÿ + 2ζT ẏ + y = u`` with T₁ = r T and ζ < 1.
+
+    Along a straight line u and y come to lag by T₁ and ``T₁ + 2ζT``; what u is off by fades, and
+    what y is off by beside it is a free oscillation.
+
+    p: T, ζ, r; s: x, y, T ẏ and u when last called.
+    """
+    if p[0] <= 0.0:
+        s[0], s[1], s[2], s[3] = x, x, 0.0, x
+        return x
+    if h > 0.0:
+        pace, share = h / p[0], 1.0 / p[2]
+        drift = p[0] * (x - s[0]) / h
+        first = p[2] * drift
+        behind = first + 2.0 * p[1] * drift
+        off = s[3] - s[0] + first
+        lead = off / (1.0 - 2.0 * p[1] * share + share * share)
+        error = s[1] - s[0] + behind - lead
+        speed = s[2] - drift + lead * share
+        apart = np.sqrt(1.0 - p[1] * p[1])
+        fading = np.exp(-p[1] * pace)
+        even = fading * np.cos(apart * pace)
+        odd = fading * np.sin(apart * pace) / apart
+        fallen = np.exp(-pace * share)
+        s[1] = x - behind + lead * fallen + even * error + odd * (p[1] * error + speed)
+        s[2] = drift - lead * share * fallen + even * speed - odd * (error + p[1] * speed)
+        s[3] = x - first + off * fallen
+        s[0] = x
+    return s[1]
+
+
 def _between_samples(values: Values, facts: Facts) -> float:
     """Return a step along which a ringing axis moves straight enough; static ones stand still."""
     if values["time_constant"] <= 0.0 or facts.mass <= 0.0:
@@ -104,6 +136,19 @@ SENSOR_LAG = Effect(
                 Parameter("damping_ratio", "ζ; 0.707: Butterworth", "", 0.05, 5.0, 0.7071),
             ),
             acts=Reading(step=second_order, states=3),
+            inner_step_s=_between_samples,
+            traits=_TRAITS,
+        ),
+        Formulation(
+            name="third_order",
+            equation="r T u̇ + u = q, T² ÿ + 2ζT ẏ + y = u",
+            source=_SOURCE,
+            parameters=(
+                _TIME_CONSTANT,
+                Parameter("damping_ratio", "ζ; 0.5 with r = 1: Butterworth", "", 0.05, 0.95, 0.5),
+                Parameter("ratio", "r, of both time constants", "", 0.05, 20.0, 1.0),
+            ),
+            acts=Reading(step=third_order, states=4),
             inner_step_s=_between_samples,
             traits=_TRAITS,
         ),

@@ -94,7 +94,8 @@ def _late(
             below += float(pace @ pace)
     late_s = above / below if below > 0.0 else 0.0
     if late_s > 0.0:
-        share = 2.0 * attached.values.get("damping_ratio", 0.5)  # of a time constant, that is late
+        # Of a time constant, that is late.
+        share = 2.0 * attached.values.get("damping_ratio", 0.5) + attached.values.get("ratio", 0.0)
         yield _clipped(attached, **{name: late_s / share})
 
 

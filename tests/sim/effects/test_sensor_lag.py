@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import lsim
 
-from rotemina.sim.effects.sensor_lag import first_order, second_order
+from rotemina.sim.effects.sensor_lag import first_order, second_order, third_order
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -16,7 +16,10 @@ FILTERS = [
     ("second_order", {"time_constant": 1e-3, "damping_ratio": 0.3}),
     ("second_order", {"time_constant": 1e-3, "damping_ratio": 1.0}),
     ("second_order", {"time_constant": 1e-3, "damping_ratio": 3.0}),
+    ("third_order", {"time_constant": 1e-3, "damping_ratio": 0.5, "ratio": 1.0}),
+    ("third_order", {"time_constant": 1e-3, "damping_ratio": 0.3, "ratio": 4.0}),
 ]
+STEPS = {"first_order": first_order, "second_order": second_order, "third_order": third_order}
 every_filter = pytest.mark.parametrize(("formulation", "parameters"), FILTERS)
 
 
@@ -25,7 +28,10 @@ def transfer(parameters):
     period = parameters["time_constant"]
     if "damping_ratio" not in parameters:
         return [1.0], [period, 1.0]
-    return [1.0], [period**2, 2 * parameters["damping_ratio"] * period, 1.0]
+    below = [period**2, 2 * parameters["damping_ratio"] * period, 1.0]
+    if "ratio" in parameters:
+        below = np.polymul(below, [parameters["ratio"] * period, 1.0])
+    return [1.0], below
 
 
 def lagged(formulation, parameters, command, rate_hz, axis="thx"):
@@ -38,9 +44,9 @@ def lagged(formulation, parameters, command, rate_hz, axis="thx"):
 @every_filter
 @pytest.mark.parametrize("h", [1e-5, 1e-3, 0.1])
 def test_along_straight_lines_the_filters_are_exact_at_any_step(formulation, parameters, h):
-    step = first_order if formulation == "first_order" else second_order
+    step = STEPS[formulation]
     x = np.interp(np.arange(200) * h, [0, 20 * h, 90 * h, 200 * h], [0.0, 1.0, -1.0, 0.5])
-    p, s = list(parameters.values()), [0.0, 0.0, 0.0]
+    p, s = list(parameters.values()), [0.0] * 4
     y = [step(value, value, 0.0, h, 0.0, 0.0, p, s) for value in x]
     expected = lsim(transfer(parameters), x, np.arange(200) * h)[1]
     np.testing.assert_allclose(y, expected, atol=1e-9)
@@ -48,8 +54,8 @@ def test_along_straight_lines_the_filters_are_exact_at_any_step(formulation, par
 
 @every_filter
 def test_a_reading_between_two_calls_does_not_move_the_filter(formulation, parameters):
-    step = first_order if formulation == "first_order" else second_order
-    p, s = list(parameters.values()), [0.0, 0.0, 0.0]
+    step = STEPS[formulation]
+    p, s = list(parameters.values()), [0.0] * 4
     y = step(1.0, 1.0, 0.0, 1e-3, 0.0, 0.0, p, s)
     kept = list(s)
     assert step(5.0, 5.0, 0.0, 0.0, 0.0, 0.0, p, s) == y
@@ -86,7 +92,7 @@ def test_a_ringing_axis_at_a_low_rate_is_read_as_at_a_fine_one(formulation, para
 
 def test_the_answer_is_continuous_down_to_no_lag():
     command = 5e-4 + 4e-4 * np.sign(np.sin(2 * np.pi * 5.0 * np.arange(500) / 1000))
-    for formulation in ("first_order", "second_order"):
+    for formulation in STEPS:
         clean = lagged(formulation, {"time_constant": 0.0}, command, 1000.0)
         near = lagged(formulation, {"time_constant": 1e-9}, command, 1000.0)
         gap = near.signal("thx", Tap.MEAS) - clean.signal("thx", Tap.MEAS)
