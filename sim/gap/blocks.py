@@ -22,9 +22,13 @@ class Blocks(NamedTuple):
     rows: FloatArray
 
 
-def block_numbers(time_s: FloatArray, command: FloatArray) -> IntArray:
-    """Return the block (n,) of each row: a hold is one, a moving path is cut every 0.25 s."""
+def block_numbers(time_s: FloatArray, command: FloatArray, *, cut_holds: bool = False) -> IntArray:
+    """Return the block (n,) of each row: a hold is one, a moving path is cut every 0.25 s.
+
+    With ``cut_holds`` holds are cut, too.
+    """
     held = np.diff(command, append=command[-1]) == 0.0  # until the next row
+    held &= not cut_holds
     moving = np.floor((time_s - time_s[0]) / _BLOCK_S)
     begins = np.ones(len(time_s), dtype=np.bool_)
     begins[1:] = (held[1:] != held[:-1]) | (~held[1:] & (moving[1:] != moving[:-1]))

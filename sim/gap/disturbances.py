@@ -256,8 +256,7 @@ def _with_true_floors(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
         power = (step / floor) ** 2 / 12.0
         note = f"The sensor reads in steps of {step:.3g}."
         # At rest an error of up to half a step stays as it is, which no mean over errors tells.
-        times = 1.0 + 2.0 * _share_of_rest(evidence)
-        return _raised(evidence, float(np.sqrt(1.0 + times * power))), [
+        return _raised(evidence, float(np.sqrt(1.0 + 3.0 * power))), [
             Disturbance("sensor_quantization", Tap.MEAS, power, note)
         ]
     if level > _MORE_NOISE:
@@ -266,12 +265,6 @@ def _with_true_floors(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
             Disturbance("sensor_noise", Tap.MEAS, level**2 - 1.0, note)
         ]
     return evidence, []
-
-
-def _share_of_rest(evidence: Evidence) -> float:
-    """Return the share of all rows in which every axis rests."""
-    rests = [resting(one.record) for one in evidence.observations]
-    return float(np.concatenate(rests).mean())
 
 
 def _coarse(

@@ -187,7 +187,8 @@ def _has_gap(places: Sequence[Place]) -> bool:
     by_sensor = any(place.tap is Tap.MEAS for place in places)
     least = {Tap.REF: _LEAST_BEYOND_THE_SENSOR} if by_sensor else {}
     return any(
-        place.significant and place.gap_rms > least.get(place.tap, _LEAST_GAP) * place.noise_floor
+        (place.significant or place.sudden)
+        and place.gap_rms > least.get(place.tap, _LEAST_GAP) * place.noise_floor
         for place in places
     )
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rotemina.sim.arrays import BoolArray, FloatArray
+from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
 from rotemina.sim.effects.formulation import Stage
 from rotemina.sim.gap.bands import band_edges, bands, is_even, white_shares
 from rotemina.sim.gap.blocks import Blocks, block_numbers, drawn_means, summed
@@ -16,6 +16,9 @@ from rotemina.sim.gap.regimes import DOING, Regime, Ways, regimes
 from rotemina.sim.records.record import Record, Tap
 
 _LIKELY = 0.95  # of intervals
+_LEAST_BLOCKS = 8
+_MOMENT_ROWS = 50  # at least
+_SUDDEN = 100.0  # mean square over the floor's, that no noise has for a moment
 
 
 class Portion(NamedTuple):
@@ -47,6 +50,8 @@ class Place:
         Those that occur. They overlap: an axis that goes forward is also fast or slow.
     by_band : mapping of (low, high), Hz, to Portion
         Empty where no record is sampled evenly.
+    worst_moment : float
+        The greatest mean square over the floor's in any quarter of a second or so.
     """
 
     axis: str
@@ -58,6 +63,7 @@ class Place:
     excess_interval: tuple[float, float]
     by_regime: Mapping[Regime, Portion]
     by_band: Mapping[tuple[float, float], Portion]
+    worst_moment: float = 0.0
 
     @property
     def worst_band_hz(self) -> tuple[float, float] | None:
@@ -72,8 +78,13 @@ class Place:
 
     @property
     def significant(self) -> bool:
-        """Whether the gap is above the floor beyond doubt."""
+        """Whether the gap is above the floor beyond doubt, whichever moments were recorded."""
         return self.excess_interval[0] > 0.0
+
+    @property
+    def sudden(self) -> bool:
+        """Whether it is so at some moment, though it may be the only one."""
+        return self.worst_moment > _SUDDEN
 
 
 def locate(evidence: Evidence, rng: np.random.Generator) -> tuple[Place, ...]:
@@ -106,7 +117,17 @@ def _place(
     edges_hz = band_edges(even) if even else np.zeros(1)
     described = evidence.robot.axes[axis]
     ways = Ways.of([one.record.signal(axis, Tap.CMD) for one, _ in seen], described)
-    parts = [_squares(observation.record, axis, gap, edges_hz, ways) for observation, gap in seen]
+    records = [observation.record for observation, _ in seen]
+    numbers = [block_numbers(one.time_s, one.signal(axis, Tap.CMD)) for one in records]
+    if sum(int(own.max()) + 1 for own in numbers) < _LEAST_BLOCKS:
+        # So few do not tell by being drawn how sure they are.
+        numbers = [
+            block_numbers(one.time_s, one.signal(axis, Tap.CMD), cut_holds=True) for one in records
+        ]
+    parts = [
+        _squares(observation.record, axis, gap, edges_hz, ways, own)
+        for (observation, gap), own in zip(seen, numbers, strict=True)
+    ]
     together = Blocks(
         np.concatenate([one.total for one in parts]), np.concatenate([one.rows for one in parts])
     )
@@ -116,6 +137,7 @@ def _place(
     low, high = np.percentile(drawn[:, 0], [tail, 100.0 - tail])
     floor = float(np.sqrt(np.mean([observation.floor[tap] ** 2 for observation, _ in seen])))
     portions = _portions(mean, drawn)
+    moments = together.total[:, 0] / np.maximum(together.rows, _MOMENT_ROWS)
     regime_portions, band_portions = portions[: len(Regime)], portions[len(Regime) :]
     return Place(
         axis=axis,
@@ -134,11 +156,17 @@ def _place(
             (float(begin), float(end)): one._replace(excess=None)
             for (begin, end), one in zip(pairwise(edges_hz), band_portions, strict=True)
         },
+        worst_moment=float(moments.max()),
     )
 
 
 def _squares(
-    record: Record, axis: str, gap: FloatArray, edges_hz: FloatArray, ways: Ways
+    record: Record,
+    axis: str,
+    gap: FloatArray,
+    edges_hz: FloatArray,
+    ways: Ways,
+    numbers: IntArray,
 ) -> Blocks:
     """Return sums over blocks of the gap's square, whole and in regimes and bands.
 
@@ -159,7 +187,7 @@ def _squares(
         masks.astype(np.float64),
         np.tile(noise, (len(gap), 1)),
     ]
-    return summed(block_numbers(record.time_s, command), np.hstack(columns))
+    return summed(numbers, np.hstack(columns))
 
 
 def _portions(mean: FloatArray, drawn: FloatArray) -> list[Portion]:
