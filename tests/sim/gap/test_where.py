@@ -180,7 +180,8 @@ def test_a_single_moment_is_sudden_though_other_moments_might_lack_it():
     time_s = np.arange(6000) / 1000.0
     command = np.where(time_s < 2.0, 3e-5, 3.2e-5)
     floor = ROBOT.axes["zn"].sensor.noise_floor
-    calm = command + 0.5 * floor * rng.standard_normal(6000)
+    asked = Record.from_signals(time_s, {("zn", Tap.CMD): command}, {"zn": "m"})
+    calm = simulate(ROBOT, [], asked, rng).signal("zn", Tap.MEAS)
     rung = calm + 200.0 * floor * ((time_s > 2.0) & (time_s < 2.1)) * np.sin(900.0 * time_s)
     for reading, sudden in ((calm, False), (rung, True)):
         signals = {("zn", Tap.CMD): command, ("zn", Tap.MEAS): reading}
