@@ -12,7 +12,6 @@ import numpy as np
 from scipy.linalg import expm
 
 from rotemina.sim.arrays import BoolArray, ComplexArray, FloatArray
-from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.modes import MODES
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import Fit
@@ -25,7 +24,7 @@ from rotemina.sim.identification.vector_fitting import (
     vector_fit,
 )
 from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.robot.model import AxisEffect, ForceAxis
 
 _SOUGHT = 24  # modes, of which the best are kept
 _GAP = 25.0  # mean square over the floor from which such modes are looked for
@@ -104,6 +103,8 @@ def _gathered(evidence: Evidence) -> _Axis | None:
     if float(np.mean(evidence.residual() ** 2)) < _GAP or Tap.MEAS not in observations[0].real:
         return None
     names = [name for name in evidence.robot.axes if _drives(evidence, name)]
+    if evidence.axis not in names or isinstance(evidence.robot.axes[evidence.axis], ForceAxis):
+        return None
     inputs = np.stack(
         [
             [_spectrum(one.record, _input(evidence, one.record, name)) for name in names]
@@ -135,14 +136,15 @@ def _period(record: Record) -> int:
 
 
 def _drives(evidence: Evidence, name: str) -> bool:
-    """Tell whether an axis is commanded in every record; the axis itself must be."""
+    """Tell whether every record says what drives an axis."""
     records = [one.record for one in evidence.observations]
-    return all(record.has(name, Tap.CMD) and not record.closed_loop for record in records)
+    by = Tap.U if isinstance(evidence.robot.axes[name], ForceAxis) else Tap.CMD
+    return all(record.has(name, by) and not record.closed_loop for record in records)
 
 
 def _input(evidence: Evidence, record: Record, name: str) -> FloatArray:
     """Return the input (n,) of an axis in its unit of position, V of one that a force moves."""
-    if Facts.of(evidence.robot.axes[name]).kind == "force":
+    if isinstance(evidence.robot.axes[name], ForceAxis):
         return record.signal(name, Tap.U)
     return record.signal(name, Tap.CMD)
 
