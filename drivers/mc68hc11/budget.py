@@ -7,7 +7,8 @@ which the host alone may begin to speak, so that a stop never waits for more tha
 from dataclasses import dataclass
 
 from rotemina.drivers.mc68hc11.framing import MAX_FRAME
-from rotemina.drivers.mc68hc11.messages import Captured, Message, Rates, Telemetry
+from rotemina.drivers.mc68hc11.message import Message
+from rotemina.drivers.mc68hc11.reports import Captured, Rates, Telemetry
 
 BITS_A_BYTE = 10  # start, eight, stop
 BAUDS = (125_000, 9_600)

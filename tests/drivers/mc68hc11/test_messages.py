@@ -8,15 +8,9 @@ from hypothesis import strategies as st
 
 from rotemina.drivers.errors import ProtocolError
 from rotemina.drivers.mc68hc11.framing import MAX_PAYLOAD, STOP_TYPE
-from rotemina.drivers.mc68hc11.messages import (
-    MESSAGES,
-    Captured,
-    MoveVelocity,
-    SetPoint,
-    Stop,
-    Telemetry,
-    message_of,
-)
+from rotemina.drivers.mc68hc11.messages import MESSAGES, message_of
+from rotemina.drivers.mc68hc11.reports import Captured, Telemetry
+from rotemina.drivers.mc68hc11.requests import MoveVelocity, SetPoint, Stop
 
 BOUNDS = {
     "B": (0, 2**8),
