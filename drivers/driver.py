@@ -2,25 +2,22 @@
 
 A driver is made without touching its device, opened, used by one thread, and closed. ``stop`` is
 the exception: any thread may call it at any time. What only some devices can do is a small base
-class of its own (:class:`TrajectoryPlayer`), to be inherited beside others.
+class of its own (:mod:`rotemina.drivers.abilities`), to be inherited beside others.
 """
 
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from types import MappingProxyType
 from typing import ClassVar, final
 
+from rotemina.drivers.axes import AxisDescription
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import LimitError, ProtocolError, StateError
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.drivers.settings import SettingValue, resolve
-from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.errors import InputError
-from rotemina.sim.records.record import Record
-from rotemina.sim.robot.model import AxisEffect, Robot
-from rotemina.sim.trajectory.checked import CheckedTrajectory, accepted
-from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
+from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.limits import check_target
 
 _CLOSED = DeviceStatus(DeviceState.CLOSED)
@@ -44,11 +41,13 @@ class Driver(ABC):
         For an unknown setting or a value of the wrong type.
     """
 
-    api_version: ClassVar[int] = 1
+    api_version: ClassVar[int] = 2
     #: How screens and records call the device.
     name: ClassVar[str] = "device"
     #: Whether the device lives on ``clock`` alone, and so can run faster than real time.
     virtual_time: ClassVar[bool] = False
+    #: How often the driver wants to be read, s; one that feeds a serial line has no other chance.
+    service_period_s: ClassVar[float] = 0.01
     default_settings: ClassVar[Mapping[str, SettingValue]] = MappingProxyType({})
 
     def __init__(
@@ -101,6 +100,11 @@ class Driver(ABC):
         self._is_open = False
         self._close()
 
+    @property
+    def descriptions(self) -> tuple[AxisDescription, ...]:
+        """What the axes are, in order; a driver that knows its device better says so."""
+        return tuple(AxisDescription.of(self.robot, axis) for axis in self.axes)
+
     @final
     def status(self) -> DeviceStatus:
         """Return the device's state as of the last exchange with it; asks nothing, never waits."""
@@ -117,9 +121,7 @@ class Driver(ABC):
         StateError
             If the device is closed, faulty or playing a trajectory.
         """
-        state = self._require_sound("move")
-        if state is DeviceState.PLAYING:
-            raise StateError(f"{self.name}: a trajectory is playing; stop it before moving an axis")
+        self._require_free("move")
         try:
             for axis, position in targets.items():
                 check_target(self.robot, axis, position)
@@ -185,11 +187,25 @@ class Driver(ABC):
     def _require_sound(self, action: str) -> DeviceState:
         self._require_open(action)
         status = self._status()
+        if status.silent_s > 0.0:
+            raise StateError(
+                f"{self.name}: cannot {action}: the device has said nothing for "
+                f"{status.silent_s:.2g} s; wait until it answers"
+            )
         if status.state is DeviceState.FAULT:
             raise StateError(f"{self.name}: cannot {action} in a fault ({status.fault}); clear it")
         if not status.position_known:
-            raise StateError(f"{self.name}: cannot {action} while the position is unknown")
+            which = f" of {', '.join(status.unhomed)}" if status.unhomed else ""
+            raise StateError(
+                f"{self.name}: cannot {action} while the position{which} is unknown; home first"
+            )
         return status.state
+
+    def _require_free(self, action: str) -> None:
+        """Refuse what would break into a trajectory, a profile or a search for switches."""
+        state = self._require_sound(action)
+        if state in (DeviceState.PLAYING, DeviceState.HOMING):
+            raise StateError(f"{self.name}: cannot {action} while it is {state}; stop it first")
 
     @abstractmethod
     def _open(self) -> None:
@@ -218,88 +234,3 @@ class Driver(ABC):
     @abstractmethod
     def _read(self) -> Samples:
         """Return the samples since the last read."""
-
-
-class TrajectoryPlayer(Driver, ABC):
-    """A device that plays a whole trajectory on its own clock."""
-
-    @property
-    def setpoint_period_s(self) -> float:
-        """How often the device applies set-points, s: it holds rows that are farther apart.
-
-        A driver that knows its device says so here; trajectories are judged by it.
-        """
-        return SETPOINT_PERIOD_S
-
-    @final
-    def accept(self, trajectory: Record | CheckedTrajectory) -> CheckedTrajectory:
-        """Return what :meth:`play` would play; asks the device nothing.
-
-        One that was checked for this robot and set-point period is not checked again.
-
-        Raises
-        ------
-        LimitError
-            If the trajectory exceeds a limit or is not one for this robot.
-        """
-        try:
-            return accepted(self.robot, trajectory, self.setpoint_period_s)
-        except InputError as error:
-            raise LimitError(str(error)) from error
-
-    @final
-    def play(self, trajectory: Record | CheckedTrajectory) -> None:
-        """Begin to play the ``cmd`` channels of a trajectory. Returns at once.
-
-        The device first goes to the first row within its limits and settles; its samples name the
-        row of the trajectory that began to act. Axes that the trajectory does not name hold.
-
-        Raises
-        ------
-        LimitError
-            If the trajectory exceeds a limit or is not one for this robot or device.
-        StateError
-            If the device is closed, faulty, moving or playing.
-        """
-        state = self._require_sound("play")
-        if state is not DeviceState.IDLE:
-            raise StateError(f"{self.name}: it is still {state}; stop it or wait before playing")
-        self._play(self.accept(trajectory).commands)
-
-    @abstractmethod
-    def _play(self, trajectory: Record) -> None:
-        """Begin to play a trajectory that is inside every limit."""
-
-
-class EffectCarrier(Driver, ABC):
-    """A simulated device whose imperfections can be switched and tuned while it runs."""
-
-    @property
-    @abstractmethod
-    def effects(self) -> tuple[AxisEffect, ...]:
-        """The effects in place, those that are switched off among them; any thread may ask."""
-
-    @final
-    def check_effects(self, effects: Sequence[AxisEffect]) -> None:
-        """Raise :class:`EffectError` if effects cannot sit on the axes of this robot."""
-        for effect in effects:
-            Attached.of(self.robot, effect)
-
-    @final
-    def set_effects(self, effects: Sequence[AxisEffect]) -> None:
-        """Put effects in place of those before; the axes go on from where they are.
-
-        Raises
-        ------
-        EffectError
-            With axis, effect, parameter, value and bound; then nothing changes.
-        StateError
-            If the device is closed.
-        """
-        self._require_open("change its effects")
-        self.check_effects(effects)
-        self._set_effects(tuple(effects))
-
-    @abstractmethod
-    def _set_effects(self, effects: tuple[AxisEffect, ...]) -> None:
-        """Put checked effects in place."""

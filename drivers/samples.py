@@ -18,6 +18,7 @@ class DeviceState(StrEnum):
     IDLE = "idle"
     MOVING = "moving"
     PLAYING = "playing"
+    HOMING = "homing"
     FAULT = "fault"
 
 
@@ -34,12 +35,19 @@ class DeviceStatus:
         Why the device is in ``FAULT``.
     position_known : bool
         False while the device cannot vouch for its position, for example before homing.
+    unhomed : tuple of str
+        The axes whose position is unknown, as far as the device tells.
+    silent_s : float
+        For how long the device has said nothing though it should have: a short loss, as long as
+        :meth:`Driver.read` does not raise. Nothing begins to move meanwhile.
     """
 
     state: DeviceState
     progress: float = 0.0
     fault: str | None = None
     position_known: bool = True
+    unhomed: tuple[str, ...] = ()
+    silent_s: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -3,8 +3,8 @@
 from collections.abc import Callable, Mapping
 
 from rotemina.app.motion.recorder import PlaybackRecorder
+from rotemina.drivers.abilities import TrajectoryPlayer
 from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.driver import TrajectoryPlayer
 from rotemina.drivers.errors import DriverError
 from rotemina.drivers.registry import driver_named
 from rotemina.drivers.samples import DeviceState

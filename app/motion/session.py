@@ -14,8 +14,9 @@ from rotemina.app.motion.state import (
     SessionState,
 )
 from rotemina.app.motion.worker import Worker
+from rotemina.drivers.abilities import EffectCarrier, TrajectoryPlayer
 from rotemina.drivers.clock import Clock
-from rotemina.drivers.driver import Driver, EffectCarrier, TrajectoryPlayer
+from rotemina.drivers.driver import Driver
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import AxisEffect

@@ -22,8 +22,9 @@ from rotemina.app.motion.state import (
     SessionState,
     StateChanged,
 )
+from rotemina.drivers.abilities import EffectCarrier, TrajectoryPlayer
 from rotemina.drivers.clock import Clock
-from rotemina.drivers.driver import Driver, EffectCarrier, TrajectoryPlayer
+from rotemina.drivers.driver import Driver
 from rotemina.drivers.errors import DriverError, StateError
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.sim.arrays import FloatArray

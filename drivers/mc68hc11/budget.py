@@ -6,16 +6,17 @@ which the host alone may begin to speak, so that a stop never waits for more tha
 
 from dataclasses import dataclass
 
+from rotemina.drivers.mc68hc11.codes import AXES
 from rotemina.drivers.mc68hc11.framing import MAX_FRAME
 from rotemina.drivers.mc68hc11.message import Message
-from rotemina.drivers.mc68hc11.reports import Captured, Rates, Telemetry
+from rotemina.drivers.mc68hc11.reports import AXIS_BYTES, Captured, Inputs, Rates, Telemetry
 
 BITS_A_BYTE = 10  # start, eight, stop
 BAUDS = (125_000, 9_600)
 _OVERHEAD = 7  # address, number, type, check, stuffing, the zero behind
 _ZERO_BEFORE = 1  # of what a board says
-_JOYSTICK = 5
-_JOYSTICK_EVERY = 4  # telemetry frames
+_READINGS = 5  # bytes: a joystick's three potentiometers
+_INPUTS_EVERY = 4  # telemetry frames
 _SAMPLE = 2  # bytes of one axis
 _SLOT = 3  # bytes of silence after a frame on a shared bus
 _BOARDS = 2  # on a shared bus
@@ -60,7 +61,8 @@ class Line:
 
         On a shared bus: of both boards' telemetry, one board's capture, and the polls.
         """
-        telemetry = _wire(Telemetry) + _JOYSTICK / _JOYSTICK_EVERY
+        inputs = (_wire(Inputs) + _READINGS) / _INPUTS_EVERY
+        telemetry = _wire(Telemetry) + AXES * AXIS_BYTES + inputs
         captured = frames_hz = 0.0
         if axes:
             samples = (MAX_FRAME - _wire(Captured)) // (_SAMPLE * axes)

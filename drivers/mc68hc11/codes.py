@@ -5,6 +5,7 @@ from enum import IntEnum, IntFlag
 VERSION = 1
 LCD_COLUMNS, LCD_ROWS = 20, 2
 SEGMENTS = 16  # of an on-board profile
+SETPOINTS = 16  # that wait in a board
 AXES = 3  # of one board
 
 
@@ -34,6 +35,28 @@ class Refusal(IntEnum):
     BUSY = 6
     QUEUE_FULL = 7
     NOT_ABLE = 8
+    OUT_OF_ORDER = 9
+
+
+class Kind(IntEnum):
+    """How an axis is moved."""
+
+    STEPPER = 0
+    PIEZO = 1
+
+
+class Role(IntEnum):
+    """The stage that an axis belongs to."""
+
+    MICRO = 0
+    NANO = 1
+
+
+class Unit(IntEnum):
+    """What steps of an axis are steps of."""
+
+    M = 0
+    RAD = 1
 
 
 class State(IntFlag):

@@ -13,6 +13,7 @@ from rotemina.drivers.mc68hc11.reports import (
     Captured,
     Done,
     Identity,
+    Inputs,
     Parameter,
     Rates,
     Refused,
@@ -74,6 +75,7 @@ _ALL: tuple[type[Message], ...] = (
     Parameter,
     Captured,
     Rates,
+    Inputs,
 )
 MESSAGES: Mapping[int, type[Message]] = {one.TYPE: one for one in _ALL}
 

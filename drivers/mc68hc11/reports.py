@@ -1,9 +1,18 @@
 """What a board says to its host. Positions are steps of resolution, times microseconds."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from struct import Struct
+from typing import Self
 
+from rotemina.drivers.errors import ProtocolError
 from rotemina.drivers.mc68hc11.message import Message
+
+Axes = Sequence[tuple[int, int]]  # reading and command of each axis, steps
+AXIS_BYTES = 5
+_READING = 1 << 23
+_DEVIATION = 1 << 15
+_READING_BITS = 12
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,23 +71,93 @@ class AxisDescription(Message):
 
 @dataclass(frozen=True, slots=True)
 class Telemetry(Message):
-    """Where the axes are, what the board is doing, its switches and its joystick.
+    """One sample of the axes: readings, and how far the commands that acted are from them.
 
-    ``switches``: limit switches low and high of each axis, then both buttons, from bit 0 on;
-    ``joystick``: three readings of 12 bits, one after the other, or nothing.
+    It was taken at ``time_us``, before the command of the same instant acts; what is told is the
+    command that acts from then on. ``switches``: limit switches low and high of each axis, then
+    both buttons, from bit 0 on; ``axes``: :class:`AxisSample`, packed one after the other.
     """
 
     TYPE = 0x84
-    LAYOUT = Struct(">IBBBiii")
+    LAYOUT = Struct(">IBBB")
 
     time_us: int
     state: int
     fault: int
     switches: int
-    first: int
-    second: int
-    third: int
-    joystick: bytes
+    axes: bytes
+
+    @classmethod
+    def of(cls, time_us: int, state: int, fault: int, switches: int, axes: Axes) -> Self:
+        """Return the telemetry of readings and commands, steps; a deviation too large is clipped.
+
+        Raises
+        ------
+        ProtocolError
+            If a reading takes more than 24 bits.
+        """
+        packed = b""
+        for reading, command in axes:
+            if not -_READING <= reading < _READING:
+                raise ProtocolError(f"telemetry: a reading of {reading} steps: 24 bits at most")
+            deviation = min(max(command - reading, -_DEVIATION), _DEVIATION - 1)
+            packed += reading.to_bytes(3, "big", signed=True)
+            packed += deviation.to_bytes(2, "big", signed=True)
+        return cls(time_us, state, fault, switches, packed)
+
+    def samples(self) -> Axes:
+        """Return (reading, command) of each axis, steps.
+
+        Raises
+        ------
+        ProtocolError
+            If the payload ends in the middle of an axis.
+        """
+        if len(self.axes) % AXIS_BYTES:
+            raise ProtocolError(f"telemetry: {len(self.axes)} bytes: must be {AXIS_BYTES} an axis")
+        found = []
+        for begin in range(0, len(self.axes), AXIS_BYTES):
+            reading = int.from_bytes(self.axes[begin : begin + 3], "big", signed=True)
+            deviation = int.from_bytes(self.axes[begin + 3 : begin + 5], "big", signed=True)
+            found.append((reading, reading + deviation))
+        return tuple(found)
+
+
+@dataclass(frozen=True, slots=True)
+class Inputs(Message):
+    """What the operator holds: buttons, bit by bit, and readings of 12 bits, two in three bytes."""
+
+    TYPE = 0x88
+    LAYOUT = Struct(">B")
+
+    buttons: int
+    packed_readings: bytes
+
+    @classmethod
+    def of(cls, buttons: int, readings: Sequence[int]) -> Self:
+        """Return the report of buttons and up to eight readings, 0 to 4095.
+
+        Raises
+        ------
+        ProtocolError
+            If a reading takes more than 12 bits.
+        """
+        number = 0
+        for reading in readings:
+            if not 0 <= reading < 1 << _READING_BITS:
+                raise ProtocolError(f"inputs: a reading of {reading}: must be 0 to 4095")
+            number = number << _READING_BITS | reading
+        count = (len(readings) * _READING_BITS + 7) // 8
+        number <<= count * 8 - len(readings) * _READING_BITS
+        return cls(buttons, number.to_bytes(count, "big"))
+
+    def readings(self) -> tuple[int, ...]:
+        """Return the readings, 0 to 4095."""
+        count = len(self.packed_readings) * 8 // _READING_BITS
+        number = int.from_bytes(self.packed_readings, "big")
+        number >>= len(self.packed_readings) * 8 - count * _READING_BITS
+        places = range((count - 1) * _READING_BITS, -1, -_READING_BITS)
+        return tuple(number >> place & ((1 << _READING_BITS) - 1) for place in places)
 
 
 @dataclass(frozen=True, slots=True)

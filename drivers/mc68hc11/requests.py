@@ -97,11 +97,17 @@ class MoveVelocity(Message):
 
 @dataclass(frozen=True, slots=True)
 class SetPoint(Message):
-    """Be there at this time of the board; all three axes at once."""
+    """Be there at this time of the board; all three axes at once.
+
+    ``index`` counts them from 0, over 255 on to 0 again; a board takes them in this order only.
+    ``left`` is how many are still to come, 255 for more: at 0 the stream ends.
+    """
 
     TYPE = 0x12
-    LAYOUT = Struct(">Iiii")
+    LAYOUT = Struct(">BBIiii")
 
+    index: int
+    left: int
     time_us: int
     first: int
     second: int
@@ -164,12 +170,16 @@ class ShowText(Message):
 
 @dataclass(frozen=True, slots=True)
 class SetTelemetry(Message):
-    """Tell where you are every so often without being asked; 0 ends it. Not on a shared bus."""
+    """Take a sample every so often, the first at this time of the board; 0 ends it.
+
+    On two lines each is sent unasked, on a shared bus the latest one when polled.
+    """
 
     TYPE = 0x40
-    LAYOUT = Struct(">H")
+    LAYOUT = Struct(">HI")
 
     period_ms: int
+    begin_us: int
 
 
 @dataclass(frozen=True, slots=True)

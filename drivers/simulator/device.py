@@ -127,6 +127,10 @@ class SimulatedDevice:
         """Send axes, by their number, to targets."""
         self._setpoints.retarget(targets)
 
+    def drive(self, index: int, velocity: float) -> None:
+        """Let an axis, by its number, go at a speed, m/s or rad/s; 0 brings it to a halt."""
+        self._setpoints.drive(index, velocity)
+
     def play(self, trajectory: Record) -> None:
         """Approach the first row, settle, then play."""
         under_control = any(self._plant.loops)

@@ -9,8 +9,8 @@ from typing import ClassVar
 
 import numpy as np
 
+from rotemina.drivers.abilities import EffectCarrier, TrajectoryPlayer, VelocityMover
 from rotemina.drivers.clock import Clock
-from rotemina.drivers.driver import EffectCarrier, TrajectoryPlayer
 from rotemina.drivers.errors import LimitError
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.drivers.settings import SettingError, SettingValue
@@ -24,7 +24,7 @@ MAX_RATE_HZ = 20_000.0
 MAX_READ_S = 5.0  # device time that one call simulates at most; the rest waits for the next
 
 
-class Simulator(TrajectoryPlayer, EffectCarrier):
+class Simulator(TrajectoryPlayer, VelocityMover, EffectCarrier):
     """A machine that behaves as its robot file says.
 
     Device time is the clock's time since ``open``; what happened since the last call is simulated
@@ -68,6 +68,7 @@ class Simulator(TrajectoryPlayer, EffectCarrier):
         self._fault: str | None = None
         # Appended to by any thread, which a deque allows; emptied by the driver's own thread.
         self._stops_s: deque[float] = deque()
+        self._leases_s: dict[int, float] = {}  # when each ends, by the axis' number
         self._unread: list[Samples] = []
 
     @property
@@ -101,6 +102,7 @@ class Simulator(TrajectoryPlayer, EffectCarrier):
     def _open(self) -> None:
         self._opened_at_s = self.clock()
         self._stops_s.clear()
+        self._leases_s.clear()
         self._unread.clear()
         self._fault = None
         self._device = self._made(self._position, 0.0)
@@ -133,7 +135,20 @@ class Simulator(TrajectoryPlayer, EffectCarrier):
 
     def _move_to(self, targets: dict[str, float]) -> None:
         self._catch_up()
-        self._running.move_to({self.axes.index(axis): at for axis, at in targets.items()})
+        numbered = {self.axes.index(axis): at for axis, at in targets.items()}
+        for index in numbered:
+            self._leases_s.pop(index, None)
+        self._running.move_to(numbered)
+
+    def _move_velocity(self, velocities: dict[str, float], lease_s: float) -> None:
+        self._catch_up()
+        ends_s = self.clock() - self._opened_at_s + lease_s
+        for axis, velocity in velocities.items():
+            index = self.axes.index(axis)
+            self._running.drive(index, velocity)
+            self._leases_s.pop(index, None)
+            if velocity:
+                self._leases_s[index] = ends_s
 
     def _play(self, trajectory: Record) -> None:
         if len(trajectory.time_s) > 1:
@@ -152,6 +167,7 @@ class Simulator(TrajectoryPlayer, EffectCarrier):
     def _clear_fault(self) -> None:
         device = self._running
         self._stops_s.clear()
+        self._leases_s.clear()
         self._device = self._made(device.command, self.clock() - self._opened_at_s)
         self._fault = None
 
@@ -173,10 +189,25 @@ class Simulator(TrajectoryPlayer, EffectCarrier):
         device = self._running
         now_s = min(self.clock() - self._opened_at_s, device.time_s + MAX_READ_S)
         try:
-            while self._stops_s and self._stops_s[0] <= now_s:
-                self._unread += device.advance(self._stops_s[0])
-                device.stop()
-                self._stops_s.popleft()
+            while (end_s := self._next_end_s()) <= now_s:
+                self._unread += device.advance(end_s)
+                self._end(device, end_s)
             self._unread += device.advance(now_s)
         except PlantError as error:
             self._fault = str(error)
+
+    def _next_end_s(self) -> float:
+        """Return when the next stop was asked for, or a lease runs out."""
+        stop_s = self._stops_s[0] if self._stops_s else float("inf")
+        return min(stop_s, min(self._leases_s.values(), default=float("inf")))
+
+    def _end(self, device: SimulatedDevice, at_s: float) -> None:
+        """Carry out the stop, or the end of the leases, of this time."""
+        if self._stops_s and self._stops_s[0] <= at_s:
+            device.stop()
+            self._stops_s.popleft()
+            self._leases_s.clear()
+            return
+        for index in [index for index, end_s in self._leases_s.items() if end_s <= at_s]:
+            del self._leases_s[index]
+            device.drive(index, 0.0)

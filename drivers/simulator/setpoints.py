@@ -57,6 +57,7 @@ class SetpointGenerator:
         self._position = np.array(position, dtype=np.float64)
         self._velocity = np.zeros_like(self._position)
         self._target = self._position.copy()
+        self._speed = limits.speed.copy()
         self._stopping = np.zeros(len(self._position), dtype=np.bool_)
 
     @property
@@ -69,11 +70,26 @@ class SetpointGenerator:
         """Whether any axis has yet to arrive or to stop."""
         return bool((self._velocity != 0).any() or (self._position != self._target).any())
 
-    def retarget(self, targets: dict[int, float]) -> None:
-        """Send axes, by their number, to new targets inside the range."""
+    @property
+    def velocity(self) -> FloatArray:
+        """The speed of the last command (axes,), m/s or rad/s."""
+        return self._velocity.copy()
+
+    def retarget(self, targets: dict[int, float], most_speed: float | None = None) -> None:
+        """Send axes, by their number, to new targets inside the range, no faster than this."""
         for index, target in targets.items():
+            greatest = float(self._limits.speed[index])
             self._target[index] = target
+            self._speed[index] = greatest if most_speed is None else min(most_speed, greatest)
             self._stopping[index] = False
+
+    def drive(self, index: int, velocity: float) -> None:
+        """Let an axis go at a speed until it is told otherwise, or meets an end of its range."""
+        if velocity == 0.0:
+            self.stop(index)
+        else:
+            end = self._limits.high if velocity > 0.0 else self._limits.low
+            self.retarget({index: float(end[index])}, abs(velocity))
 
     def take_over(self, position: FloatArray, velocity: FloatArray) -> None:
         """Continue from a command (axes,) and its speed (axes,), and come to a halt."""
@@ -81,11 +97,12 @@ class SetpointGenerator:
         self._velocity[:] = np.clip(velocity, -self._limits.speed, self._limits.speed)
         self.stop()
 
-    def stop(self) -> None:
-        """Reduce every axis' speed to zero as fast as it may, and hold there."""
-        still = self._velocity == 0.0
-        self._target[still] = self._position[still]
-        self._stopping[:] = ~still
+    def stop(self, index: int | None = None) -> None:
+        """Reduce the speed of one axis, or of all, to zero as fast as it may, and hold there."""
+        for each in range(len(self._position)) if index is None else (index,):
+            self._stopping[each] = self._velocity[each] != 0.0
+            if not self._stopping[each]:
+                self._target[each] = self._position[each]
 
     def generate(self, ticks: int, *, until_rest: bool = False) -> FloatArray:
         """Return the commands (ticks, axes) of the next ticks.
@@ -100,7 +117,7 @@ class SetpointGenerator:
             self._stopping,
             self._limits.low,
             self._limits.high,
-            self._limits.speed,
+            self._speed,
             self._limits.acceleration,
             self._tick_s,
             until_rest,

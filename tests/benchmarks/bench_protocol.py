@@ -20,9 +20,15 @@ READ = 256  # bytes that a port gives at once
 
 def frames(count: int = 5000) -> list[Frame]:
     rng = np.random.default_rng(0)
-    numbers = rng.integers(-(2**31), 2**31, (count, 3)).tolist()
+    numbers = rng.integers(-(2**23), 2**23, (count, 3)).tolist()
     return [
-        Frame(1, k & 0xFF, Telemetry.TYPE, Telemetry(k, 0, 0, 0, *own, b"").packed(), True)
+        Frame(
+            1,
+            k & 0xFF,
+            Telemetry.TYPE,
+            Telemetry.of(k, 0, 0, 0, [(one, one + 1) for one in own]).packed(),
+            True,
+        )
         for k, own in enumerate(numbers)
     ]
 

@@ -5,7 +5,7 @@ import threading
 import numpy as np
 import pytest
 
-from rotemina.drivers.driver import TrajectoryPlayer
+from rotemina.drivers.abilities import TrajectoryPlayer
 from rotemina.drivers.errors import DriverError, LimitError, StateError
 from rotemina.drivers.registry import discover_drivers
 from rotemina.drivers.samples import DeviceState, Samples

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from rotemina.drivers.abilities import TrajectoryPlayer
 from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.driver import Driver, TrajectoryPlayer
+from rotemina.drivers.driver import Driver
 from rotemina.drivers.errors import (
     ConnectionLostError,
     DriverError,

@@ -31,7 +31,7 @@ def installed(monkeypatch):
         ("rotemina.drivers.simulator.driver:Missing", "cannot be imported: AttributeError"),
         ("math:pi", "is no Driver"),
         ("pathlib:Path", "is no Driver"),
-        ("rotemina.drivers.driver:TrajectoryPlayer", "does not define _clear_fault, _close"),
+        ("rotemina.drivers.abilities:TrajectoryPlayer", "does not define _clear_fault, _close"),
     ],
 )
 def test_a_bad_plugin_is_named_and_left_out(installed, value, reason):

@@ -14,7 +14,7 @@ LINES = [Line(baud, half) for baud in BAUDS for half in (False, True)]
 
 def test_telemetry_and_capture_as_promised_fit_together():
     line = Line(125_000)
-    assert line.load(200, 2000, 1) < 0.95
+    assert line.load(50, 2000, 1) < 0.95
     assert line.load(50, 1000, 3) < 0.95
     assert not line.load(200, 1000, 3) < 1.0
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from rotemina.drivers.errors import ProtocolError
 from rotemina.drivers.mc68hc11.framing import MAX_PAYLOAD, STOP_TYPE
 from rotemina.drivers.mc68hc11.messages import MESSAGES, message_of
-from rotemina.drivers.mc68hc11.reports import Captured, Telemetry
+from rotemina.drivers.mc68hc11.reports import Captured, Inputs, Telemetry
 from rotemina.drivers.mc68hc11.requests import MoveVelocity, SetPoint, Stop
 
 BOUNDS = {
@@ -62,10 +62,43 @@ def test_any_payload_is_a_message_or_refused(type_, payload):
 
 def test_numbers_are_packed_as_the_documentation_says():
     assert MoveVelocity(0, -1000, 150).packed().hex(" ") == "00 ff ff fc 18 00 96"
-    assert SetPoint(1, 2, 3, -1).packed().hex() == "00000001" + "00000002" + "00000003" + "ffffffff"
-    assert len(Telemetry(0, 0, 0, 0, 0, 0, 0, bytes(5)).packed()) == MAX_PAYLOAD
+    assert SetPoint(7, 255, 1, 2, 3, -1).packed().hex(" ", 4) == (
+        "07ff 00000001 00000002 00000003 ffffffff"
+    )
+    told = Telemetry.of(256, 1, 0, 3, [(-2, 1), (3, 2)])
+    assert told.packed().hex(" ") == "00 00 01 00 01 00 03 ff ff fe 00 03 00 00 03 ff ff"
+    assert Inputs.of(2, [0x123, 0x456, 0x789]).packed().hex() == "02" + "1234567890"
     assert len(Captured(0, bytes(22)).packed()) == MAX_PAYLOAD
     assert Stop.TYPE == STOP_TYPE
+
+
+@given(
+    st.lists(
+        st.tuples(st.integers(-(2**23), 2**23 - 1), st.integers(-(2**15), 2**15 - 1)), max_size=3
+    )
+)
+def test_telemetry_tells_readings_and_commands(axes):
+    told = Telemetry.of(1, 2, 3, 4, [(reading, reading + by) for reading, by in axes])
+    back = message_of(Telemetry.TYPE, told.packed())
+    assert back.samples() == tuple((reading, reading + by) for reading, by in axes)
+
+
+def test_telemetry_clips_a_deviation_and_refuses_a_reading_beyond_its_bits():
+    assert Telemetry.of(0, 0, 0, 0, [(0, 100_000), (0, -100_000)]).samples() == (
+        (0, 2**15 - 1),
+        (0, -(2**15)),
+    )
+    with pytest.raises(ProtocolError, match="8388608"):
+        Telemetry.of(0, 0, 0, 0, [(2**23, 0)])
+    with pytest.raises(ProtocolError, match="7 bytes"):
+        Telemetry(0, 0, 0, 0, bytes(7)).samples()
+
+
+@given(st.lists(st.integers(0, 4095), max_size=8), st.integers(0, 255))
+def test_inputs_come_back_as_they_were(readings, buttons):
+    told = message_of(Inputs.TYPE, Inputs.of(buttons, readings).packed())
+    assert told.readings() == tuple(readings)
+    assert told.buttons == buttons
 
 
 def test_a_number_that_does_not_fit_is_refused():

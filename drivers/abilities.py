@@ -1,0 +1,408 @@
+"""What only some devices can do: each ability is a base class to be inherited beside others.
+
+The rules are those of :class:`rotemina.drivers.driver.Driver`: final methods check, hooks do.
+"""
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from math import isfinite
+from typing import final
+
+from rotemina.drivers.capture import Captured, CaptureRates
+from rotemina.drivers.driver import Driver
+from rotemina.drivers.errors import LimitError, StateError
+from rotemina.drivers.link import LinkQuality
+from rotemina.drivers.parameters import ParameterDifference
+from rotemina.drivers.profile import Profile
+from rotemina.drivers.samples import DeviceState
+from rotemina.sim.effects.attachment import Attached
+from rotemina.sim.errors import InputError
+from rotemina.sim.records.record import Record
+from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.trajectory.checked import CheckedTrajectory, accepted
+from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
+
+LONGEST_LEASE_S = 1.0
+DISPLAY_ROWS, DISPLAY_COLUMNS = 2, 20
+
+
+class VelocityMover(Driver, ABC):
+    """A device that moves axes at a speed for as long as somebody vouches for it."""
+
+    @final
+    def move_velocity(self, velocities: Mapping[str, float], lease_s: float) -> None:
+        """Let axes move at these speeds (m/s or rad/s) until the lease runs out. Returns at once.
+
+        Renewed before its end it goes on without a jump; not renewed, the axes come to a halt by
+        themselves, without a fault, whatever has become of the host. At an end of its range an axis
+        halts. Zero halts it at once. Other axes are left to what they do.
+
+        Raises
+        ------
+        LimitError
+            If there is no such axis, a speed is beyond what it may go, or the lease is none of
+            0 to 1 s; then no axis moves.
+        StateError
+            As :meth:`Driver.move_to`.
+        """
+        self._require_free("move")
+        if not 0.0 < lease_s <= LONGEST_LEASE_S:
+            raise LimitError(
+                f"{self.name}: a lease of {lease_s:g} s: must be more than 0 s, at most "
+                f"{LONGEST_LEASE_S:g} s"
+            )
+        for axis, speed in velocities.items():
+            if axis not in self.robot.axes:
+                raise LimitError(
+                    f"{self.name}: no such axis {axis!r}; it has {', '.join(self.axes)}"
+                )
+            most = self.robot.axes[axis].max_speed
+            if not isfinite(speed) or (most is not None and abs(speed) > most * (1.0 + 1e-9)):
+                bound = "a finite number" if most is None else f"{most:g} at most"
+                raise LimitError(
+                    f"{self.name}: axis {axis}: a speed of {speed:g} {self.robot.unit(axis)}/s: "
+                    f"must be {bound}"
+                )
+        if velocities:
+            self._move_velocity(dict(velocities), lease_s)
+
+    @abstractmethod
+    def _move_velocity(self, velocities: dict[str, float], lease_s: float) -> None:
+        """Move at speeds that the axes may go, until the lease runs out."""
+
+
+class Homer(Driver, ABC):
+    """A device that can find out where its axes are, by their limit switches."""
+
+    @property
+    @abstractmethod
+    def homing_axes(self) -> tuple[str, ...]:
+        """The axes that have switches to be found; the others always know where they are."""
+
+    @final
+    def home(self, axes: Sequence[str]) -> None:
+        """Begin to look for the limit switches of axes; their position is known afterwards.
+
+        Returns at once; the state is ``homing`` meanwhile, and `stop` ends it, position unknown.
+
+        Raises
+        ------
+        LimitError
+            If an axis has no switch to be found.
+        StateError
+            If the device is closed, in a fault, or not at rest.
+        """
+        self._require_open("home")
+        status = self._status()
+        if status.state is not DeviceState.IDLE or status.silent_s > 0.0:
+            why = f"a fault ({status.fault})" if status.fault else status.state
+            raise StateError(f"{self.name}: cannot home in {why}; wait, stop or clear it first")
+        for axis in axes:
+            if axis not in self.homing_axes:
+                have = ", ".join(self.homing_axes) or "no axis has any"
+                raise LimitError(f"{self.name}: axis {axis!r} has no limit switch; these: {have}")
+        if axes:
+            self._home(tuple(axes))
+
+    @abstractmethod
+    def _home(self, axes: tuple[str, ...]) -> None:
+        """Begin to look for the switches of axes that have some."""
+
+
+class VoltageOutput(Driver, ABC):
+    """A device whose piezo amplifiers can be given a voltage straight."""
+
+    @final
+    def set_voltage(self, axis: str, voltage: float) -> None:
+        """Put out a voltage, V, within the device's slew limit; the next move takes over from it.
+
+        Raises
+        ------
+        LimitError
+            If the axis has no amplifier, or the voltage is beyond its range.
+        StateError
+            As :meth:`Driver.move_to`.
+        """
+        self._require_free("put out a voltage")
+        bounds = getattr(self.robot.axes.get(axis), "voltage_range", None)
+        if bounds is None:
+            raise LimitError(f"{self.name}: axis {axis!r} has no amplifier with a voltage range")
+        if not bounds[0] <= voltage <= bounds[1]:
+            raise LimitError(
+                f"{self.name}: axis {axis}: {voltage:g} V: must be {bounds[0]:g} to {bounds[1]:g} V"
+            )
+        self._set_voltage(axis, voltage)
+
+    @abstractmethod
+    def _set_voltage(self, axis: str, voltage: float) -> None:
+        """Put out a voltage inside the range."""
+
+
+class Capturer(Driver, ABC):
+    """A device that can sample some axes faster than it reports all of them."""
+
+    @property
+    @abstractmethod
+    def capture_rates(self) -> CaptureRates:
+        """How fast it can, Hz."""
+
+    @final
+    def capture(self, axes: Sequence[str], rate_hz: float, count: int) -> None:
+        """Begin to take samples; :meth:`captured` hands them out. Another capture ends the first.
+
+        Raises
+        ------
+        LimitError
+            If there is no such axis, or the rate or number is beyond what the device can.
+        StateError
+            If the device is closed.
+        """
+        self._require_open("capture")
+        rates = self.capture_rates
+        for axis in axes:
+            if axis not in self.robot.axes:
+                raise LimitError(
+                    f"{self.name}: no such axis {axis!r}; it has {', '.join(self.axes)}"
+                )
+        if not 1 <= len(axes) <= rates.axes:
+            raise LimitError(f"{self.name}: a capture of {len(axes)} axes: 1 to {rates.axes}")
+        most = rates.of(len(axes))
+        if not 0.0 < rate_hz <= most:
+            raise LimitError(
+                f"{self.name}: a capture of {len(axes)} axes at {rate_hz:g} Hz: {most:g} Hz at most"
+            )
+        if not 1 <= count <= rates.samples:
+            raise LimitError(f"{self.name}: a capture of {count} samples: 1 to {rates.samples}")
+        self._capture(tuple(axes), rate_hz, count)
+
+    @abstractmethod
+    def captured(self) -> Captured | None:
+        """Return what has come of the present or latest capture since it was last asked for."""
+
+    @abstractmethod
+    def _capture(self, axes: tuple[str, ...], rate_hz: float, count: int) -> None:
+        """Begin a capture that the device can do."""
+
+
+class ProfileRunner(Driver, ABC):
+    """A device that runs a short motion by itself, at its own control rate."""
+
+    @final
+    def upload(self, profile: Profile) -> None:
+        """Hand over a profile, from where its axis is; it waits for :meth:`trigger`.
+
+        Raises
+        ------
+        LimitError
+            If it leaves the range, or is too fast, from where the axis is.
+        StateError
+            If the device is closed, faulty or not at rest.
+        """
+        state = self._require_sound("take a profile")
+        if state is not DeviceState.IDLE:
+            raise StateError(f"{self.name}: cannot take a profile while it is {state}")
+        try:
+            profile.check(self.robot, self._commanded(profile.axis))
+        except InputError as error:
+            raise LimitError(str(error)) from error
+        self._upload(profile)
+
+    @final
+    def trigger(self) -> None:
+        """Let the profile run.
+
+        Raises
+        ------
+        StateError
+            If none was uploaded, or the device is not at rest.
+        """
+        self._require_free("run a profile")
+        self._trigger()
+
+    @final
+    def abort(self) -> None:
+        """Forget the profile, or halt it where it is, without a fault; the axis holds there."""
+        if self._is_open:
+            self._abort()
+
+    @abstractmethod
+    def _commanded(self, axis: str) -> float:
+        """Return where an axis was commanded last, m or rad."""
+
+    @abstractmethod
+    def _upload(self, profile: Profile) -> None:
+        """Hand over a profile that is inside every limit."""
+
+    @abstractmethod
+    def _trigger(self) -> None:
+        """Run it; raise :class:`StateError` if there is none."""
+
+    @abstractmethod
+    def _abort(self) -> None:
+        """Forget or halt it."""
+
+
+class AnalogInputs(Driver, ABC):
+    """A device with a joystick's potentiometers and buttons on it."""
+
+    @abstractmethod
+    def analog_inputs(self) -> tuple[tuple[float, ...], tuple[bool, ...]]:
+        """Return the latest readings, each 0 to 1, and whether each button is held."""
+
+
+class Display(Driver, ABC):
+    """A device with a small display of 2 × 20 signs."""
+
+    @final
+    def show(self, row: int, text: str) -> None:
+        """Show text in a row, 0 or 1; what is longer than 20 signs is cut.
+
+        Raises
+        ------
+        LimitError
+            If there is no such row.
+        StateError
+            If the device is closed.
+        """
+        self._require_open("show a text")
+        if not 0 <= row < DISPLAY_ROWS:
+            raise LimitError(f"{self.name}: row {row} of the display: 0 or {DISPLAY_ROWS - 1}")
+        self._show(row, text[:DISPLAY_COLUMNS].ljust(DISPLAY_COLUMNS))
+
+    @abstractmethod
+    def _show(self, row: int, text: str) -> None:
+        """Show a whole row."""
+
+
+class Parameterised(Driver, ABC):
+    """A device that keeps parameters of its own, which may differ from the robot file.
+
+    While they differ and nobody has accepted that, no motion is possible.
+    """
+
+    @property
+    @abstractmethod
+    def differences(self) -> tuple[ParameterDifference, ...]:
+        """Where the device's parameters differ from the robot file, as of connecting."""
+
+    @final
+    def accept_parameters(self) -> None:
+        """Move with the device's parameters as they are, until it is opened again."""
+        self._require_open("accept its parameters")
+        self._accept_parameters()
+
+    @final
+    def write_parameters(self) -> None:
+        """Begin to write the robot file's parameters into the device; it keeps them.
+
+        Raises
+        ------
+        StateError
+            If the device is closed or not at rest.
+        """
+        self._require_open("write its parameters")
+        state = self._status().state
+        if state not in (DeviceState.IDLE, DeviceState.FAULT):
+            raise StateError(f"{self.name}: cannot write its parameters while it is {state}")
+        self._write_parameters()
+
+    @abstractmethod
+    def _accept_parameters(self) -> None:
+        """Take the device's own for good."""
+
+    @abstractmethod
+    def _write_parameters(self) -> None:
+        """Begin to write."""
+
+
+class Linked(Driver, ABC):
+    """A device at the end of a line that has a quality."""
+
+    @abstractmethod
+    def link_quality(self) -> LinkQuality:
+        """Return how well the line does; asks nothing, never waits, any thread."""
+
+
+class TrajectoryPlayer(Driver, ABC):
+    """A device that plays a whole trajectory on its own clock."""
+
+    @property
+    def setpoint_period_s(self) -> float:
+        """How often the device applies set-points, s: it holds rows that are farther apart.
+
+        A driver that knows its device says so here; trajectories are judged by it.
+        """
+        return SETPOINT_PERIOD_S
+
+    @final
+    def accept(self, trajectory: Record | CheckedTrajectory) -> CheckedTrajectory:
+        """Return what :meth:`play` would play; asks the device nothing.
+
+        One that was checked for this robot and set-point period is not checked again.
+
+        Raises
+        ------
+        LimitError
+            If the trajectory exceeds a limit or is not one for this robot.
+        """
+        try:
+            return accepted(self.robot, trajectory, self.setpoint_period_s)
+        except InputError as error:
+            raise LimitError(str(error)) from error
+
+    @final
+    def play(self, trajectory: Record | CheckedTrajectory) -> None:
+        """Begin to play the ``cmd`` channels of a trajectory. Returns at once.
+
+        The device first goes to the first row within its limits and settles; its samples name the
+        row of the trajectory that began to act. Axes that the trajectory does not name hold.
+
+        Raises
+        ------
+        LimitError
+            If the trajectory exceeds a limit or is not one for this robot or device.
+        StateError
+            If the device is closed, faulty, moving or playing.
+        """
+        state = self._require_sound("play")
+        if state is not DeviceState.IDLE:
+            raise StateError(f"{self.name}: it is still {state}; stop it or wait before playing")
+        self._play(self.accept(trajectory).commands)
+
+    @abstractmethod
+    def _play(self, trajectory: Record) -> None:
+        """Begin to play a trajectory that is inside every limit."""
+
+
+class EffectCarrier(Driver, ABC):
+    """A simulated device whose imperfections can be switched and tuned while it runs."""
+
+    @property
+    @abstractmethod
+    def effects(self) -> tuple[AxisEffect, ...]:
+        """The effects in place, those that are switched off among them; any thread may ask."""
+
+    @final
+    def check_effects(self, effects: Sequence[AxisEffect]) -> None:
+        """Raise :class:`EffectError` if effects cannot sit on the axes of this robot."""
+        for effect in effects:
+            Attached.of(self.robot, effect)
+
+    @final
+    def set_effects(self, effects: Sequence[AxisEffect]) -> None:
+        """Put effects in place of those before; the axes go on from where they are.
+
+        Raises
+        ------
+        EffectError
+            With axis, effect, parameter, value and bound; then nothing changes.
+        StateError
+            If the device is closed.
+        """
+        self._require_open("change its effects")
+        self.check_effects(effects)
+        self._set_effects(tuple(effects))
+
+    @abstractmethod
+    def _set_effects(self, effects: tuple[AxisEffect, ...]) -> None:
+        """Put checked effects in place."""

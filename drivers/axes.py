@@ -1,0 +1,52 @@
+"""What an axis is to whoever moves it: kind, role, range, unit and resolution."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Self
+
+from rotemina.sim.robot.model import Robot
+from rotemina.sim.trajectory.limits import resolution_of
+
+
+class Role(StrEnum):
+    """The stage that an axis belongs to."""
+
+    MICRO = "micro"
+    NANO = "nano"
+    NONE = "none"
+
+
+@dataclass(frozen=True, slots=True)
+class AxisDescription:
+    """One axis of a device.
+
+    Attributes
+    ----------
+    name : str
+    kind : str
+        ``stepper``, ``piezo`` or ``force``.
+    role : Role
+    low, high : float
+        Ends of its range, in ``unit``.
+    unit : str
+        ``m`` or ``rad``.
+    resolution : float
+        The smallest step that it can be told or can tell, in ``unit``; 0 if there is none.
+    """
+
+    name: str
+    kind: str
+    role: Role
+    low: float
+    high: float
+    unit: str
+    resolution: float
+
+    @classmethod
+    def of(cls, robot: Robot, name: str) -> Self:
+        """Return what a robot file says of an axis."""
+        axis = robot.axes[name]
+        stage = next((stage for stage, axes in robot.stages.items() if name in axes), None)
+        role = Role(stage) if stage in tuple(Role) else Role.NONE
+        low, high = axis.range
+        return cls(name, axis.kind, role, low, high, robot.unit(name) or "", resolution_of(axis))

@@ -1,0 +1,32 @@
+"""How well a line to a device does."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class LinkQuality:
+    """Counts since the line was opened, and times, s.
+
+    Attributes
+    ----------
+    sent, received : int
+        Frames.
+    rejected : int
+        Stretches of bytes that were no frame, or no message.
+    repeated : int
+        Frames that had to be said again.
+    round_trip_s : float or None
+        From a frame to its answer, smoothed; None before the first.
+    stop_s : float
+        How long a stop that is asked for now would take until its last byte is out.
+    load : float
+        Share of the line that was used lately, 0 to 1.
+    """
+
+    sent: int = 0
+    received: int = 0
+    rejected: int = 0
+    repeated: int = 0
+    round_trip_s: float | None = None
+    stop_s: float = 0.0
+    load: float = 0.0

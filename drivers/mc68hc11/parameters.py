@@ -1,0 +1,90 @@
+"""The parameters that a board keeps: eight of each axis, whole numbers of 32 bits."""
+
+from binascii import crc_hqx
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from rotemina.drivers.mc68hc11.axes import BoardAxis
+from rotemina.sim.robot.model import PiezoAxis, Robot, StepperAxis
+from rotemina.sim.trajectory.limits import controller_of
+
+PER_AXIS = 8
+_START = 0xFFFF  # of the check, as of a frame's
+_CROSSING_S, _STARTING_S = 1.0, 0.1  # an axis that declares no bounds: its range, and to that speed
+_HOMING = 0.5  # of the greatest speed, towards the switch
+_OVERTRAVEL = 0.01  # of the range: how far beyond its ends the limit switches are
+_SLEW = 10.0  # ranges of the converter a second
+CODES = 0xFFFF  # of the converter, over the amplifier's voltage range
+
+
+class Meaning(NamedTuple):
+    """What a parameter says, and in which unit."""
+
+    name: str
+    unit: str
+
+
+_OF_ALL = (
+    Meaning("low limit", "steps"),
+    Meaning("high limit", "steps"),
+    Meaning("greatest speed", "steps/s"),
+    Meaning("greatest acceleration", "steps/s/ms"),
+)
+_OF_STEPPERS = (
+    *_OF_ALL,
+    Meaning("microsteps a revolution", ""),
+    Meaning("pitch", "nm"),
+    Meaning("homing speed", "steps/s"),
+    Meaning("way from the low switch to zero", "steps"),
+)
+_OF_PIEZOS = (
+    *_OF_ALL,
+    Meaning("voltage at code 0", "mV"),
+    Meaning("voltage at the last code", "mV"),
+    Meaning("greatest slew of the converter", "codes/s"),
+    Meaning("gain", "millisteps/V"),
+)
+
+
+def meaning(robot: Robot, axes: Sequence[BoardAxis], index: int) -> Meaning:
+    """Return what a board's parameter of this number says, with the axis' name before it."""
+    axis = axes[index // PER_AXIS]
+    table = _OF_STEPPERS if isinstance(robot.axes[axis.name], StepperAxis) else _OF_PIEZOS
+    name, unit = table[index % PER_AXIS]
+    return Meaning(f"{axis.name}: {name}", unit)
+
+
+def parameters_of(robot: Robot, axes: Sequence[BoardAxis]) -> tuple[int, ...]:
+    """Return the parameters that a board with these axes of a robot should have."""
+    return tuple(number for axis in axes for number in _of(robot, axis))
+
+
+def fingerprint(values: Sequence[int]) -> int:
+    """Return the check over all parameters, as a board announces it (`Identity`)."""
+    return crc_hqx(b"".join(value.to_bytes(4, "big", signed=True) for value in values), _START)
+
+
+def _of(robot: Robot, own: BoardAxis) -> tuple[int, ...]:
+    axis = robot.axes[own.name]
+    low, high = axis.range
+    speed = axis.max_speed or axis.span / _CROSSING_S
+    acceleration = axis.max_acceleration or speed / _STARTING_S
+    shared = (*own.ends(low, high), own.steps(speed), own.steps(1e-3 * acceleration))
+    if isinstance(axis, StepperAxis):
+        return (
+            *shared,
+            (axis.steps_per_rev or 0) * (axis.microsteps_per_step or 1),
+            round((axis.pitch or 0.0) * 1e9),
+            own.steps(_HOMING * speed),
+            own.steps(_OVERTRAVEL * axis.span),
+        )
+    assert isinstance(axis, PiezoAxis), "boards move nothing else"
+    first, last = axis.voltage_range or (low / axis.gain, high / axis.gain)
+    assert controller_of(axis) is None or axis.voltage_range is not None
+    return (
+        *shared,
+        round(1e3 * first),
+        round(1e3 * last),
+        round(_SLEW * CODES),
+        round(1e3 * axis.gain / own.step),
+    )

@@ -1,0 +1,96 @@
+"""A short motion that a device runs by itself: cubic segments, one after the other."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from rotemina.sim.errors import InputError
+from rotemina.sim.robot.model import Robot
+from rotemina.sim.trajectory.limits import check_target
+from rotemina.sim.trajectory.wording import readable
+
+MOST_SEGMENTS = 16
+_SLACK = 1.0 + 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class ProfileSegment:
+    """``x = x0 + c1 τ + c2 τ² + c3 τ³`` with τ from 0 to 1 over ``duration_s``; m or rad.
+
+    x0 is where the segment before ended.
+    """
+
+    duration_s: float
+    c1: float
+    c2: float
+    c3: float
+
+    @property
+    def length(self) -> float:
+        """From its beginning to its end."""
+        return self.c1 + self.c2 + self.c3
+
+    def extremes(self) -> Iterator[float]:
+        """Yield the end and the turning points, from the segment's beginning."""
+        yield self.length
+        roots = np.roots([3.0 * self.c3, 2.0 * self.c2, self.c1])
+        for root in roots[np.isreal(roots)].real:
+            if 0.0 < root < 1.0:
+                yield float(((self.c3 * root + self.c2) * root + self.c1) * root)
+
+    def greatest_speed(self) -> float:
+        """Return the greatest speed on the way, m/s or rad/s."""
+        places = [0.0, 1.0]
+        if self.c3:
+            places.append(float(np.clip(-self.c2 / (3.0 * self.c3), 0.0, 1.0)))
+        speeds = [abs(self.c1 + 2.0 * self.c2 * at + 3.0 * self.c3 * at**2) for at in places]
+        return max(speeds) / self.duration_s
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """A motion of one axis, from where it stands."""
+
+    axis: str
+    segments: tuple[ProfileSegment, ...]
+
+    @property
+    def duration_s(self) -> float:
+        """How long it takes."""
+        return sum(one.duration_s for one in self.segments)
+
+    def check(self, robot: Robot, start: float) -> None:
+        """Refuse a profile that the axis cannot do from ``start``, m or rad.
+
+        Raises
+        ------
+        InputError
+            With the segment, the value and the bound.
+        """
+        check_target(robot, self.axis, start)
+        if not 1 <= len(self.segments) <= MOST_SEGMENTS:
+            raise InputError(
+                f"profile of {self.axis}: {len(self.segments)} segments: 1 to {MOST_SEGMENTS}"
+            )
+        axis, unit = robot.axes[self.axis], robot.unit(self.axis) or ""
+        at = start
+        for number, segment in enumerate(self.segments, 1):
+            where = f"profile of {self.axis}, segment {number}"
+            numbers = (segment.duration_s, segment.c1, segment.c2, segment.c3)
+            if not np.isfinite(numbers).all() or segment.duration_s <= 0.0:
+                raise InputError(
+                    f"{where}: duration and coefficients must be finite, time positive"
+                )
+            for extreme in segment.extremes():
+                low, high = axis.range
+                if not low <= at + extreme <= high:
+                    raise InputError(
+                        f"{where}: it reaches {readable(at + extreme, unit)}: must stay within "
+                        f"{readable(low, unit)} to {readable(high, unit)}"
+                    )
+            speed = segment.greatest_speed()
+            if axis.max_speed is not None and speed > axis.max_speed * _SLACK:
+                most = readable(axis.max_speed, unit)
+                raise InputError(f"{where}: {readable(speed, unit)}/s: at most {most}/s")
+            at += segment.length

@@ -1,0 +1,1 @@
+"""The panel of the connection: driver, port, parameters, link quality, stop latency."""
