@@ -7,6 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.drivers.samples import Samples
+from rotemina.drivers.simulator.homing import Homing
+from rotemina.drivers.simulator.profile_motion import ProfileMotion
 from rotemina.drivers.simulator.setpoints import SetpointGenerator, SetpointLimits
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.plant.chance import Chance
@@ -24,6 +26,7 @@ class _Phase(Enum):
     APPROACH = auto()  # on the way to the first row of a trajectory
     SETTLE = auto()  # waiting there for the vibration to die away
     ROWS = auto()  # playing
+    PROFILE = auto()  # running a profile
 
 
 class _Chunk(NamedTuple):
@@ -55,6 +58,8 @@ class SimulatedDevice:
         Where the machine stands at first, m or rad, inside the range.
     time_s : float
         Device time of the first sample.
+    homing : Homing, optional
+        Which axes know where they are; all of them where it is left out.
     """
 
     def __init__(
@@ -66,8 +71,11 @@ class SimulatedDevice:
         settle_s: float,
         position: FloatArray,
         time_s: float = 0.0,
+        homing: Homing | None = None,
     ) -> None:
         self._robot = robot
+        self._homing = homing if homing is not None else Homing(())
+        self._profile: ProfileMotion | None = None
         self._plant = Plant.of(robot, closed_loop=True)
         # The plant counts from the latest sample: its steps stay exact however long it runs.
         self._state = self._plant.at_rest(0.0, position)
@@ -109,12 +117,19 @@ class SimulatedDevice:
 
     @property
     def playing(self) -> bool:
-        """Whether a trajectory is playing, its approach included."""
+        """Whether a profile or a trajectory is playing, its approach included."""
         return self._phase is not _Phase.HOLD
 
     @property
+    def running_profile(self) -> bool:
+        """Whether it is a profile that is playing."""
+        return self._phase is _Phase.PROFILE
+
+    @property
     def progress(self) -> float:
-        """How much of the present or latest trajectory has been played, 0 to 1."""
+        """How much of the present or latest trajectory, or profile, has been played, 0 to 1."""
+        if self._profile is not None:
+            return self._profile.progress
         return self._schedule.progress(self._instant) if self._schedule is not None else 0.0
 
     def set_effects(self, effects: tuple[AxisEffect, ...]) -> None:
@@ -133,6 +148,7 @@ class SimulatedDevice:
 
     def play(self, trajectory: Record) -> None:
         """Approach the first row, settle, then play."""
+        self._profile = None
         under_control = any(self._plant.loops)
         self._schedule = Schedule(
             trajectory, self._plant.axes, self._tick_s, on_ticks=under_control
@@ -141,8 +157,20 @@ class SimulatedDevice:
         self._setpoints.retarget(self._schedule.first)
         self._phase = _Phase.APPROACH
 
+    def run(self, profile: ProfileMotion) -> None:
+        """Run a profile of an axis from the next tick on; all axes are at rest."""
+        self._profile = profile
+        self._phase = _Phase.PROFILE
+
+    def home(self, axes: tuple[int, ...]) -> None:
+        """Send axes, by their number, to their switches; they are at rest."""
+        self._homing.begin(axes, self._setpoints)
+
     def stop(self) -> None:
         """Halt within the acceleration that the axes allow, from whatever is going on."""
+        self._homing.give_up()
+        if self._phase is _Phase.PROFILE and self._profile is not None:
+            self._end_profile(self._profile)
         if self._phase is _Phase.ROWS and self._schedule is not None and self._instant:
             velocity = self._schedule.velocity(self._instant - 1, len(self._plant.axes))
             self._end_rows(self._command, velocity)
@@ -168,8 +196,30 @@ class SimulatedDevice:
         if self._phase is _Phase.ROWS and self._schedule is not None:
             return self._row_chunk(self._schedule, until_s)
         since = (until_s - self._anchor_s) / self._tick_s
-        ticks = min(int(np.floor(since + 1e-6)) - self._ticks, _CHUNK)
-        return self._tick_chunk(max(ticks, 0))
+        ticks = max(min(int(np.floor(since + 1e-6)) - self._ticks, _CHUNK), 0)
+        if self._phase is _Phase.PROFILE and self._profile is not None:
+            return self._profile_chunk(self._profile, ticks)
+        return self._tick_chunk(ticks)
+
+    def _profile_chunk(self, profile: ProfileMotion, ticks: int) -> _Chunk:
+        """Take at most ``ticks`` ticks of a profile, while the other axes hold."""
+        way = profile.advance(ticks)
+        command = np.tile(self._setpoints.position, (len(way), 1))
+        command[:, profile.index] = way
+        if len(way):
+            self._command = command[-1].copy()
+        chunk = self._on_ticks(command)
+        if profile.ended:
+            self._end_profile(profile)
+        return chunk
+
+    def _end_profile(self, profile: ProfileMotion) -> None:
+        """Hold, or come to a halt, from the latest command of a profile and its speed."""
+        velocity = np.zeros(len(self._plant.axes))
+        if profile.ticks:
+            velocity[profile.index] = profile.velocity()
+        self._setpoints.take_over(self._command, velocity)
+        self._phase = _Phase.HOLD
 
     def _tick_chunk(self, ticks: int) -> _Chunk:
         """Take at most ``ticks`` ticks; a chunk ends where a phase does."""
@@ -177,15 +227,21 @@ class SimulatedDevice:
             ticks = min(ticks, self._settle_ticks - self._settled)
         approach = self._phase is _Phase.APPROACH
         command = self._setpoints.generate(ticks, until_rest=approach)
-        number = np.arange(self._ticks + 1, self._ticks + 1 + len(command), dtype=np.int64)
-        since = number - max(self._ticks, 0)
-        self._ticks += len(command)
+        self._homing.notice(self._setpoints)
+        chunk = self._on_ticks(command)
         if approach and len(command) and not self._setpoints.moving:
             self._phase = _Phase.SETTLE
         elif self._phase is _Phase.SETTLE:
             self._settled += len(command)
         if self._phase is _Phase.SETTLE and self._settled >= self._settle_ticks:
             self._begin_rows()
+        return chunk
+
+    def _on_ticks(self, command: FloatArray) -> _Chunk:
+        """Count the ticks of commands (n, axes) and say when they are."""
+        number = np.arange(self._ticks + 1, self._ticks + 1 + len(command), dtype=np.int64)
+        since = number - max(self._ticks, 0)
+        self._ticks += len(command)
         return _Chunk(
             (self._anchor_s + number * self._tick_s).astype(np.float64),
             (since * self._tick_s).astype(np.float64),

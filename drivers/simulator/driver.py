@@ -9,22 +9,48 @@ from typing import ClassVar
 
 import numpy as np
 
-from rotemina.drivers.abilities import EffectCarrier, TrajectoryPlayer, VelocityMover
+from rotemina.drivers.abilities import (
+    Capturer,
+    EffectCarrier,
+    Homer,
+    ProfileRunner,
+    TrajectoryPlayer,
+    VelocityMover,
+    VoltageOutput,
+)
+from rotemina.drivers.capture import Captured, CaptureRates
 from rotemina.drivers.clock import Clock
-from rotemina.drivers.errors import LimitError
+from rotemina.drivers.errors import LimitError, StateError
+from rotemina.drivers.profile import Profile
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.drivers.settings import SettingError, SettingValue
+from rotemina.drivers.simulator.capturing import Capturing
 from rotemina.drivers.simulator.device import SimulatedDevice
+from rotemina.drivers.simulator.front_panel import FrontPanel
+from rotemina.drivers.simulator.homing import Homing
+from rotemina.drivers.simulator.profile_motion import ProfileMotion
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.errors import InputError
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.records.record import Record
-from rotemina.sim.robot.model import AxisEffect, ForceAxis, Robot
+from rotemina.sim.robot.model import AxisEffect, ForceAxis, PiezoAxis, Robot, StepperAxis
+from rotemina.sim.trajectory.limits import check_target
 
 MAX_RATE_HZ = 20_000.0
 MAX_READ_S = 5.0  # device time that one call simulates at most; the rest waits for the next
+MAX_CAPTURE = 100_000  # samples
 
 
-class Simulator(TrajectoryPlayer, VelocityMover, EffectCarrier):
+class Simulator(
+    TrajectoryPlayer,
+    VelocityMover,
+    Homer,
+    VoltageOutput,
+    Capturer,
+    ProfileRunner,
+    FrontPanel,
+    EffectCarrier,
+):
     """A machine that behaves as its robot file says.
 
     Device time is the clock's time since ``open``; what happened since the last call is simulated
@@ -35,13 +61,19 @@ class Simulator(TrajectoryPlayer, VelocityMover, EffectCarrier):
 
     Settings: ``sample_rate_hz`` of samples and set-points; ``seed`` of noise and random effects;
     ``settle_s`` at the first row of a trajectory; ``start_fraction`` of its range at which each
-    axis first stands.
+    axis first stands; ``start_homed``: whether the steppers know at first where that is.
     """
 
     name = "simulator"
     virtual_time = True
     default_settings: ClassVar[Mapping[str, SettingValue]] = MappingProxyType(
-        {"sample_rate_hz": 1000.0, "seed": 0, "settle_s": 0.5, "start_fraction": 0.5}
+        {
+            "sample_rate_hz": 1000.0,
+            "seed": 0,
+            "settle_s": 0.5,
+            "start_fraction": 0.5,
+            "start_homed": True,
+        }
     )
 
     def __init__(
@@ -62,6 +94,10 @@ class Simulator(TrajectoryPlayer, VelocityMover, EffectCarrier):
                     "controller holds; give it one in the robot file"
                 )
         self._position = self._start_position(self._number("start_fraction", 0.0, 1.0))
+        start_homed = self.settings["start_homed"]
+        self._homing = Homing(() if start_homed else map(self.axes.index, self.homing_axes))
+        self._capturing: Capturing | None = None
+        self._profile: ProfileMotion | None = None
         self._opened_at_s = 0.0
         self._device: SimulatedDevice | None = None
         self._effects = robot.effects
@@ -80,6 +116,18 @@ class Simulator(TrajectoryPlayer, VelocityMover, EffectCarrier):
     def effects(self) -> tuple[AxisEffect, ...]:
         """The effects in place, those that are switched off among them."""
         return self._effects
+
+    @property
+    def homing_axes(self) -> tuple[str, ...]:
+        """The steppers: a piezo's sensor always knows where it is."""
+        axes = self.robot.axes.items()
+        return tuple(name for name, axis in axes if isinstance(axis, StepperAxis))
+
+    @property
+    def capture_rates(self) -> CaptureRates:
+        """All axes at the rate of the samples, from which a capture is taken."""
+        rate_hz = 1.0 / self._tick_s
+        return CaptureRates(rate_hz, rate_hz, len(self.axes), MAX_CAPTURE)
 
     def _set_effects(self, effects: tuple[AxisEffect, ...]) -> None:
         self._catch_up()
@@ -104,6 +152,8 @@ class Simulator(TrajectoryPlayer, VelocityMover, EffectCarrier):
         self._stops_s.clear()
         self._leases_s.clear()
         self._unread.clear()
+        self._capturing = None
+        self._profile = None
         self._fault = None
         self._device = self._made(self._position, 0.0)
 
@@ -115,10 +165,12 @@ class Simulator(TrajectoryPlayer, VelocityMover, EffectCarrier):
             settle_s=self._settle_s,
             position=position,
             time_s=time_s,
+            homing=self._homing,
         )
 
     def _close(self) -> None:
         self._catch_up()
+        self._homing.give_up()
         self._position = self._running.command
         self._stops_s.clear()
         self._unread.clear()
@@ -126,12 +178,15 @@ class Simulator(TrajectoryPlayer, VelocityMover, EffectCarrier):
 
     def _status(self) -> DeviceStatus:
         device = self._running
-        if self._fault is not None:
-            return DeviceStatus(DeviceState.FAULT, device.progress, self._fault)
-        if device.playing:
-            return DeviceStatus(DeviceState.PLAYING, device.progress)
+        unhomed = tuple(self.axes[index] for index in self._homing.unknown)
         state = DeviceState.MOVING if device.moving else DeviceState.IDLE
-        return DeviceStatus(state, device.progress)
+        if self._fault is not None:
+            state = DeviceState.FAULT
+        elif device.playing:
+            state = DeviceState.PLAYING
+        elif self._homing.under_way:
+            state = DeviceState.HOMING
+        return DeviceStatus(state, device.progress, self._fault, not unhomed, unhomed)
 
     def _move_to(self, targets: dict[str, float]) -> None:
         self._catch_up()
@@ -149,6 +204,59 @@ class Simulator(TrajectoryPlayer, VelocityMover, EffectCarrier):
             self._leases_s.pop(index, None)
             if velocity:
                 self._leases_s[index] = ends_s
+
+    def _home(self, axes: tuple[str, ...]) -> None:
+        self._catch_up()
+        self._running.home(tuple(self.axes.index(axis) for axis in axes))
+
+    def _set_voltage(self, axis: str, voltage: float) -> None:
+        model = self.robot.axes[axis]
+        if not isinstance(model, PiezoAxis) or model.controller is not None:
+            raise LimitError(
+                f"{self.name}: axis {axis} runs under a controller, which alone sets its voltage"
+            )
+        try:
+            check_target(self.robot, axis, voltage * model.gain)
+        except InputError as error:
+            raise LimitError(str(error)) from error
+        self._move_to({axis: voltage * model.gain})
+
+    def captured(self) -> Captured | None:
+        """Return what the reads since it was last asked for have brought, or None: nothing."""
+        return self._capturing.handed_out() if self._capturing is not None else None
+
+    def _capture(self, axes: tuple[str, ...], rate_hz: float, count: int) -> None:
+        self._catch_up()
+        columns = tuple(self.axes.index(axis) for axis in axes)
+        begin_s = self._running.time_s
+        self._capturing = Capturing(axes, columns, rate_hz, count, begin_s)
+
+    def _commanded(self, axis: str) -> float:
+        self._catch_up()
+        return float(self._running.command[self.axes.index(axis)])
+
+    def _upload(self, profile: Profile) -> None:
+        index = self.axes.index(profile.axis)
+        self._profile = ProfileMotion(profile, index, self._commanded(profile.axis), self._tick_s)
+
+    def _trigger(self) -> None:
+        self._catch_up()
+        profile, device = self._profile, self._running
+        if profile is None:
+            raise StateError(f"{self.name}: there is no profile to run; upload one first")
+        if device.moving or device.command[profile.index] != profile.start:
+            raise StateError(
+                f"{self.name}: the axis of the profile has moved since; wait until it rests, and "
+                "upload the profile again"
+            )
+        self._profile = None
+        device.run(profile)
+
+    def _abort(self) -> None:
+        self._catch_up()
+        self._profile = None
+        if self._running.running_profile:
+            self._running.stop()
 
     def _play(self, trajectory: Record) -> None:
         if len(trajectory.time_s) > 1:
@@ -190,11 +298,17 @@ class Simulator(TrajectoryPlayer, VelocityMover, EffectCarrier):
         now_s = min(self.clock() - self._opened_at_s, device.time_s + MAX_READ_S)
         try:
             while (end_s := self._next_end_s()) <= now_s:
-                self._unread += device.advance(end_s)
+                self._keep(device.advance(end_s))
                 self._end(device, end_s)
-            self._unread += device.advance(now_s)
+            self._keep(device.advance(now_s))
         except PlantError as error:
             self._fault = str(error)
+
+    def _keep(self, parts: list[Samples]) -> None:
+        self._unread += parts
+        if self._capturing is not None:
+            for part in parts:
+                self._capturing.take(part)
 
     def _next_end_s(self) -> float:
         """Return when the next stop was asked for, or a lease runs out."""

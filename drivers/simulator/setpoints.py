@@ -91,6 +91,12 @@ class SetpointGenerator:
             end = self._limits.high if velocity > 0.0 else self._limits.low
             self.retarget({index: float(end[index])}, abs(velocity))
 
+    def search(self, axes: tuple[int, ...], share: float) -> None:
+        """Send axes, by their number, to their low ends at this share of their greatest speed."""
+        for index in axes:
+            low, speed = self._limits.low[index], self._limits.speed[index]
+            self.retarget({index: float(low)}, share * float(speed))
+
     def take_over(self, position: FloatArray, velocity: FloatArray) -> None:
         """Continue from a command (axes,) and its speed (axes,), and come to a halt."""
         self._position[:] = np.clip(position, self._limits.low, self._limits.high)
