@@ -45,7 +45,14 @@ class VelocityMover(Driver, ABC):
         StateError
             As :meth:`Driver.move_to`.
         """
+        self.check_velocity(velocities, lease_s)
         self._require_free("move")
+        if velocities:
+            self._move_velocity(dict(velocities), lease_s)
+
+    @final
+    def check_velocity(self, velocities: Mapping[str, float], lease_s: float) -> None:
+        """Raise :class:`LimitError` where :meth:`move_velocity` would; asks the device nothing."""
         if not 0.0 < lease_s <= LONGEST_LEASE_S:
             raise LimitError(
                 f"{self.name}: a lease of {lease_s:g} s: must be more than 0 s, at most "
@@ -63,8 +70,6 @@ class VelocityMover(Driver, ABC):
                     f"{self.name}: axis {axis}: a speed of {speed:g} {self.robot.unit(axis)}/s: "
                     f"must be {bound}"
                 )
-        if velocities:
-            self._move_velocity(dict(velocities), lease_s)
 
     @abstractmethod
     def _move_velocity(self, velocities: dict[str, float], lease_s: float) -> None:

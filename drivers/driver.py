@@ -111,13 +111,17 @@ class Driver(ABC):
         return self._status() if self._is_open else _CLOSED
 
     @final
-    def move_to(self, targets: Mapping[str, float]) -> None:
+    def move_to(
+        self, targets: Mapping[str, float], speeds: Mapping[str, float] = MappingProxyType({})
+    ) -> None:
         """Begin to move axes to positions (m or rad); also in mid-move. Returns at once.
+
+        Each goes as fast as it may, or as ``speeds`` (m/s or rad/s) says, where that is slower.
 
         Raises
         ------
         LimitError
-            If any target is beyond a limit; then no axis moves.
+            If any target is beyond a limit, or a speed is none; then no axis moves.
         StateError
             If the device is closed, faulty or playing a trajectory.
         """
@@ -127,8 +131,19 @@ class Driver(ABC):
                 check_target(self.robot, axis, position)
         except InputError as error:
             raise LimitError(str(error)) from error
-        if targets:
+        for axis, speed in speeds.items():
+            if axis not in targets or not speed > 0.0:
+                raise LimitError(
+                    f"{self.name}: axis {axis}: a speed of {speed:g}: must be more than 0, of an "
+                    "axis with a target"
+                )
+        if speeds:
+            self._move_slowly(dict(targets), dict(speeds))
+        elif targets:
             self._move_to(dict(targets))
+
+    def _move_slowly(self, targets: dict[str, float], speeds: dict[str, float]) -> None:
+        raise NotImplementedError
 
     @final
     def stop(self) -> None:

@@ -2,9 +2,12 @@
 
 import threading
 from collections import deque
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from rotemina.app.motion.guard import Leg
+from rotemina.drivers.driver import Driver
 from rotemina.sim.errors import InputError
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.trajectory.checked import CheckedTrajectory
@@ -16,9 +19,42 @@ class RefusedError(InputError):
 
 @dataclass(frozen=True, slots=True)
 class Move:
-    """Send axes to positions, m or rad."""
+    """Send axes to positions, m or rad, leg after leg."""
 
-    targets: dict[str, float]
+    legs: tuple[Leg, ...]
+
+    @property
+    def targets(self) -> dict[str, float]:
+        """Where each axis ends."""
+        return {axis: at for leg in self.legs for axis, at in leg.targets.items()}
+
+
+@dataclass(frozen=True, slots=True)
+class Drive:
+    """Let axes go at speeds, m/s or rad/s, until the lease runs out.
+
+    ``asked_s`` is the host's time of the request: a lease does not begin anew in a queue.
+    ``reach`` says where each axis is at the latest when nobody renews it.
+    """
+
+    velocities: dict[str, float]
+    lease_s: float
+    asked_s: float
+    reach: dict[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Home:
+    """Find the limit switches of axes."""
+
+    axes: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Ask:
+    """Something else that a driver is asked to do, on the thread that talks to it."""
+
+    action: Callable[[Driver], None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +76,7 @@ class SetEffects:
     effects: tuple[AxisEffect, ...]
 
 
-Command = Move | Play | ClearFault | SetEffects
+Command = Move | Drive | Play | Home | ClearFault | SetEffects | Ask
 
 
 class Taken(NamedTuple):
@@ -79,6 +115,8 @@ class Mailbox:
             If the queue is full.
         """
         with self._lock:
+            if isinstance(command, Drive) and self._renews(command):
+                self._commands.pop()
             if len(self._commands) >= self.capacity:
                 raise RefusedError(
                     f"{self.capacity} commands are waiting already and the device does not keep "
@@ -86,6 +124,11 @@ class Mailbox:
                 )
             self._commands.append(command)
         self.bell.set()
+
+    def _renews(self, command: Drive) -> bool:
+        """Tell whether the latest command is of the same axes: only the newest speed counts."""
+        latest = self._commands[-1] if self._commands else None
+        return isinstance(latest, Drive) and latest.velocities.keys() <= command.velocities.keys()
 
     def take(self) -> Taken | None:
         """Return the oldest command, or None; the one taken before counts as done."""
@@ -107,11 +150,19 @@ class Mailbox:
 
     def target_of(self, axis: str) -> float | None:
         """Return where the latest move that waits, or is being handed over, sends an axis."""
+        return next((each[axis] for each in reversed(self.pending()) if axis in each), None)
+
+    def pending(self) -> list[Mapping[str, float]]:
+        """Return where all that waits, or is being handed over, sends axes, oldest first."""
         with self._lock:
-            for command in (*reversed(self._commands), self._in_hand):
-                if isinstance(command, Move) and axis in command.targets:
-                    return command.targets[axis]
-        return None
+            commands = [self._in_hand, *self._commands]
+        ends: list[Mapping[str, float]] = []
+        for command in commands:
+            if isinstance(command, Move):
+                ends += [leg.targets for leg in command.legs]
+            elif isinstance(command, Drive):
+                ends.append(command.reach)
+        return ends
 
     def request_connection(self) -> None:
         """Ask the worker to open the device, and ring."""

@@ -5,6 +5,8 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from types import MappingProxyType
 
+from rotemina.app.motion.stop_latency import Latency
+from rotemina.drivers.link import LinkQuality
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.records.record import Record
 
@@ -16,6 +18,19 @@ class Connection(StrEnum):
     CONNECTING = "connecting"
     CONNECTED = "connected"
     FAILED = "failed"
+
+
+class Phase(StrEnum):
+    """What an operator must know of the session, in one word."""
+
+    DISCONNECTED = "disconnected"
+    CONNECTING = "connecting"
+    READY = "ready"
+    MOVING = "moving"
+    STOPPING = "stopping"
+    SHORT_LOSS = "short loss"
+    FAULT = "fault"
+    POSITION_UNKNOWN = "position unknown"
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +60,24 @@ class SessionState:
         The reason for the last failure or device fault; it stays until it is cleared.
     locked : str or None
         Why no motion is accepted now, or None.
+    unhomed : tuple of str
+        Axes whose position is unknown.
+    silent_s : float
+        For how long the device has said nothing though it should have.
+    stopping : bool
+        Whether a stop was asked for and the device has not been seen at rest since.
+    latched : str or None
+        Why the emergency stop is latched, until it is released.
+    owners : mapping axis -> str
+        Who drives each axis that somebody drives.
+    differences : tuple of str
+        Where the device's parameters differ from the robot file, until they are accepted.
+    tip : (x, y, z) or None
+        The tip, m, as commanded; None where there is none, or nothing is known.
+    link : LinkQuality or None
+        How the line does; None where there is none.
+    stop_latency : Latency or None
+        How long a stop takes to be out on the line, as of all the time.
     stop_latency_s : float or None
         How long the latest stop took to be handed to the device (host time).
     standstill_s : float or None
@@ -64,8 +97,34 @@ class SessionState:
     position_known: bool = False
     fault: str | None = None
     locked: str | None = None
+    unhomed: tuple[str, ...] = ()
+    silent_s: float = 0.0
+    stopping: bool = False
+    latched: str | None = None
+    owners: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    differences: tuple[str, ...] = ()
+    tip: tuple[float, float, float] | None = None
+    link: LinkQuality | None = None
+    stop_latency: Latency | None = None
     stop_latency_s: float | None = None
     standstill_s: float | None = None
+
+    @property
+    def phase(self) -> Phase:
+        """The state in one word, the gravest first."""
+        if self.connection is Connection.CONNECTING:
+            return Phase.CONNECTING
+        if self.connection is not Connection.CONNECTED:
+            return Phase.DISCONNECTED
+        if self.silent_s > 0.0:
+            return Phase.SHORT_LOSS
+        if self.fault is not None:
+            return Phase.FAULT
+        if self.stopping:
+            return Phase.STOPPING
+        if self.activity is not DeviceState.IDLE:
+            return Phase.MOVING
+        return Phase.READY if self.position_known else Phase.POSITION_UNKNOWN
 
 
 @dataclass(frozen=True, slots=True)

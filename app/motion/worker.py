@@ -9,10 +9,11 @@ from contextlib import suppress
 from dataclasses import replace
 from types import MappingProxyType
 
+from rotemina.app.motion.executor import Executor
 from rotemina.app.motion.history import LiveHistory
 from rotemina.app.motion.live_model import LiveModel
-from rotemina.app.motion.mailbox import ClearFault, Command, Mailbox, Move, Play, SetEffects
-from rotemina.app.motion.recorder import PlaybackRecorder
+from rotemina.app.motion.mailbox import ClearFault, Mailbox
+from rotemina.app.motion.ownership import Ownership
 from rotemina.app.motion.state import (
     CommandRefused,
     Connection,
@@ -22,10 +23,12 @@ from rotemina.app.motion.state import (
     SessionState,
     StateChanged,
 )
-from rotemina.drivers.abilities import EffectCarrier, TrajectoryPlayer
+from rotemina.app.motion.stop_latency import StopLatency
+from rotemina.drivers.abilities import Linked, Parameterised
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.errors import DriverError, StateError
+from rotemina.drivers.link import LinkQuality
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
@@ -34,8 +37,10 @@ from rotemina.sim.errors import InputError
 class Worker:
     """Connects, executes queued commands, takes samples, records, and publishes ``state``.
 
-    ``state`` is replaced as a whole, so any thread may look at it; so are ``targets``, where the
-    device was last sent, of each axis that it has been sent anywhere since it last held.
+    ``state`` is replaced as a whole, so any thread may look at it.
+
+    The device is read in every cycle, which may be every millisecond; what it said is worked up in
+    portions, as fast as a screen could show it.
     """
 
     def __init__(
@@ -47,22 +52,36 @@ class Worker:
         emit: Callable[[Event], None],
     ) -> None:
         self.state = SessionState(locked=_NOT_CONNECTED)
-        self.targets: Mapping[str, float] = _NOWHERE
+        self.ownership = Ownership()
+        self.latency = StopLatency()
         self._driver = driver
         self._mailbox = mailbox
         self._history = history
         self._clock = clock
         self._emit = emit
         self._model = LiveModel(driver.robot)
-        self._recorder: PlaybackRecorder | None = None
+        self._executor = Executor(driver, mailbox, clock)
         self._next = self.state
+        self._unread: list[Samples] = []
+        self._worked_up_s = float("-inf")
+        self._distrust: str | None = None
         # Set by other threads, each in one assignment.
         self._stop_asked_s: float | None = None
         self._stop_failure: Exception | None = None
 
+    @property
+    def targets(self) -> Mapping[str, float]:
+        """Where the device was last sent, m or rad, of each axis that was sent anywhere."""
+        return self._executor.targets
+
+    @property
+    def reaches(self) -> Mapping[str, float]:
+        """How far each axis may get, m or rad, that goes at a speed."""
+        return self._executor.reaches
+
     def stopped(self, host_time_s: float, failure: Exception | None) -> None:
         """Note, from any thread, that a stop was handed to the device, or failed to be."""
-        self.targets = _NOWHERE
+        self._executor.forget()
         self._stop_asked_s = host_time_s
         if failure is not None:  # a later stop that succeeds does not mend what this one found
             self._stop_failure = failure
@@ -73,8 +92,14 @@ class Worker:
         try:
             self._cycle()
         except Exception as error:  # a driver may raise anything; motion must lock and say so
+            if self._next.connection is Connection.CONNECTED:
+                self._distrust = "the connection was lost"
             self._fail(_described(error))
         self._publish()
+
+    def confirm_position(self) -> None:
+        """Trust the device's position again after a lost connection; on the worker's thread."""
+        self._distrust = None
 
     def shut_down(self) -> None:
         """Stop and let go of the device."""
@@ -105,8 +130,10 @@ class Worker:
         self._publish()
         self._mailbox.clear()
         self._stop_failure = None
-        self.targets = _NOWHERE
+        self._executor.forget()
+        self._unread.clear()
         self._driver.open()
+        self._worked_up_s = float("-inf")
         self._history.clear()
         self._model.restart()
         self._next = replace(self._next, connection=Connection.CONNECTED)
@@ -114,62 +141,75 @@ class Worker:
     def _execute(self) -> None:
         while (taken := self._mailbox.take()) is not None:
             try:
-                self._do(taken.command)
+                self._executor.do(taken.command, taken.generation)
+                if isinstance(taken.command, ClearFault):
+                    self._model.restart()
+                    self._next = replace(self._next, fault=None)
             except (InputError, StateError) as error:
                 self._emit(CommandRefused(str(error)))
-            # A stop that came while the command was on its way must not be undone by it.
-            if self._mailbox.generation != taken.generation:
-                self.targets = _NOWHERE
-                self._driver.stop()
-
-    def _do(self, command: Command) -> None:
-        if isinstance(command, Move):
-            self._driver.move_to(command.targets)
-            self.targets = MappingProxyType({**self.targets, **command.targets})
-        elif isinstance(command, Play):
-            self._play(command)
-        elif isinstance(command, SetEffects):
-            assert isinstance(self._driver, EffectCarrier), "the session refuses on any other"
-            self._driver.set_effects(command.effects)
-        elif isinstance(command, ClearFault):
-            self._driver.clear_fault()
-            self.targets = _NOWHERE
-            self._model.restart()
-            self._next = replace(self._next, fault=None)
-
-    def _play(self, command: Play) -> None:
-        driver = self._driver
-        assert isinstance(driver, TrajectoryPlayer), "the session refuses to play on any other"
-        recorder = PlaybackRecorder(command.trajectory, driver.name)
-        driver.play(command.trajectory)
-        self.targets = _NOWHERE
-        self._recorder = recorder
+        try:
+            self._executor.go_on()
+        except (InputError, StateError) as error:
+            self._emit(CommandRefused(str(error)))
 
     def _take_samples(self) -> None:
         samples = self._driver.read()
+        if len(samples):
+            self._unread.append(samples)
         status = self._driver.status()
+        now_s = self._clock()
+        news = status.state is not self._next.activity and not self._executor.between_legs
+        if news or now_s - self._worked_up_s >= _PORTION_S:
+            self._worked_up_s = now_s
+            parts, self._unread = self._unread, []
+            self._work_up(Samples.joined(parts, len(self._driver.axes)), status)
+
+    def _work_up(self, samples: Samples, status: DeviceStatus) -> None:
         model = self._model.follow(samples)
         self._history.append(samples, model)
         self._next = self._updated(samples, model, status)
         self._note_standstill(status)
+        self._note_rest(status)
         faulted = status.state is DeviceState.FAULT and self.state.fault != self._next.fault
         if faulted:
             self._mailbox.clear()
-            self.targets = _NOWHERE
+            self._executor.forget()
         # Published before events tell of it: a subscriber may answer with the next command.
         self._publish()
-        if self._recorder is not None:
-            self._recorder.add(samples)
+        if self._executor.recorder is not None:
+            self._executor.recorder.add(samples)
             if status.state is not DeviceState.PLAYING:
                 self._end_recording(completed=True)
         if faulted:
             self._emit(Faulted(self._next.fault or ""))
 
+    def _note_rest(self, status: DeviceStatus) -> None:
+        """Free the axes when nothing moves and nobody waits."""
+        if (
+            status.state in (DeviceState.IDLE, DeviceState.FAULT)
+            and not self._executor.between_legs
+        ):
+            self._executor.rested()
+            if not len(self._mailbox):
+                self.ownership.release()
+
     def _updated(self, samples: Samples, model: FloatArray, status: DeviceStatus) -> SessionState:
         fault = self._next.fault
         if status.state is DeviceState.FAULT:
             fault = status.fault or "the device reports a fault"
-        state = replace(self._next, activity=status.state, progress=status.progress, fault=fault)
+        if self._next.activity is DeviceState.HOMING and status.state is DeviceState.IDLE:
+            self._distrust = None  # the switches have been found
+        between_legs = self._executor.between_legs and status.state is DeviceState.IDLE
+        state = replace(
+            self._next,
+            activity=DeviceState.MOVING if between_legs else status.state,
+            progress=status.progress,
+            fault=fault,
+            unhomed=status.unhomed,
+            silent_s=status.silent_s,
+            link=self._link(),
+            differences=self._differences(),
+        )
         if len(samples):
             axes = self._driver.axes
             state = replace(
@@ -182,19 +222,37 @@ class Worker:
             )
         known = status.position_known and state.sample_host_time_s is not None
         state = replace(state, position_known=known)
-        return replace(state, locked=_lock_reason(state))
+        return replace(state, locked=self._lock_reason(state))
+
+    def _link(self) -> LinkQuality | None:
+        driver = self._driver
+        if not isinstance(driver, Linked):
+            return None
+        quality = driver.link_quality()
+        self.latency.add(quality.stop_s)
+        return quality
+
+    def _differences(self) -> tuple[str, ...]:
+        driver = self._driver
+        if not isinstance(driver, Parameterised):
+            return ()
+        return tuple(str(one) for one in driver.differences)
+
+    def _lock_reason(self, state: SessionState) -> str | None:
+        return _lock_reason(state, self._distrust)
 
     def _note_standstill(self, status: DeviceStatus) -> None:
         asked_s = self._stop_asked_s
         if asked_s is None:
             return
-        self._next = replace(self._next, standstill_s=None)
+        self._next = replace(self._next, standstill_s=None, stopping=True)
         if status.state in (DeviceState.IDLE, DeviceState.FAULT):
             self._stop_asked_s = None
-            self._next = replace(self._next, standstill_s=self._clock() - asked_s)
+            standstill_s = self._clock() - asked_s
+            self._next = replace(self._next, standstill_s=standstill_s, stopping=False)
 
     def _end_recording(self, *, completed: bool) -> None:
-        recorder, self._recorder = self._recorder, None
+        recorder, self._executor.recorder = self._executor.recorder, None
         if recorder is None:
             return
         record = recorder.finish()
@@ -203,7 +261,8 @@ class Worker:
     def _fail(self, message: str) -> None:
         """Lock motion; only an explicit reconnection ends this."""
         self._mailbox.clear()
-        self.targets = _NOWHERE
+        self._executor.forget()
+        self.ownership.release()
         with suppress(Exception):  # best effort: the device is expected not to answer
             self._driver.stop()
         with suppress(Exception):
@@ -220,8 +279,10 @@ class Worker:
             activity=DeviceState.CLOSED,
             position_known=False,
             fault=fault,
+            silent_s=0.0,
+            stopping=False,
         )
-        self._next = replace(self._next, locked=_lock_reason(self._next))
+        self._next = replace(self._next, locked=self._lock_reason(self._next))
 
     def _publish(self) -> None:
         before, self.state = self.state, self._next
@@ -229,25 +290,38 @@ class Worker:
             self._emit(StateChanged(self.state))
 
 
-_NOWHERE: Mapping[str, float] = MappingProxyType({})
 _NOT_CONNECTED = "not connected; connect first"
+_PORTION_S = 0.008  # between two times that samples are worked up
 
 
-def _lock_reason(state: SessionState) -> str | None:
+def _lock_reason(state: SessionState, distrust: str | None) -> str | None:
     if state.connection is Connection.FAILED:
         return f"the device failed ({state.fault}); reconnect, then check where it stands"
     if state.connection is not Connection.CONNECTED:
         return _NOT_CONNECTED
     if state.fault is not None:
         return f"the device reports a fault ({state.fault}); clear it first"
+    if state.silent_s > 0.0:
+        return "the device does not answer; wait until it does"
+    if state.differences:
+        return (
+            f"the device's parameters are not those of the robot file ({state.differences[0]}); "
+            "write or accept them first"
+        )
     if not state.position_known:
-        return "the position is not known yet"
+        which = f" of {', '.join(state.unhomed)}" if state.unhomed else ""
+        return f"the position{which} is not known; home first" if which else _NOT_YET
+    if distrust is not None:
+        return f"{distrust}: the position may be wrong; home, or confirm it"
     return None
+
+
+_NOT_YET = "the position is not known yet"
 
 
 def _told(state: SessionState) -> tuple[object, ...]:
     """Return what of a state is worth an event; positions are read from the history instead."""
-    return (state.connection, state.activity, state.fault, state.locked, state.position_known)
+    return (state.phase, state.activity, state.fault, state.locked, state.position_known)
 
 
 def _by_axis(axes: tuple[str, ...], values: FloatArray) -> MappingProxyType[str, float]:

@@ -303,6 +303,10 @@ def test_a_failing_driver_locks_motion_until_reconnected(stepped, hook, error):
     state = stepped.step()
     assert state.connection is Connection.CONNECTED
     assert state.fault is None
+    with pytest.raises(RefusedError, match="home, or confirm it"):
+        stepped.session.jog("x", 1e-4)
+    stepped.session.confirm_position()
+    stepped.step()
     stepped.session.jog("x", 1e-4)
     stepped.until_idle()
     with pytest.raises(RefusedError, match="is connected"):

@@ -1,0 +1,57 @@
+"""Back to where the machine was: retract, travel, approach."""
+
+from collections import deque
+from collections.abc import Mapping
+
+from rotemina.app.motion.mailbox import RefusedError
+from rotemina.sim.robot.model import Robot
+
+_CLEARANCE = 1e-3  # m above both ends, where the range allows
+_KEPT = 50
+_LIFT = "z"
+
+
+class Undo:
+    """Where the axes rested before each move, latest last.
+
+    A way back lifts the tip above both ends, goes across, and comes down at last: whatever stood
+    between them when the move was made may still stand there.
+    """
+
+    def __init__(self, robot: Robot) -> None:
+        self._robot = robot
+        self._places: deque[dict[str, float]] = deque(maxlen=_KEPT)
+
+    def __len__(self) -> int:
+        return len(self._places)
+
+    def note(self, place: Mapping[str, float]) -> None:
+        """Keep where the axes rest before a move."""
+        if place and (not self._places or self._places[-1] != place):
+            self._places.append(dict(place))
+
+    def forget(self) -> None:
+        """Keep nothing: positions of before a lost connection mean nothing."""
+        self._places.clear()
+
+    def back(self, now: Mapping[str, float]) -> tuple[dict[str, float], ...]:
+        """Return the legs of the way back to the latest place that is not here, and drop it.
+
+        Raises
+        ------
+        RefusedError
+            If there is none.
+        """
+        while self._places and self._places[-1] == now:
+            self._places.pop()
+        if not self._places:
+            raise RefusedError("there is no move to take back")
+        goal = self._places.pop()
+        if _LIFT not in self._robot.axes or _LIFT not in now:
+            return (goal,)
+        highest = self._robot.axes[_LIFT].range[1]
+        above = min(max(now[_LIFT], goal[_LIFT]) + _CLEARANCE, highest)
+        across = {axis: at for axis, at in goal.items() if axis != _LIFT}
+        if all(abs(now.get(axis, at) - at) == 0.0 for axis, at in across.items()):
+            return ({_LIFT: goal[_LIFT]},)
+        return ({_LIFT: above}, across, {_LIFT: goal[_LIFT]})

@@ -1,0 +1,177 @@
+"""Where the tip may be: above a floor, within a radius, clear of the objective.
+
+Ranges of axes do not save a 40 mm pin above a dish. What is allowed is an upright cylinder about
+the middle of the workspace, so every straight way between two allowed tips is allowed too. What
+axes sweep, each on its own schedule, is bounded as a workspace is.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.kinematics.chain import Chain, ChainError
+from rotemina.sim.kinematics.forward import tip_position
+from rotemina.sim.kinematics.workspace import Box, Workspace
+from rotemina.sim.robot.model import Robot
+from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.wording import readable
+
+SLOW_HEIGHT = 0.5e-3  # m above the floor: below it the tip goes down no faster than that
+SLOW_SPEED = 0.5e-3  # m/s
+_SLACK = 1e-9  # m, that rounding may take
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class KeepOutZone:
+    """The tip's bounds on one robot; make one by :meth:`of`.
+
+    Attributes
+    ----------
+    chain : Chain
+    low, high : float
+        Heights, m, between which the tip must stay; infinite where nothing bounds it.
+    radius : float
+        Greatest distance, m, from the upright axis through the middle of the workspace.
+    """
+
+    chain: Chain
+    low: float
+    high: float
+    radius: float
+
+    @classmethod
+    def of(cls, robot: Robot) -> Self | None:
+        """Return the bounds that a robot file gives; None where the robot has no tip.
+
+        Raises
+        ------
+        ChainError
+            If the file bounds the tip of a robot that has none.
+        """
+        given = robot.keep_out
+        bounded = (given.floor, given.radius, given.objective) != (None, None, None)
+        try:
+            chain = Chain.of(robot)
+        except ChainError as error:
+            if bounded:
+                raise ChainError(f"{error}; its [keep_out] can bound no tip") from error
+            return None
+        low = -np.inf if given.floor is None else given.floor
+        high = np.inf
+        if given.objective is not None:
+            middle = float(tip_position(chain, chain.centre)[2])
+            above = given.objective > (middle if given.floor is None else given.floor)
+            low, high = (low, given.objective) if above else (max(low, given.objective), high)
+        radius = np.inf if given.radius is None else given.radius
+        return cls(chain, float(low), float(high), float(radius))
+
+    @property
+    def bounded(self) -> bool:
+        """Whether anything bounds the tip but its joints."""
+        return bool(np.isfinite([self.low, self.high, self.radius]).any())
+
+    def taught(self, floor: float | None) -> Self:
+        """Return the bounds with another floor, m; None for none at all."""
+        return replace(self, low=-np.inf if floor is None else float(floor))
+
+    def tip(self, positions: FloatArray) -> FloatArray:
+        """Return the tip (..., 3), m, of axes (..., axes) in the robot's order."""
+        return tip_position(self.chain, self.chain.joints_of(positions))
+
+    def swept(self, low: FloatArray, high: FloatArray) -> Box:
+        """Return the box that the tip stays in while axes are anywhere between (axes,) bounds."""
+        joints = (self.chain.joints_of(each) for each in (low, high))
+        lower, upper = joints
+        return Workspace.of(replace(self.chain, lower=lower, upper=upper)).hull
+
+    def check_sweep(self, low: FloatArray, high: FloatArray, present: Box | None = None) -> Box:
+        """Return :meth:`swept`; refuse what might leave the bounds on the way.
+
+        A tip that is out of them already, ``present``, may go anywhere but farther out.
+
+        Raises
+        ------
+        OutOfLimitsError
+            With what is left, by how much, and what to do.
+        """
+        box = self.swept(low, high)
+        bounds = self if present is None else self._stretched(present)
+        bounds._refuse(float(box.low[2]), float(box.high[2]), self._farthest(box), "on the way")
+        return box
+
+    def check_path(self, positions: FloatArray, time_s: FloatArray) -> None:
+        """Refuse a path (n, axes) that leaves the bounds, or dives through the slow zone.
+
+        Raises
+        ------
+        OutOfLimitsError
+            With the time of the first row that does.
+        """
+        if not self.bounded:
+            return
+        tip = self.tip(positions)
+        away = np.hypot(*(tip - self._middle)[:, :2].T)
+        wrong = (
+            (tip[:, 2] < self.low - _SLACK)
+            | (tip[:, 2] > self.high + _SLACK)
+            | (away > self.radius + _SLACK)
+        )
+        if wrong.any():
+            row = int(np.argmax(wrong))
+            height = float(tip[row, 2])
+            self._refuse(height, height, float(away[row]), f"at {time_s[row] - time_s[0]:.6g} s")
+        self._check_speed(tip[:, 2], time_s)
+
+    @property
+    def _middle(self) -> FloatArray:
+        return tip_position(self.chain, self.chain.centre)
+
+    def _farthest(self, box: Box) -> float:
+        ends = np.maximum(np.abs(box.low - self._middle), np.abs(box.high - self._middle))
+        return float(np.hypot(*ends[:2]))
+
+    def _stretched(self, present: Box) -> Self:
+        """Return bounds that what is there already does not break."""
+        return replace(
+            self,
+            low=min(self.low, float(present.low[2])),
+            high=max(self.high, float(present.high[2])),
+            radius=max(self.radius, self._farthest(present)),
+        )
+
+    def _check_speed(self, height: FloatArray, time_s: FloatArray) -> None:
+        """Refuse to go down faster than allowed close above the floor.
+
+        A row lasts until the next one, so a whole step counts over the time before it.
+        """
+        down = -np.diff(height) / np.diff(time_s)
+        close = height[1:] - self.low < SLOW_HEIGHT
+        too_fast = close & (down > SLOW_SPEED * (1.0 + 1e-6))
+        if too_fast.any():
+            row = int(np.argmax(too_fast))
+            raise OutOfLimitsError(
+                f"tip: goes down at {readable(float(down[row]), 'm')}/s at "
+                f"{time_s[row + 1] - time_s[0]:.6g} s, {readable(float(height[row + 1]), 'm')} "
+                f"high: within {readable(SLOW_HEIGHT, 'm')} of its floor "
+                f"{readable(self.low, 'm')} at most {readable(SLOW_SPEED, 'm')}/s; make the "
+                "approach slower"
+            )
+
+    def _refuse(self, lowest: float, highest: float, away: float, where: str) -> None:
+        if lowest < self.low - _SLACK:
+            raise OutOfLimitsError(
+                f"tip: {readable(lowest, 'm')} high {where}: its floor is "
+                f"{readable(self.low, 'm')}; move elsewhere first, or teach the floor"
+            )
+        if highest > self.high + _SLACK:
+            raise OutOfLimitsError(
+                f"tip: {readable(highest, 'm')} high {where}: the objective is at "
+                f"{readable(self.high, 'm')}; stay below it"
+            )
+        if away > self.radius + _SLACK:
+            raise OutOfLimitsError(
+                f"tip: {readable(away, 'm')} from the middle {where}: at most "
+                f"{readable(self.radius, 'm')}; move one axis after the other, or less far"
+            )
