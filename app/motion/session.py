@@ -1,166 +1,53 @@
 """A motion session: the one place through which a program moves a machine."""
 
-import logging
-import threading
-import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
+from rotemina.app.motion.device_session import DeviceSession
 from rotemina.app.motion.guard import Guard, Leg, Place
-from rotemina.app.motion.history import LiveHistory
 from rotemina.app.motion.mailbox import (
-    Ask,
-    ClearFault,
     Drive,
     Home,
-    Mailbox,
     Move,
     Play,
     RefusedError,
-    SetEffects,
 )
 from rotemina.app.motion.ownership import HOMING, OPERATOR, PLAYBACK
 from rotemina.app.motion.state import (
-    Callback,
-    Connection,
-    Event,
     SessionState,
 )
 from rotemina.app.motion.undo import Undo
-from rotemina.app.motion.worker import Worker
 from rotemina.drivers.abilities import (
-    Display,
-    EffectCarrier,
     Homer,
-    Parameterised,
     TrajectoryPlayer,
     VelocityMover,
 )
-from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.kinematics.keep_out import KeepOutZone
 from rotemina.sim.records.record import Record
-from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.trajectory.checked import CheckedTrajectory, accepted
-from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
 from rotemina.sim.trajectory.limits import OutOfLimitsError, check_target
 
 LEASE_S = 0.15  # of a speed that nobody renews
-_LOG = logging.getLogger(__name__)
 
 
-class MotionSession:
-    """Owns a driver: one worker thread talks to it, and every motion passes through here.
+class MotionSession(DeviceSession):
+    """Every motion passes through here: ranges, the tip's bounds and owners hold on every path.
 
     A request is checked on the caller's thread and refused at once with the reason
-    (:class:`rotemina.sim.errors.InputError`), or queued for the worker. Whatever the device then
-    does is seen in :meth:`snapshot`, ``history`` and events. After a failure nothing moves until
-    :meth:`reconnect`.
+    (:class:`rotemina.sim.errors.InputError`), or queued for the worker.
 
-    Parameters
-    ----------
-    driver : Driver
-    history : LiveHistory, optional
-        Where samples go; a minute's worth by default.
-    clock : callable, optional
-        The host's time, s; the driver's by default.
-    period_s : float, optional
-        How often the worker reads the device when nothing else calls it; as the driver wishes.
-    queue_size : int
-        How many commands may wait.
-    stale_after_s : float
-        Motion is refused when the latest sample is older.
+    Parameters are those of :class:`DeviceSession`.
     """
 
-    def __init__(
-        self,
-        driver: Driver,
-        *,
-        history: LiveHistory | None = None,
-        clock: Clock | None = None,
-        period_s: float | None = None,
-        queue_size: int = 16,
-        stale_after_s: float = 1.0,
-    ) -> None:
-        self.driver = driver
-        self.robot = driver.robot
-        self.history = history if history is not None else LiveHistory(driver.axes)
-        self._clock = clock if clock is not None else driver.clock
-        self._period_s = period_s if period_s is not None else driver.service_period_s
-        self._stale_after_s = stale_after_s
-        self._mailbox = Mailbox(queue_size)
-        self._worker = Worker(driver, self._mailbox, self.history, self._clock, self._emit)
-        self._thread: threading.Thread | None = None
-        self._closing = threading.Event()
-        # Guards what follows; never held while the driver is called.
-        self._lock = threading.Lock()
+    def __init__(self, driver: Driver, **options: Any) -> None:
+        super().__init__(driver, **options)
         self._guard = Guard(self.robot)
         self._undo = Undo(self.robot)
-        self._latched: str | None = None
-        self._callbacks: list[Callback] = []
-        self._stop_latency_s: float | None = None
-
-    def start(self) -> None:
-        """Connect to the device and keep talking to it, on a thread of its own.
-
-        Raises
-        ------
-        RefusedError
-            If the session was started before.
-        """
-        if self._thread is not None:
-            raise RefusedError("the session was started before; make another one")
-        self._mailbox.request_connection()
-        self._thread = threading.Thread(target=self._run, name="motion session", daemon=True)
-        self._thread.start()
-
-    def close(self, timeout_s: float = 5.0) -> bool:
-        """Stop, let go of the device and end the worker; safe to call twice.
-
-        Returns whether the worker ended in time; one that hangs in a device is left behind.
-        """
-        self._closing.set()
-        self._mailbox.bell.set()
-        thread = self._thread
-        if thread is None:
-            self._worker.shut_down()
-            return True
-        if thread is not threading.current_thread():
-            thread.join(timeout_s)
-        return not thread.is_alive()
-
-    @property
-    def setpoint_period_s(self) -> float:
-        """How often the device applies set-points, s; what a dry run for it is to be told."""
-        driver = self.driver
-        return (
-            driver.setpoint_period_s
-            if isinstance(driver, TrajectoryPlayer)
-            else (SETPOINT_PERIOD_S)
-        )
-
-    def connect(self) -> None:
-        """Ask the worker to connect; for a program that steps :meth:`run_once` itself."""
-        self._mailbox.request_connection()
-
-    def reconnect(self) -> None:
-        """Connect again after a failure; never happens by itself.
-
-        Raises
-        ------
-        RefusedError
-            If the session is connected.
-        """
-        if self._worker.state.connection in (Connection.CONNECTED, Connection.CONNECTING):
-            raise RefusedError("the device is connected")
-        self._mailbox.request_connection()
-
-    def run_once(self) -> None:
-        """Do one cycle of the worker's; only where no thread was started."""
-        self._worker.run_once()
 
     # --- motion -----------------------------------------------------------------------------------
 
@@ -229,16 +116,6 @@ class MotionSession:
             self._undo.forget()
             self._mailbox.post(Home(wanted))
 
-    def confirm_position(self) -> None:
-        """Trust the position again after a lost connection: somebody has looked.
-
-        Raises
-        ------
-        RefusedError
-            If the session is not connected.
-        """
-        self._ask(lambda _: self._worker.confirm_position())
-
     def undo(self) -> None:
         """Go back to where the axes rested before the latest move: up, across, down.
 
@@ -303,32 +180,6 @@ class MotionSession:
             self._note_rest()
             self._mailbox.post(Play(checked))
 
-    def stop(self) -> None:
-        """Halt every axis now; any thread, any time. Never waits and never raises.
-
-        Queued commands are dropped. The device is told from this very thread.
-        """
-        asked_s = self._clock()
-        self._mailbox.clear()
-        failure = None
-        try:
-            self.driver.stop()
-        except Exception as error:  # told by the worker: a stop button must not raise
-            failure = error
-        latency_s = self._clock() - asked_s
-        self._worker.stopped(asked_s, failure)
-        with self._lock:
-            self._stop_latency_s = latency_s
-
-    def emergency_stop(self, reason: str = "emergency stop") -> None:
-        """Stop, and let nothing move until :meth:`release`; any thread, never waits or raises."""
-        self._latched = reason
-        self.stop()
-
-    def release(self) -> None:
-        """Let the machine move again after an emergency stop; it stands until it is told to."""
-        self._latched = None
-
     # --- bounds and parameters --------------------------------------------------------------------
 
     @property
@@ -359,108 +210,10 @@ class MotionSession:
         """Take the tip's floor away."""
         self._guard.teach_floor(None)
 
-    def accept_parameters(self) -> None:
-        """Move with the device's parameters as they are.
-
-        Raises
-        ------
-        RefusedError
-            If the device has none, or is not connected.
-        """
-        self._ask_parameters(lambda driver: driver.accept_parameters())
-
-    def write_parameters(self) -> None:
-        """Write the robot file's parameters into the device.
-
-        Raises
-        ------
-        RefusedError
-            If the device has none, or is not connected.
-        """
-        self._ask_parameters(lambda driver: driver.write_parameters())
-
-    def show(self, row: int, text: str) -> None:
-        """Show text on the device's display; nothing happens where there is none."""
-
-        def action(driver: Driver) -> None:
-            if isinstance(driver, Display):
-                driver.show(row, text)
-
-        if isinstance(self.driver, Display):
-            self._ask(action)
-
-    def clear_fault(self) -> None:
-        """Acknowledge a device's fault; nothing happens without one.
-
-        Raises
-        ------
-        RefusedError
-            If the connection failed: reconnect instead.
-        """
-        state = self._worker.state
-        if state.connection is not Connection.CONNECTED:
-            raise RefusedError(state.locked or "not connected")
-        if state.fault is not None:
-            self._mailbox.post(ClearFault())
-
-    @property
-    def effects(self) -> tuple[AxisEffect, ...] | None:
-        """The effects on a simulated machine; None where the device is none that carries any."""
-        return self.driver.effects if isinstance(self.driver, EffectCarrier) else None
-
-    def set_effects(self, effects: Sequence[AxisEffect]) -> None:
-        """Put other effects on a simulated machine, also while it moves.
-
-        Raises
-        ------
-        EffectError
-            With axis, effect, parameter, value and bound.
-        RefusedError
-            If the device carries no effects, is not connected, or a queue is full.
-        """
-        if not isinstance(self.driver, EffectCarrier):
-            raise RefusedError(
-                f"driver {self.driver.name!r} is a real machine: its effects are its own; "
-                "connect to the simulator"
-            )
-        self.driver.check_effects(effects)
-        if self._worker.state.connection is not Connection.CONNECTED:
-            raise RefusedError(self._worker.state.locked or "not connected; connect first")
-        self._mailbox.post(SetEffects(tuple(effects)))
-
     def snapshot(self) -> SessionState:
         """Return the present state; any thread."""
-        state = self._worker.state
-        received_s = state.sample_host_time_s
-        age_s = None if received_s is None else self._clock() - received_s
-        locked = state.locked
-        if locked is None and age_s is not None and age_s > self._stale_after_s:
-            locked = f"the device has sent nothing for {age_s:.1f} s; wait, or reconnect"
-        if self._latched is not None:
-            locked = f"{self._latched} is latched; release it first"
-        return replace(
-            state,
-            age_s=age_s,
-            locked=locked,
-            queued=len(self._mailbox),
-            latched=self._latched,
-            owners=self._worker.ownership.owners,
-            tip=self._tip(state),
-            stop_latency=self._worker.latency.figures(),
-            stop_latency_s=self._stop_latency_s,
-        )
-
-    def subscribe(self, callback: Callback) -> Callable[[], None]:
-        """Have events told to ``callback``, on the worker's thread; return how to end that."""
-        with self._lock:
-            self._callbacks.append(callback)
-
-        def unsubscribe() -> None:
-            with self._lock:
-                if callback in self._callbacks:
-                    self._callbacks.remove(callback)
-
-        return unsubscribe
+        state = super().snapshot()
+        return replace(state, tip=self._tip(state))
 
     def _post_move(self, targets: dict[str, float], owner: str) -> None:
         self._refuse_if_locked()
@@ -489,21 +242,6 @@ class MotionSession:
         x, y, z = zone.tip(np.array([state.command[axis] for axis in self.driver.axes])).tolist()
         return x, y, z
 
-    def _ask(self, action: Callable[[Driver], None]) -> None:
-        """Have something done on the thread that talks to the driver."""
-        if self._worker.state.connection is not Connection.CONNECTED:
-            raise RefusedError(self._worker.state.locked or "not connected; connect first")
-        self._mailbox.post(Ask(action))
-
-    def _ask_parameters(self, action: Callable[[Parameterised], None]) -> None:
-        def asked(driver: Driver) -> None:
-            assert isinstance(driver, Parameterised), "the session refuses on any other"
-            action(driver)
-
-        if not isinstance(self.driver, Parameterised):
-            raise RefusedError(f"driver {self.driver.name!r} keeps no parameters")
-        self._ask(asked)
-
     def _target_of(self, axis: str) -> float:
         """Return where an axis was last sent by a command that nobody refused, or stands."""
         target = self._mailbox.target_of(axis)
@@ -513,13 +251,6 @@ class MotionSession:
             target = self._worker.state.command.get(axis, float("nan"))
         return target
 
-    def _refuse_if_unready(self, state: SessionState) -> None:
-        """Refuse what needs a sound device, but not a known position."""
-        if state.connection is not Connection.CONNECTED or state.fault or state.silent_s > 0.0:
-            raise RefusedError(f"motion is locked: {state.locked}")
-        if self._latched is not None:
-            raise RefusedError(f"{self._latched} is latched; release it first")
-
     def _refuse_if_locked(self) -> None:
         state = self.snapshot()
         if state.locked is not None:
@@ -528,22 +259,3 @@ class MotionSession:
             raise RefusedError("the machine looks for its switches; wait, or stop it first")
         if state.activity is DeviceState.PLAYING or self._mailbox.holds_play():
             raise RefusedError("a trajectory is playing and owns every axis; stop it first")
-
-    def _emit(self, event: Event) -> None:
-        with self._lock:
-            callbacks = tuple(self._callbacks)
-        for callback in callbacks:
-            try:
-                callback(event)
-            except Exception:  # a subscriber's mistake must not stop the machine's worker
-                _LOG.exception("a subscriber failed on %s", type(event).__name__)
-
-    def _run(self) -> None:
-        next_s = time.monotonic()
-        while not self._closing.is_set():
-            self._worker.run_once()
-            # By the clock, not after the work: what is late once is not late for ever.
-            next_s = max(next_s + self._period_s, time.monotonic())
-            self._mailbox.bell.wait(next_s - time.monotonic())
-            self._mailbox.bell.clear()
-        self._worker.shut_down()
