@@ -137,13 +137,8 @@ class Driver(ABC):
                     f"{self.name}: axis {axis}: a speed of {speed:g}: must be more than 0, of an "
                     "axis with a target"
                 )
-        if speeds:
-            self._move_slowly(dict(targets), dict(speeds))
-        elif targets:
-            self._move_to(dict(targets))
-
-    def _move_slowly(self, targets: dict[str, float], speeds: dict[str, float]) -> None:
-        raise NotImplementedError
+        if targets:
+            self._move_to(dict(targets), dict(speeds))
 
     @final
     def stop(self) -> None:
@@ -235,8 +230,8 @@ class Driver(ABC):
         """Return what is known of an open device without asking it."""
 
     @abstractmethod
-    def _move_to(self, targets: dict[str, float]) -> None:
-        """Begin to move to targets that are inside every limit."""
+    def _move_to(self, targets: dict[str, float], speeds: dict[str, float]) -> None:
+        """Begin to move to targets that are inside every limit, no faster than ``speeds``."""
 
     @abstractmethod
     def _stop(self) -> None:

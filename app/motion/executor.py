@@ -23,19 +23,21 @@ from rotemina.drivers.driver import Driver
 from rotemina.drivers.samples import DeviceState
 
 _NOWHERE: Mapping[str, float] = MappingProxyType({})
+_NO_DRIVES: Mapping[str, Drive] = MappingProxyType({})
 
 
 class Executor:
     """Hands commands to the driver, and the legs of a move one after the other.
 
     ``targets`` is where the device was last sent, of each axis that it has been sent anywhere since
-    it last held; ``reaches`` how far an axis may get that goes at a speed. Both are replaced as a
-    whole, so any thread may look at them. A stop is a new generation of the ``mailbox``: what was
+    it last held; ``drives`` the speeds that axes may still go at. Both are replaced as a whole, so
+    any thread may look at them. A stop is a new generation of the ``mailbox``: what was
     under way before it is not gone on with, and stopped again if it slipped through.
     """
 
     def __init__(self, driver: Driver, mailbox: Mailbox, clock: Clock) -> None:
-        self.targets = self.reaches = _NOWHERE
+        self.targets = _NOWHERE
+        self.drives: Mapping[str, Drive] = _NO_DRIVES
         self.recorder: PlaybackRecorder | None = None
         self._driver = driver
         self._mailbox = mailbox
@@ -86,12 +88,12 @@ class Executor:
 
     def rested(self) -> None:
         """Note that the machine is at rest: nothing goes on at a speed."""
-        self.reaches = _NOWHERE
+        self.drives = _NO_DRIVES
 
     def forget(self) -> None:
         """Forget all motion that was asked for."""
         self._route.clear()
-        self.targets = self.reaches = _NOWHERE
+        self.targets, self.drives = _NOWHERE, _NO_DRIVES
 
     def _stop_if_overtaken(self) -> None:
         """Stop again: a stop that came meanwhile must not be undone by what was on its way."""
@@ -137,7 +139,7 @@ class Executor:
         driver.move_velocity(command.velocities, left_s)
         axes = command.velocities.keys()
         self.targets = MappingProxyType({a: t for a, t in self.targets.items() if a not in axes})
-        self.reaches = MappingProxyType({**self.reaches, **command.reach})
+        self.drives = MappingProxyType({**self.drives, **dict.fromkeys(axes, command)})
 
     def _play(self, command: Play) -> None:
         driver = self._driver

@@ -166,20 +166,23 @@ class Guard:
             raise OutOfLimitsError("tip: too fast so close above its floor; go slower")
         raise refusal
 
-    def reach(
-        self, place: Place, velocities: Mapping[str, float], lease_s: float
-    ) -> dict[str, float]:
-        """Return where each axis is at the latest, m or rad, if nobody renews the lease."""
-        return {axis: self._end(place, axis, speed, lease_s) for axis, speed in velocities.items()}
+    def ways(self, velocities: Mapping[str, float], lease_s: float) -> dict[str, float]:
+        """Return how far each axis still goes, m or rad, if nobody renews the lease.
+
+        Its braking counts, and what goes by before it is told to brake; a lease of 0 leaves those.
+        """
+        return {axis: self._way(axis, speed, lease_s) for axis, speed in velocities.items()}
 
     def _end(self, place: Place, axis: str, speed: float, lease_s: float) -> float:
-        """Return how far an axis gets if nobody renews its lease: its braking counts too."""
-        own = self._robot.axes[axis]
         column = self._axes.index(axis)
-        braking = speed**2 / (2.0 * own.max_acceleration) if own.max_acceleration else 0.0
-        way = abs(speed) * (lease_s + _REACTION_S) + braking
         begin = place.high[column] if speed > 0.0 else place.low[column]
-        return float(np.clip(begin + np.copysign(way, speed), *own.range))
+        end = begin + self._way(axis, speed, lease_s)
+        return float(np.clip(end, *self._robot.axes[axis].range))
+
+    def _way(self, axis: str, speed: float, lease_s: float) -> float:
+        most = self._robot.axes[axis].max_acceleration
+        braking = speed**2 / (2.0 * most) if most else 0.0
+        return float(np.copysign(abs(speed) * (lease_s + _REACTION_S) + braking, speed))
 
     def play(self, place: Place, trajectory: CheckedTrajectory) -> None:
         """Refuse a trajectory on which, or on the way to which, the tip leaves its bounds.

@@ -34,13 +34,15 @@ class Drive:
     """Let axes go at speeds, m/s or rad/s, until the lease runs out.
 
     ``asked_s`` is the host's time of the request: a lease does not begin anew in a queue.
-    ``reach`` says where each axis is at the latest when nobody renews it.
+    ``ways`` is how far each axis goes at most when nobody renews it, ``braking`` how far when it is
+    told to halt at once; m or rad, with their sign.
     """
 
     velocities: dict[str, float]
     lease_s: float
     asked_s: float
-    reach: dict[str, float]
+    ways: dict[str, float]
+    braking: dict[str, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,16 +155,17 @@ class Mailbox:
         return next((each[axis] for each in reversed(self.pending()) if axis in each), None)
 
     def pending(self) -> list[Mapping[str, float]]:
-        """Return where all that waits, or is being handed over, sends axes, oldest first."""
+        """Return where all moves that wait, or are being handed over, send axes, oldest first."""
         with self._lock:
             commands = [self._in_hand, *self._commands]
-        ends: list[Mapping[str, float]] = []
-        for command in commands:
-            if isinstance(command, Move):
-                ends += [leg.targets for leg in command.legs]
-            elif isinstance(command, Drive):
-                ends.append(command.reach)
-        return ends
+        moves = [command for command in commands if isinstance(command, Move)]
+        return [leg.targets for move in moves for leg in move.legs]
+
+    def drives(self) -> list[Drive]:
+        """Return the speeds that wait, or are being handed over, oldest first."""
+        with self._lock:
+            commands = [self._in_hand, *self._commands]
+        return [command for command in commands if isinstance(command, Drive)]
 
     def request_connection(self) -> None:
         """Ask the worker to open the device, and ring."""

@@ -1,6 +1,6 @@
 """A motion session: the one place through which a program moves a machine."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -89,10 +89,11 @@ class MotionSession(DeviceSession):
         with self._lock:
             self._refuse_if_locked()
             self._worker.ownership.claim(velocities, owner)
-            used = self._guard.velocity(self._place(), velocities, lease_s)
-            reach = self._guard.reach(self._place(), used, lease_s)
+            guard = self._guard
+            used = guard.velocity(self._place(velocities), velocities, lease_s)
+            ways, braking = guard.ways(used, lease_s), guard.ways(used, 0.0)
             self._note_rest()
-            self._mailbox.post(Drive(used, lease_s, self._clock(), reach))
+            self._mailbox.post(Drive(used, lease_s, self._clock(), ways, braking))
         return used
 
     def home(self, axes: Sequence[str] | None = None) -> None:
@@ -222,13 +223,20 @@ class MotionSession(DeviceSession):
         self._note_rest()
         self._mailbox.post(Move(legs))
 
-    def _place(self) -> Place:
-        """Return where the axes may be by what they have been told and said last."""
+    def _place(self, driven: Container[str] = ()) -> Place:
+        """Return where the axes may be by what they have been told and said last.
+
+        The axes ``driven`` are told a speed anew: their lease from before does not count.
+        """
         worker = self._worker
-        state = worker.state
-        return self._guard.place(
-            state.measured, state.command, worker.targets, worker.reaches, *self._mailbox.pending()
-        )
+        command = worker.state.command
+        ends = [command, worker.targets, *self._mailbox.pending()]
+        given = [*worker.drives.items(), *((a, d) for d in self._mailbox.drives() for a in d.ways)]
+        for axis, drive in given:
+            way = (drive.braking if axis in driven else drive.ways).get(axis, 0.0)
+            if axis in command:
+                ends.append({axis: command[axis] + way})
+        return self._guard.place(worker.state.measured, *ends)
 
     def _note_rest(self) -> None:
         """Keep where the machine rests, to come back to, before it begins to move."""

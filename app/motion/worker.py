@@ -12,7 +12,7 @@ from types import MappingProxyType
 from rotemina.app.motion.executor import Executor
 from rotemina.app.motion.history import LiveHistory
 from rotemina.app.motion.live_model import LiveModel
-from rotemina.app.motion.mailbox import ClearFault, Mailbox
+from rotemina.app.motion.mailbox import ClearFault, Drive, Mailbox
 from rotemina.app.motion.ownership import Ownership
 from rotemina.app.motion.state import (
     CommandRefused,
@@ -75,9 +75,9 @@ class Worker:
         return self._executor.targets
 
     @property
-    def reaches(self) -> Mapping[str, float]:
-        """How far each axis may get, m or rad, that goes at a speed."""
-        return self._executor.reaches
+    def drives(self) -> Mapping[str, Drive]:
+        """The speed that was last given to each axis that may still go at one."""
+        return self._executor.drives
 
     def stopped(self, host_time_s: float, failure: Exception | None) -> None:
         """Note, from any thread, that a stop was handed to the device, or failed to be."""

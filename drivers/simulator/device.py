@@ -138,9 +138,9 @@ class SimulatedDevice:
         self._state = taken_over(plant, self._plant, self._state)
         self._plant = plant
 
-    def move_to(self, targets: dict[int, float]) -> None:
-        """Send axes, by their number, to targets."""
-        self._setpoints.retarget(targets)
+    def move_to(self, index: int, target: float, most_speed: float | None = None) -> None:
+        """Send an axis, by its number, to a target, no faster than this."""
+        self._setpoints.retarget({index: target}, most_speed)
 
     def drive(self, index: int, velocity: float) -> None:
         """Let an axis, by its number, go at a speed, m/s or rad/s; 0 brings it to a halt."""

@@ -188,12 +188,12 @@ class Simulator(
             state = DeviceState.HOMING
         return DeviceStatus(state, device.progress, self._fault, not unhomed, unhomed)
 
-    def _move_to(self, targets: dict[str, float]) -> None:
+    def _move_to(self, targets: dict[str, float], speeds: dict[str, float]) -> None:
         self._catch_up()
-        numbered = {self.axes.index(axis): at for axis, at in targets.items()}
-        for index in numbered:
+        for axis, target in targets.items():
+            index = self.axes.index(axis)
             self._leases_s.pop(index, None)
-        self._running.move_to(numbered)
+            self._running.move_to(index, target, speeds.get(axis))
 
     def _move_velocity(self, velocities: dict[str, float], lease_s: float) -> None:
         self._catch_up()
@@ -219,7 +219,7 @@ class Simulator(
             check_target(self.robot, axis, voltage * model.gain)
         except InputError as error:
             raise LimitError(str(error)) from error
-        self._move_to({axis: voltage * model.gain})
+        self._move_to({axis: voltage * model.gain}, {})
 
     def captured(self) -> Captured | None:
         """Return what the reads since it was last asked for have brought, or None: nothing."""

@@ -42,7 +42,7 @@ class Plain(Driver):
     def _status(self):
         return self.answer
 
-    def _move_to(self, targets):
+    def _move_to(self, targets, speeds):
         self.calls.append(targets)
 
     def _stop(self):

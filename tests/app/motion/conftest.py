@@ -26,9 +26,9 @@ class Unruly(Simulator):
         self._run_before("open")
         super()._open()
 
-    def _move_to(self, targets):
+    def _move_to(self, targets, speeds):
         self._run_before("move_to")
-        super()._move_to(targets)
+        super()._move_to(targets, speeds)
 
     def _read(self):
         self._run_before("read")
@@ -88,7 +88,13 @@ def stepped(clock):
 @pytest.fixture
 def make_stepped(clock):
     def make(robot="rotemina", connect=True, driver=Unruly, settings=None, **options):
-        made = Stepped(driver(load_robot(robot), settings, clock=clock), clock, **options)
+        machine = load_robot(robot) if isinstance(robot, str) else robot
+        made = Stepped(driver(machine, settings, clock=clock), clock, **options)
         return made.connect() if connect else made
 
     return make
+
+
+@pytest.fixture
+def stepped_type():
+    return Stepped

@@ -401,7 +401,7 @@ class Faulty(Driver):
     def _status(self):
         return self.answer
 
-    def _move_to(self, targets):
+    def _move_to(self, targets, speeds):
         pass
 
     def _stop(self):
