@@ -25,6 +25,7 @@ class AxisDrive:
         self._generator = SetpointGenerator(self._limits, tick_s, np.array([position]))
         self._ramp_end: float | None = None
         self._ramp_speed = 0.0
+        self._rests = True  # asked for at every look: kept, not worked out
 
     @property
     def position(self) -> float:
@@ -41,7 +42,9 @@ class AxisDrive:
     @property
     def moving(self) -> bool:
         """Whether it has yet to arrive or to halt."""
-        return self._ramp_end is not None or self._generator.moving
+        if not self._rests:
+            self._rests = self._ramp_end is None and not self._generator.moving
+        return not self._rests
 
     def bound(self, low: float, high: float, speed: float, acceleration: float) -> None:
         """Keep to these limits: steps, steps/s, steps/s²."""
@@ -95,7 +98,7 @@ class AxisDrive:
         """Return the commands (ticks,) of the next ticks, steps."""
         if self._ramp_end is not None:
             return self._generate_ramp(ticks, self._ramp_end)
-        if not self._generator.moving:
+        if not self.moving:
             return np.full(ticks, self.position)
         return self._generator.generate(ticks)[:, 0]
 
@@ -116,6 +119,7 @@ class AxisDrive:
 
     def _include(self, position: float | None = None) -> None:
         """Let the range hold where it is: a limit that is written never makes a leap."""
+        self._rests = False
         at = self.position if position is None else position
         self._limits.low[0] = min(self._low, at, self.position)
         self._limits.high[0] = max(self._high, at, self.position)

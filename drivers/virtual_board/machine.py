@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from rotemina.drivers.mc68hc11.axes import BoardAxis
+from rotemina.drivers.virtual_board.ahead import PlantRun
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.plant.chance import Chance
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.takeover import taken_over
 from rotemina.sim.robot.model import AxisEffect, Robot, StepperAxis
@@ -44,10 +44,8 @@ class Machine:
         position: FloatArray,
     ) -> None:
         self._robot = robot
-        self._tick_s = tick_s
         self._plant = Plant.of(robot, closed_loop=True)
-        self._state = self._plant.at_rest(0.0, position)
-        self._chance = Chance(np.random.default_rng(seed))
+        self._run = PlantRun(self._plant, tick_s, seed, position)
         own = [robot.axes[axis.name] for axis in axes]
         self.names = tuple(axis.name for axis in axes)
         self.step = np.array([axis.step for axis in axes])
@@ -94,7 +92,7 @@ class Machine:
         """Go on with other effects, from where the axes are and as fast as they are."""
         self.simulate()
         plant = Plant.of(replace(self._robot, effects=effects), closed_loop=True)
-        self._state = taken_over(plant, self._plant, self._state)
+        self._run.take_over(plant, taken_over(plant, self._plant, self._run.settled()))
         self._plant = plant
 
     def add(self, steps: FloatArray) -> None:
@@ -115,12 +113,9 @@ class Machine:
             return
         commands = np.concatenate(self._pending) if len(self._pending) > 1 else self._pending[0]
         self._pending.clear()
-        # The plant counts from the latest tick: its steps stay exact however long it runs.
-        since_s = np.arange(1, len(commands) + 1, dtype=np.float64) * self._tick_s
-        motion, state = self._plant.advance(self._state, since_s, commands, chance=self._chance)
-        self._state = replace(state, time_s=state.time_s - state.time_s[-1])
-        self.position = motion.position[-1]
-        readings = np.array(motion.reading)
+        response = self._run.advance(commands)
+        self.position = response.position[-1]
+        readings = np.array(response.reading)
         for index, value in self._frozen.items():
             readings[:, index] = value
         kept = np.concatenate((self._readings, readings))
