@@ -1,0 +1,214 @@
+"""What can go wrong, injected from outside by short commands: for training, and for our own tests.
+
+========================  ===================================================================
+``drop N``                the next N bytes are lost
+``double N``              each of the next N bytes comes twice
+``corrupt N``             a bit of each of the next N bytes is turned over
+``delay T ms``            from now on bytes come this much later; ``delay 0 ms`` ends it
+``garbage N``             N bytes come that nobody sent
+``silence T s``           nothing comes through for so long, both ways
+``tear T s``              the same, and the boards hear a zero: a cable that is torn off
+``reset B``, ``brown-out B``  board B begins anew; it does not know where its steppers are
+``freeze AXIS``, ``thaw AXIS``  a sensor says the same until it is thawed
+``lose AXIS N``           a stepper stays N microsteps behind its command
+========================  ===================================================================
+
+The first five take ``board`` (which is meant without it) or ``host``, towards which it happens; the
+first seven ``line 1`` or ``line 2``, of all lines without it.
+"""
+
+from collections.abc import Callable, Sequence
+from math import inf, isfinite
+
+import numpy as np
+
+from rotemina.drivers.mc68hc11.codes import Fault
+from rotemina.drivers.virtual_board.boards import VirtualBoards
+from rotemina.drivers.virtual_board.cable import Channel, Damage
+from rotemina.drivers.virtual_board.line import SerialLine
+from rotemina.sim.errors import InputError
+
+_DAMAGES = {"drop": Damage.DROP, "double": Damage.DOUBLE, "corrupt": Damage.CORRUPT}
+_RESETS = {"reset": Fault.RESET, "brown-out": Fault.BROWN_OUT}
+_MOST_BYTES, _MOST_S, _MOST_STEPS = 10_000, 3600.0, 1_000_000
+_UNITS = {"s": 1.0, "ms": 1e-3}
+_RANDOM = ("drop 1", "double 1", "corrupt 1", "garbage 3", "delay 2 ms", "delay 0 ms")
+
+
+class FaultCommandError(InputError):
+    """A command of fault injection that makes no sense; nothing has happened."""
+
+
+def inject(boards: VirtualBoards, command: str) -> None:
+    """Carry out a command at the boards' present time.
+
+    Raises
+    ------
+    FaultCommandError
+        If it is no command, or there is no such axis, board or line.
+    """
+    name, *words = command.split() or [""]
+    if name not in _COMMANDS:
+        known = ", ".join(sorted(_COMMANDS))
+        raise FaultCommandError(f"fault {command.strip()!r}: there is no such command; say {known}")
+    try:
+        _COMMANDS[name](boards, name, words)
+    except FaultCommandError as error:
+        raise FaultCommandError(f"fault {command.strip()!r}: {error}") from error
+    boards.notes.say(boards.now_s, f"injected: {' '.join(command.split())}")
+
+
+class Mishaps:
+    """Disturbances of the lines at random times; a position is never lost by them.
+
+    Parameters
+    ----------
+    boards : VirtualBoards
+    rate_hz : float
+        How many a second, on average.
+    seed : int
+    """
+
+    def __init__(self, boards: VirtualBoards, rate_hz: float, seed: int) -> None:
+        self._boards = boards
+        self._rate_hz = rate_hz
+        self._chance = np.random.default_rng(seed)
+        self._next_s = boards.now_s + self._pause_s()
+
+    def live(self, to_s: float) -> None:
+        """Live on until this time, s, with what goes wrong until then."""
+        while self._next_s <= to_s:
+            self._boards.live(self._next_s)
+            what = _RANDOM[int(self._chance.integers(len(_RANDOM)))]
+            where = ("board", "host")[int(self._chance.integers(2))]
+            inject(self._boards, f"{what} {where}")
+            self._next_s += self._pause_s()
+        self._boards.live(to_s)
+
+    def _pause_s(self) -> float:
+        return float(self._chance.exponential(1.0 / self._rate_hz)) if self._rate_hz else inf
+
+
+def _damage(boards: VirtualBoards, name: str, words: list[str]) -> None:
+    lines, towards_host = _where(boards, words)
+    count = _count(words, _MOST_BYTES)
+    for line in lines:
+        _channel(line, towards_host).damage(_DAMAGES[name], count)
+
+
+def _garbage(boards: VirtualBoards, _: str, words: list[str]) -> None:
+    lines, towards_host = _where(boards, words)
+    count = _count(words, _MOST_BYTES)
+    for line in lines:
+        noise = _channel(line, towards_host).noise(count)
+        line.disturb(noise, boards.now_s, towards_host=towards_host)
+
+
+def _delay(boards: VirtualBoards, _: str, words: list[str]) -> None:
+    lines, towards_host = _where(boards, words)
+    delay_s = _duration_s(words)
+    for line in lines:
+        _channel(line, towards_host).delay_s = delay_s
+
+
+def _silence(boards: VirtualBoards, name: str, words: list[str]) -> None:
+    lines = _lines(boards, words)
+    until_s = boards.now_s + _duration_s(words)
+    for line in lines:
+        if name == "tear":
+            line.disturb(b"\0\0", boards.now_s, towards_host=False)
+        for channel in (line.to_board, line.to_host):
+            channel.silent_until_s = until_s
+
+
+def _reset(boards: VirtualBoards, name: str, words: list[str]) -> None:
+    number = _count(words, len(boards.boards))
+    boards.boards[number - 1].reset(_RESETS[name])
+
+
+def _freeze(boards: VirtualBoards, name: str, words: list[str]) -> None:
+    index = _axis(boards, words)
+    _end(words)
+    if name == "freeze":
+        boards.machine.freeze(index)
+    else:
+        boards.machine.thaw(index)
+
+
+def _lose(boards: VirtualBoards, _: str, words: list[str]) -> None:
+    index = _axis(boards, words)
+    if not boards.machine.stepper[index]:
+        raise FaultCommandError(f"{boards.machine.names[index]} is no stepper: it has no steps")
+    count = _count(words, _MOST_STEPS)
+    board = next(one for one in boards.boards if index in one.indices)
+    heading = board.heading[index - board.indices.start]
+    boards.machine.lose(index, -count if heading < 0.0 else count)
+
+
+_COMMANDS: dict[str, Callable[[VirtualBoards, str, list[str]], None]] = {
+    **dict.fromkeys(_DAMAGES, _damage),
+    **dict.fromkeys(_RESETS, _reset),
+    "garbage": _garbage,
+    "delay": _delay,
+    "silence": _silence,
+    "tear": _silence,
+    "freeze": _freeze,
+    "thaw": _freeze,
+    "lose": _lose,
+}
+
+
+def _channel(line: SerialLine, towards_host: bool) -> Channel:
+    return line.to_host if towards_host else line.to_board
+
+
+def _where(boards: VirtualBoards, words: list[str]) -> tuple[Sequence[SerialLine], bool]:
+    """Take the words of line and direction off the end."""
+    lines = _lines(boards, words)
+    towards = words.pop() if words and words[-1] in ("board", "host") else "board"
+    return lines, towards == "host"
+
+
+def _lines(boards: VirtualBoards, words: list[str]) -> Sequence[SerialLine]:
+    if "line" not in words:
+        return boards.serial
+    at = words.index("line")
+    number = words[at + 1 : at + 2]
+    del words[at : at + 2]
+    return (boards.serial[_count(number, len(boards.serial)) - 1],)
+
+
+def _axis(boards: VirtualBoards, words: list[str]) -> int:
+    names = boards.machine.names
+    if not words or words[0] not in names:
+        raise FaultCommandError(f"there must be an axis: one of {', '.join(names)}")
+    return names.index(words.pop(0))
+
+
+def _count(words: list[str], most: int) -> int:
+    """Take the only number that is left, 1 to ``most``."""
+    word = words.pop(0) if words else ""
+    _end(words)
+    if not (word.isascii() and word.isdigit() and 1 <= int(word[:9]) <= most):
+        raise FaultCommandError(f"{word!r} must be a number from 1 to {most}")
+    return int(word)
+
+
+def _duration_s(words: list[str]) -> float:
+    """Take the only duration that is left."""
+    number, unit = (words.pop(0), words.pop(0)) if len(words) >= 2 else ("", "")
+    _end(words)
+    try:
+        value_s = float(number) * _UNITS[unit]
+    except (KeyError, ValueError):
+        value_s = inf
+    if not (isfinite(value_s) and 0.0 <= value_s <= _MOST_S):
+        raise FaultCommandError(
+            f"there must be a time as '5 ms' or '2 s', of {_MOST_S:g} s at most"
+        )
+    return value_s
+
+
+def _end(words: list[str]) -> None:
+    if words:
+        raise FaultCommandError(f"{' '.join(words)!r} has no place here")
