@@ -37,6 +37,7 @@ from rotemina.sim.robot.model import AxisEffect, ForceAxis, PiezoAxis, Robot, St
 from rotemina.sim.trajectory.limits import check_target
 
 MAX_RATE_HZ = 20_000.0
+_PORTION_S = 0.008  # device time that is simulated at once when somebody only reads
 MAX_READ_S = 5.0  # device time that one call simulates at most; the rest waits for the next
 MAX_CAPTURE = 100_000  # samples
 
@@ -66,6 +67,7 @@ class Simulator(
 
     name = "simulator"
     virtual_time = True
+    service_period_s = 0.001
     default_settings: ClassVar[Mapping[str, SettingValue]] = MappingProxyType(
         {
             "sample_rate_hz": 1000.0,
@@ -280,7 +282,10 @@ class Simulator(
         self._fault = None
 
     def _read(self) -> Samples:
-        self._catch_up()
+        # A portion costs as much as a single sample: it is worth while to wait for one.
+        since_s = self._running.time_s
+        if since_s < 0.0 or self.clock() - self._opened_at_s - since_s >= _PORTION_S:
+            self._catch_up()
         samples = Samples.joined(self._unread, len(self.axes))
         self._unread.clear()
         return samples
