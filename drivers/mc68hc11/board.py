@@ -1,0 +1,208 @@
+"""One board as its host knows it: who it is, what it said last, and what it has yet to be told."""
+
+from collections import deque
+from dataclasses import dataclass
+
+from rotemina.drivers.mc68hc11.axes import BoardAxis
+from rotemina.drivers.mc68hc11.board_clock import BoardClock
+from rotemina.drivers.mc68hc11.codes import Ability, Fault, State
+from rotemina.drivers.mc68hc11.dialogue import Urgency
+from rotemina.drivers.mc68hc11.grid import Grid
+from rotemina.drivers.mc68hc11.link import Link
+from rotemina.drivers.mc68hc11.message import Message
+from rotemina.drivers.mc68hc11.orders import Orders
+from rotemina.drivers.mc68hc11.reports import Identity, Inputs, Rates, Telemetry
+from rotemina.drivers.samples import DeviceState
+
+_KEPT = 4096  # samples that nobody has asked for yet
+_TELEMETRY_BYTES = 30
+_WORDS = {
+    Fault.STOPPED: "stopped, and not by this program: a stop came over the line; is it sound?",
+    Fault.WATCHDOG: "the host was silent for too long; the board halted",
+    Fault.LIMIT_SWITCH: "a limit switch was met",
+    Fault.SOFT_LIMIT: "an axis met an end of its range",
+    Fault.SENSOR: "a position sensor failed",
+    Fault.BROWN_OUT: "the supply voltage broke down; home it again",
+    Fault.RESET: "the board was reset; home it again",
+    Fault.LATE_SETPOINT: "a set-point came too late; the trajectory ended there",
+    Fault.PROFILE: "the profile could not be run",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class BoardSample:
+    """What a board told of one sample: readings and commands of its axes, steps.
+
+    ``number`` counts the sampling instants that all boards share; ``sound``: no fault then.
+    """
+
+    number: int
+    time_us: int
+    readings: tuple[int, ...]
+    commands: tuple[int, ...]
+    sound: bool
+
+
+class Board:
+    """A board at the end of a link.
+
+    Parameters
+    ----------
+    address : int
+    axes : tuple of BoardAxis
+        That it should have.
+    """
+
+    def __init__(self, address: int, axes: tuple[BoardAxis, ...]) -> None:
+        self.address = address
+        self.axes = axes
+        self.clock = BoardClock()
+        self.grid: Grid | None = None
+        self.identity: Identity | None = None
+        self.rates: Rates | None = None
+        self.latest: Telemetry | None = None
+        self.latest_us = 0
+        self.telemetry_s = 0.0  # host time of the latest
+        self.inputs: Inputs | None = None
+        self.samples: deque[BoardSample] = deque(maxlen=_KEPT)
+        self.reset = False
+        self.wary = False  # whether a reset counts as one: not while it is being opened
+        self.orders = Orders(address, self.clock, lambda: self.latest)
+        self._link: Link | None = None
+
+    @property
+    def link(self) -> Link:
+        """The line that it is on."""
+        assert self._link is not None, "a board is put on a line before it is spoken to"
+        return self._link
+
+    @link.setter
+    def link(self, link: Link) -> None:
+        self._link = link
+        self.orders.dialogue = link.dialogues[self.address]
+
+    @property
+    def where(self) -> str:
+        """How messages call it."""
+        return f"board {self.address} on {self.link.url}"
+
+    @property
+    def state(self) -> State:
+        """What it said last that it does."""
+        return State(self.latest.state) if self.latest is not None else State(0)
+
+    @property
+    def telemetry_fault(self) -> Fault:
+        """The fault that it told last, whoever caused it."""
+        number = self.latest.fault if self.latest is not None else 0
+        return Fault(number) if number in tuple(Fault) else Fault.SENSOR
+
+    @property
+    def fault(self) -> str | None:
+        """Why it halted, in words; None for a stop that was asked for."""
+        fault = self.telemetry_fault
+        if fault is Fault.NONE or self.orders.explains(fault):
+            return None
+        words = _WORDS[fault]
+        if fault is Fault.LIMIT_SWITCH and (switches := self._switches()):
+            words = f"limit switch met: {switches}"
+        return f"board {self.address}: {words}"
+
+    @property
+    def activity(self) -> DeviceState:
+        """What it does, or will as soon as it has heard of it."""
+        if (expected := self.orders.expected) is not None:
+            return expected
+        state = self.state
+        if state & State.HOMING:
+            return DeviceState.HOMING
+        if state & State.PLAYING:
+            return DeviceState.PLAYING
+        return DeviceState.MOVING if state & State.MOVING else DeviceState.IDLE
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether nothing moves, and nothing is about to."""
+        return self.activity is DeviceState.IDLE
+
+    @property
+    def unknown(self) -> bool:
+        """Whether it does not know where it stands."""
+        return self.latest is None or bool(self.state & State.POSITION_UNKNOWN)
+
+    def able(self, ability: Ability) -> bool:
+        """Whether it said that it can do something."""
+        return self.identity is not None and bool(self.identity.abilities & ability)
+
+    def commanded(self) -> tuple[int, ...]:
+        """Return where its axes were commanded last, steps."""
+        samples = self.latest.samples() if self.latest is not None else ()
+        return tuple(command for _, command in samples)
+
+    def number_at(self, host_time_s: float) -> int:
+        """Return the number of the latest sample at a time of the host."""
+        assert self.grid is not None, "telemetry is on"
+        return self.grid.latest(self.clock.time_us(host_time_s))
+
+    def heard(self, message: Message, now_s: float) -> None:
+        """Take what it said, answer or not."""
+        if isinstance(message, Telemetry):
+            self._sampled(message, now_s)
+        elif isinstance(message, Inputs):
+            self.inputs = message
+
+    def stop(self) -> None:
+        """Forget what it was to do, and tell it to stop until it says that it has."""
+        self.link.end_stream(self.address)
+        self.orders.stop()
+
+    def busy_line(self) -> bool:
+        """Whether there is anything to be said to it yet."""
+        return self.link.dialogues[self.address].busy
+
+    def keeps_quiet(self, now_s: float, silence_s: float) -> bool:
+        """Whether it has not been spoken to for so long, and nothing is about to be said."""
+        said_s = self.link.said_s[self.address]
+        dialogue = self.link.dialogues[self.address]
+        return now_s - said_s >= silence_s and not dialogue.has(Urgency.BACKGROUND)
+
+    def _sampled(self, told: Telemetry, now_s: float) -> None:
+        if len(told.axes) != 5 * len(self.axes):
+            return  # of another machine: told apart when the board was identified
+        time_us = self.clock.unwrapped(told.time_us)
+        said_s = now_s - self._wire_s()
+        if self.wary and (self.clock.jumped(time_us, said_s) or told.fault == Fault.RESET):
+            self.reset = True
+            return
+        if self.latest is not None and time_us <= self.latest_us and self.clock.known:
+            return  # said twice, or polled before the next one was taken
+        self.clock.heard(time_us, said_s)
+        self.latest, self.latest_us, self.telemetry_s = told, time_us, now_s
+        self.orders.seen(time_us)
+        number = self.grid.number(time_us) if self.grid is not None else None
+        if number is not None:
+            pairs = told.samples()
+            self.samples.append(
+                BoardSample(
+                    number,
+                    time_us,
+                    tuple(reading for reading, _ in pairs),
+                    tuple(command for _, command in pairs),
+                    told.fault == Fault.NONE,
+                )
+            )
+
+    def _wire_s(self) -> float:
+        """Return how long telemetry is on the line, s."""
+        return self.link.seconds(_TELEMETRY_BYTES)
+
+    def _switches(self) -> str:
+        assert self.latest is not None, "it told a fault"
+        told = self.latest.switches
+        ends = [
+            f"{axis.name} {end}"
+            for number, axis in enumerate(self.axes)
+            for bit, end in ((2 * number, "low"), (2 * number + 1, "high"))
+            if told >> bit & 1
+        ]
+        return ", ".join(ends)

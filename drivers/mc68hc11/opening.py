@@ -1,0 +1,296 @@
+"""Getting to know the boards: who is there, what they are, and their samples in step."""
+
+from collections.abc import Callable, Sequence
+from functools import partial
+
+from rotemina.drivers.clock import Clock
+from rotemina.drivers.errors import DriverError, DriverTimeoutError, ProtocolError
+from rotemina.drivers.mc68hc11.board import Board
+from rotemina.drivers.mc68hc11.budget import BAUDS, Line
+from rotemina.drivers.mc68hc11.codes import VERSION, Ability, Fault, State
+from rotemina.drivers.mc68hc11.dialogue import Request, Urgency
+from rotemina.drivers.mc68hc11.grid import Grid
+from rotemina.drivers.mc68hc11.message import Message
+from rotemina.drivers.mc68hc11.reports import AxisDescription, Identity, Rates, Telemetry
+from rotemina.drivers.mc68hc11.requests import (
+    AskRates,
+    ClearFault,
+    DescribeAxis,
+    Identify,
+    Poll,
+    SetTelemetry,
+    Stop,
+    Watch,
+)
+from rotemina.drivers.mc68hc11.trust import Trust
+from rotemina.sim.robot.model import Robot
+
+_PAUSE_S = 5e-4
+_IDENTIFY_S = 0.6
+_ASK_S = 1.0
+_READ_S = 2.5
+_REST_S = 2.0
+_UNDER_WAY = State.MOVING | State.PLAYING | State.HOMING
+_LOOKS = 4  # at each board's clock
+_RATES_HZ = (200, 100, 50, 20, 10, 5, 4)
+_MOST = 0.95  # of a line
+_EXCHANGE = 25 + 9  # bytes: a set-point and its answer
+_SLOTS = 6  # bytes of silence around them on a shared bus
+# What a board says of the time before this session: a silent host, a stop, power that came.
+_OF_BEFORE = (Fault.STOPPED, Fault.WATCHDOG, Fault.RESET)
+
+
+class Opening:
+    """The first conversation with all boards.
+
+    Parameters
+    ----------
+    robot : Robot
+    boards : sequence of Board
+        On their links.
+    baud : int
+    watch_ms : int
+        After what silence of the host a board is to halt.
+    clock, pause : callable
+        Host time, s; let some of it pass.
+    exchange : callable
+        Receive and send what there is.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        boards: Sequence[Board],
+        baud: int,
+        watch_ms: int,
+        *,
+        clock: Clock,
+        pause: Callable[[float], None],
+        exchange: Callable[[], None],
+    ) -> None:
+        self._robot = robot
+        self._boards = tuple(boards)
+        self._baud = baud
+        self._watch_ms = watch_ms
+        self._clock = clock
+        self._pause = pause
+        self._exchange = exchange
+        self.period_ms = 0
+
+    def run(self) -> Trust:
+        """Go through all of it; return what is thought of the boards' parameters.
+
+        Raises
+        ------
+        DriverError
+            If the boards do not answer, or are not those of the robot; with what to do.
+        """
+        for board in self._boards:
+            self._identify(board)
+        for board in self._boards:
+            self._check(board)
+            board.link.half_duplex = board.able(Ability.HALF_DUPLEX)
+        self._ask()
+        trust = Trust(self._robot, self._boards)
+        trust.compare()
+        self._wait(self._quiet, _READ_S, "to tell all parameters")
+        self._look()
+        self._settle()
+        self._begin_telemetry()
+        for board in self._boards:
+            board.wary = True
+        return trust
+
+    def _identify(self, board: Board) -> None:
+        dialogue = board.link.dialogues[board.address]
+        rejected = board.link.rejected
+        end_s = self._clock() + _IDENTIFY_S + 2.0 * board.link.answer_s
+        while board.identity is None:
+            now_s = self._clock()
+            if now_s > end_s:
+                raise _nobody(board, self._baud, garbage=board.link.rejected > rejected)
+            if not dialogue.busy:
+                # Never repeated: a board that counts the same number would repeat another answer.
+                dialogue.ask(
+                    Request(
+                        message=Identify(VERSION),
+                        answer=Identity,
+                        answered=partial(_identified, board),
+                        expires_s=now_s + board.link.answer_s,
+                    )
+                )
+            self._exchange()
+            self._pause(_PAUSE_S)
+
+    def _check(self, board: Board) -> None:
+        told = board.identity
+        assert told is not None, "it was identified"
+        if told.version != VERSION:
+            older = "board's program" if told.version < VERSION else "program on this computer"
+            raise ProtocolError(
+                f"{board.where} speaks version {told.version} of the protocol, this program "
+                f"{VERSION}; update the {older}"
+            )
+        if told.axes != len(board.axes):
+            names = ", ".join(axis.name for axis in board.axes)
+            raise DriverError(
+                f"{board.where} has {told.axes} axes, robot {self._robot.name!r} wants "
+                f"{len(board.axes)} there ({names}); choose the robot file of this machine"
+            )
+
+    def _ask(self) -> None:
+        wrong: list[str] = []
+        for board in self._boards:
+            dialogue = board.link.dialogues[board.address]
+            dialogue.ask(Request(message=Watch(self._watch_ms)))
+            dialogue.ask(Request(message=AskRates(), answer=Rates, answered=partial(_rated, board)))
+            for axis in board.axes:
+                dialogue.ask(
+                    Request(
+                        message=DescribeAxis(axis.number),
+                        answer=AxisDescription,
+                        matches=partial(_describes, axis.number),
+                        answered=partial(self._described, board, wrong),
+                    )
+                )
+        self._wait(self._quiet, _ASK_S, "to describe its axes")
+        if wrong:
+            raise DriverError("; ".join(wrong) + "; choose the robot file of this machine")
+
+    def _described(self, board: Board, wrong: list[str], told: Message, _now_s: float) -> None:
+        assert isinstance(told, AxisDescription), "it was matched"
+        axis = board.axes[told.axis]
+        wanted = axis.described(self._robot)
+        for what in ("kind", "role", "unit"):
+            if getattr(told, what) != getattr(wanted, what):
+                wrong.append(
+                    f"{board.where}: {what} of axis {axis.name} is {getattr(told, what)}, the "
+                    f"robot file says {getattr(wanted, what)}"
+                )
+        step = told.mantissa * 10.0**told.exponent
+        if abs(step - axis.step) > 1e-6 * axis.step:
+            wrong.append(
+                f"{board.where}: a step of axis {axis.name} is {step:g}, by the robot file "
+                f"{axis.step:g}"
+            )
+
+    def _look(self) -> None:
+        """Look at each board's clock and state a few times."""
+        for _ in range(_LOOKS):
+            self._poll_all()
+            self._wait(self._quiet, _ASK_S, "to tell where it is")
+        self._wait(
+            lambda: all(board.latest is not None for board in self._boards),
+            _ASK_S,
+            "to tell where it is",
+            self._poll_all,
+        )
+
+    def _settle(self) -> None:
+        """Bring to rest what still moves, and forget what happened before this session."""
+        for board in self._boards:
+            # One with a fault comes to rest by itself, or ramps its piezos after power came.
+            if board.telemetry_fault is Fault.NONE and board.state & _UNDER_WAY:
+                board.link.dialogues[board.address].ask(
+                    Request(message=Stop(), urgency=Urgency.STOP)
+                )
+        self._wait(
+            lambda: not any(board.state & State.MOVING for board in self._boards),
+            _REST_S,
+            "to come to rest",
+            self._poll_all,
+        )
+        for board in self._boards:
+            if board.telemetry_fault in _OF_BEFORE:
+                board.link.dialogues[board.address].ask(Request(message=ClearFault()))
+        self._wait(self._quiet, _ASK_S, "to forget its fault")
+
+    def _begin_telemetry(self) -> None:
+        self.period_ms = self._period_ms()
+        period_us = 1000 * self.period_ms
+        begin_s = self._clock() + 2.0 * max(board.link.answer_s for board in self._boards)
+        for board in self._boards:
+            begin_us = board.clock.time_us(begin_s)
+            board.grid = Grid(period_us, begin_us)
+            board.samples.clear()
+            board.link.dialogues[board.address].ask(
+                Request(message=SetTelemetry(self.period_ms, begin_us % (1 << 32)))
+            )
+        self._wait(
+            lambda: all(board.samples for board in self._boards),
+            _ASK_S + 4e-3 * self.period_ms,
+            "to send telemetry",
+        )
+
+    def _period_ms(self) -> int:
+        """Return the shortest period at which telemetry and set-points fit on the lines."""
+        announced = min(board.rates.telemetry for board in self._boards if board.rates is not None)
+        if announced <= 0:
+            raise ProtocolError(f"{self._boards[0].where} announces no rate of telemetry")
+        half_duplex = self._boards[0].link.half_duplex
+        line = Line(self._baud, half_duplex)
+        for rate in _RATES_HZ:
+            load = line.load(rate)
+            if half_duplex:
+                load += line.seconds(rate * len(self._boards) * (_EXCHANGE + _SLOTS))
+            if rate <= announced and load <= _MOST:
+                return 1000 // rate
+        return 1000 // announced
+
+    def _poll_all(self) -> None:
+        for board in self._boards:
+            dialogue = board.link.dialogues[board.address]
+            if not dialogue.busy:
+                # An answer of another kind may come: then this one is not asked again.
+                expires_s = self._clock() + board.link.answer_s
+                dialogue.ask(Request(message=Poll(), answer=Telemetry, expires_s=expires_s))
+
+    def _quiet(self) -> bool:
+        return not any(board.busy_line() for board in self._boards)
+
+    def _wait(
+        self,
+        done: Callable[[], bool],
+        limit_s: float,
+        what: str,
+        meanwhile: Callable[[], None] = lambda: None,
+    ) -> None:
+        end_s = self._clock() + limit_s
+        while not done():
+            if self._clock() > end_s:
+                late = [board.where for board in self._boards if board.busy_line()]
+                who = ", ".join(late) or self._boards[0].where
+                raise DriverTimeoutError(
+                    f"{who}: it took longer than {limit_s:g} s {what}; check cable and supply"
+                )
+            meanwhile()
+            self._exchange()
+            self._pause(_PAUSE_S)
+
+
+def _identified(board: Board, told: Message, _now_s: float) -> None:
+    assert isinstance(told, Identity), "it was matched"
+    board.identity = told
+
+
+def _rated(board: Board, told: Message, _now_s: float) -> None:
+    assert isinstance(told, Rates), "it was matched"
+    board.rates = told
+
+
+def _describes(axis: int, told: Message) -> bool:
+    return isinstance(told, AxisDescription) and told.axis == axis
+
+
+def _nobody(board: Board, baud: int, *, garbage: bool) -> DriverError:
+    """Return what to say about a board that did not answer."""
+    others = ", ".join(f"{one}" for one in BAUDS if one != baud)
+    if garbage:
+        return ProtocolError(
+            f"{board.where}: what comes from there at {baud} baud is no frame of a board; is the "
+            f"baud rate another one ({others}), or the device at this port no MC68HC11 board?"
+        )
+    return DriverTimeoutError(
+        f"{board.where}: nobody answers at {baud} baud; is the board switched on, the cable at the "
+        f"right port, the baud rate another one ({others})?"
+    )
