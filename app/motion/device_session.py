@@ -13,6 +13,7 @@ from rotemina.app.motion.mailbox import (
     Mailbox,
     RefusedError,
     SetEffects,
+    Wish,
 )
 from rotemina.app.motion.state import (
     Callback,
@@ -92,7 +93,7 @@ class DeviceSession:
         """
         if self._thread is not None:
             raise RefusedError("the session was started before; make another one")
-        self._mailbox.request_connection()
+        self._mailbox.wish(Wish(self.driver))
         self._thread = threading.Thread(target=self._run, name="motion session", daemon=True)
         self._thread.start()
 
@@ -123,7 +124,7 @@ class DeviceSession:
 
     def connect(self) -> None:
         """Ask the worker to connect; for a program that steps :meth:`run_once` itself."""
-        self._mailbox.request_connection()
+        self._mailbox.wish(Wish(self.driver))
 
     def reconnect(self) -> None:
         """Connect again after a failure; never happens by itself.
@@ -135,7 +136,30 @@ class DeviceSession:
         """
         if self._worker.state.connection in (Connection.CONNECTED, Connection.CONNECTING):
             raise RefusedError("the device is connected")
-        self._mailbox.request_connection()
+        self._mailbox.wish(Wish(self.driver))
+
+    def disconnect(self) -> None:
+        """Stop, and let go of the device; it holds."""
+        self.stop()
+        self._mailbox.wish(Wish(None))
+
+    def use(self, driver: Driver) -> None:
+        """Stop, let go of the device, and connect to another one.
+
+        Raises
+        ------
+        RefusedError
+            If the other driver is for another robot.
+        """
+        if tuple(driver.axes) != tuple(self.driver.axes):
+            raise RefusedError(
+                f"driver {driver.name!r} is for a robot with axes {', '.join(driver.axes)}; this "
+                f"one has {', '.join(self.driver.axes)}; start the program with that robot"
+            )
+        self.stop()
+        self.driver = driver
+        self._period_s = driver.service_period_s
+        self._mailbox.wish(Wish(driver))
 
     def run_once(self) -> None:
         """Do one cycle of the worker's; only where no thread was started."""

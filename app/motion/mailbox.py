@@ -81,6 +81,13 @@ class SetEffects:
 Command = Move | Drive | Play | Home | ClearFault | SetEffects | Ask
 
 
+@dataclass(frozen=True, slots=True)
+class Wish:
+    """What is to become of the connection: made by ``driver``, or None: ended."""
+
+    driver: Driver | None
+
+
 class Taken(NamedTuple):
     """A command, and how many times the queue had been emptied by a stop before it was taken."""
 
@@ -97,7 +104,7 @@ class Mailbox:
         self._commands: deque[Command] = deque()
         self._in_hand: Command | None = None
         self._generation = 0
-        self._connect = False
+        self._wish: Wish | None = None
         self._lock = threading.Lock()
 
     def __len__(self) -> int:
@@ -167,12 +174,12 @@ class Mailbox:
             commands = [self._in_hand, *self._commands]
         return [command for command in commands if isinstance(command, Drive)]
 
-    def request_connection(self) -> None:
-        """Ask the worker to open the device, and ring."""
-        self._connect = True
+    def wish(self, wish: Wish) -> None:
+        """Ask the worker to connect or disconnect, and ring; the latest wish counts."""
+        self._wish = wish
         self.bell.set()
 
-    def take_connection_request(self) -> bool:
-        """Return whether the device is to be opened now."""
-        wanted, self._connect = self._connect, False
-        return wanted
+    def take_wish(self) -> Wish | None:
+        """Return what is to become of the connection now, if anything."""
+        wish, self._wish = self._wish, None
+        return wish

@@ -103,18 +103,34 @@ class Worker:
 
     def shut_down(self) -> None:
         """Stop and let go of the device."""
+        self._let_go()
+        self._publish()
+
+    def _let_go(self) -> None:
         self._mailbox.clear()
+        self._executor.forget()
+        self.ownership.release()
         with suppress(Exception):  # the link may be gone; there is nobody left to tell
             self._driver.stop()
         self._end_recording(completed=False)
         with suppress(Exception):
             self._driver.close()
         self._set_disconnected(Connection.DISCONNECTED, self._next.fault)
-        self._publish()
+
+    def _use(self, driver: Driver) -> None:
+        if driver is not self._driver:
+            self._driver = driver
+            self._executor = Executor(driver, self._mailbox, self._clock)
+            self._distrust = None  # another device vouches for itself
 
     def _cycle(self) -> None:
-        if self._mailbox.take_connection_request():
-            self._connect()
+        wish = self._mailbox.take_wish()
+        if wish is not None:
+            if wish.driver is not self._driver:
+                self._let_go()
+            if wish.driver is not None:
+                self._use(wish.driver)
+                self._connect()
         if self._next.connection is not Connection.CONNECTED:
             return
         failure, self._stop_failure = self._stop_failure, None

@@ -270,3 +270,27 @@ def test_no_sequence_of_requests_leaves_the_bounds(stepped_type, requests):
     )
     assert tip[:, 2].min() >= FLOOR - 1e-9
     assert np.hypot(*(tip - middle)[:, :2].T).max() <= 0.02 + 1e-9
+
+
+def test_another_driver_takes_the_place_of_the_first(free, clock):
+    first = free.driver
+    free.session.go_to({"x": 0.05})
+    free.step(0.1, 2)
+    second = Simulator(load_robot("rotemina"), {"start_fraction": 0.25}, clock=clock)
+    free.session.use(second)
+    state = free.step(0.02, 2)
+    assert first.status().state is DeviceState.CLOSED
+    assert state.command["x"] == pytest.approx(0.055 / 4)
+    free.session.jog("x", 1e-3)
+    assert free.until_idle().command["x"] == pytest.approx(0.055 / 4 + 1e-3)
+    with pytest.raises(RefusedError, match="start the program with that robot"):
+        free.session.use(Simulator(load_robot("picma"), clock=clock))
+
+
+def test_a_session_lets_go_and_connects_again(free):
+    free.session.disconnect()
+    state = free.step(0.02)
+    assert state.phase is Phase.DISCONNECTED
+    assert free.driver.status().state is DeviceState.CLOSED
+    free.session.reconnect()
+    assert free.step(0.02, 2).phase is Phase.READY
