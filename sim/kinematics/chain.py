@@ -112,8 +112,6 @@ class Chain:
         OutOfLimitsError
             Naming the joint that is farthest out for its range, its value and its bounds.
         """
-        # The tip's keep-out (floor, radius, objective) is to be asked here as well: next to the
-        # ranges, so that no way of moving the tip goes past it.
         if not self.inside(joints).all():
             raise OutOfLimitsError(self._complaint(joints))
         return joints

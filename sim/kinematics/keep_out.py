@@ -27,6 +27,10 @@ _SLACK = 1e-9  # m, that rounding may take
 class KeepOutZone:
     """The tip's bounds on one robot; make one by :meth:`of`.
 
+    ``floor`` is the least height of the tip; ``radius`` bounds its way from the middle; the
+    ``objective`` is above the tip where it is above the floor (the middle, without a floor), else
+    below it, as under an inverted microscope.
+
     Attributes
     ----------
     chain : Chain

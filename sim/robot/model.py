@@ -199,7 +199,7 @@ class Microscope:
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
 class KeepOut:
-    """Where the tip must not go: below a floor, beyond a radius, into the objective; m."""
+    """Where the tip must not go, m: :class:`rotemina.sim.kinematics.keep_out.KeepOutZone`."""
 
     floor: Number | None = None
     radius: Positive | None = None
