@@ -10,7 +10,7 @@ import sys
 from collections.abc import Sequence
 from importlib.metadata import version
 
-from rotemina.app.cli import compare, convert, effect, excite, gap, play, simulate, window
+from rotemina.app.cli import board, compare, convert, effect, excite, gap, play, simulate, window
 from rotemina.sim.errors import InputError
 
 
@@ -43,7 +43,7 @@ def build_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"rotemina {version('rotemina')}")
     window.add_options(parser)
     commands = parser.add_subparsers(title="subcommands", metavar="")
-    for module in (play, simulate, compare, gap, convert, excite, effect):
+    for module in (play, simulate, compare, gap, convert, excite, effect, board):
         module.add_parser(commands)
     return parser
 

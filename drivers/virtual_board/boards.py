@@ -16,8 +16,9 @@ from rotemina.drivers.virtual_board.clock import BoardClock
 from rotemina.drivers.virtual_board.firmware import Firmware
 from rotemina.drivers.virtual_board.line import SerialLine
 from rotemina.drivers.virtual_board.machine import Machine
-from rotemina.drivers.virtual_board.messages import press
+from rotemina.drivers.virtual_board.moving import press
 from rotemina.drivers.virtual_board.notes import Notes
+from rotemina.drivers.virtual_board.samples import take_samples
 from rotemina.sim.errors import InputError
 from rotemina.sim.robot.model import Robot
 
@@ -159,6 +160,16 @@ class VirtualBoards:
         """Whether any axis is on its way."""
         return any(board.moving or board.stream.playing for board in self.boards)
 
+    @property
+    def wake_s(self) -> float:
+        """When, from the present on, bytes reach the host or a sample is taken next, at latest.
+
+        For whoever has real time to sleep through; bytes that the host writes come on top.
+        """
+        sample = min((board.reporter.next_tick for board in self.boards), default=inf)
+        lines = min(min(line.next_s, line.leaves_s) for line in self.serial)
+        return min(sample * self.tick_s, lines)
+
     def live(self, to_s: float) -> None:
         """Live on until this time, s; a time that is over changes nothing.
 
@@ -194,7 +205,7 @@ class VirtualBoards:
             for board in self.boards:
                 board.act(first)
             actions = min((board.next_action() for board in self.boards), default=inf)
-            samples = min((board.next_sample for board in self.boards), default=inf)
+            samples = min((board.reporter.next_tick for board in self.boards), default=inf)
             end = int(min(last, first + _BLOCK - 1, max(actions - 1, first), max(samples, first)))
             self._run(end - self._tick)
 
@@ -205,5 +216,5 @@ class VirtualBoards:
         self._tick += ticks
         for line in self.serial:
             for board in line.boards:
-                if board.next_sample <= self._tick:
-                    line.say(board, board.take_samples(), self._tick * self.tick_s)
+                if board.reporter.next_tick <= self._tick:
+                    line.say(board, take_samples(board), self._tick * self.tick_s)

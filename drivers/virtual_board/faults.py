@@ -11,6 +11,7 @@
 ``reset B``, ``brown-out B``  board B begins anew; it does not know where its steppers are
 ``freeze AXIS``, ``thaw AXIS``  a sensor says the same until it is thawed
 ``lose AXIS N``           a stepper stays N microsteps behind its command
+``joystick X Y Z [B]``    hold the joystick of board 1 there, 0 to 4095, and buttons bit by bit
 ========================  ===================================================================
 
 The first five take ``board`` (which is meant without it) or ``host``, towards which it happens; the
@@ -31,6 +32,7 @@ from rotemina.sim.errors import InputError
 _DAMAGES = {"drop": Damage.DROP, "double": Damage.DOUBLE, "corrupt": Damage.CORRUPT}
 _RESETS = {"reset": Fault.RESET, "brown-out": Fault.BROWN_OUT}
 _MOST_BYTES, _MOST_S, _MOST_STEPS = 10_000, 3600.0, 1_000_000
+_MOST_READING, _MOST_BUTTONS = 4095, 3
 _UNITS = {"s": 1.0, "ms": 1e-3}
 _RANDOM = ("drop 1", "double 1", "corrupt 1", "garbage 3", "delay 2 ms", "delay 0 ms")
 
@@ -145,6 +147,18 @@ def _lose(boards: VirtualBoards, _: str, words: list[str]) -> None:
     boards.machine.lose(index, -count if heading < 0.0 else count)
 
 
+def _joystick(boards: VirtualBoards, _: str, words: list[str]) -> None:
+    numbers = [int(word) for word in words if word.isascii() and word.isdigit()]
+    readings, buttons = numbers[:3], numbers[3:]
+    right = len(words) == len(numbers) in (3, 4) and max(readings) <= _MOST_READING
+    if not right or max(buttons, default=0) > _MOST_BUTTONS:
+        raise FaultCommandError(
+            f"there must be three readings, 0 to {_MOST_READING}, and after them buttons, 0 to "
+            f"{_MOST_BUTTONS}, or none"
+        )
+    boards.set_inputs((readings[0], readings[1], readings[2]), sum(buttons))
+
+
 _COMMANDS: dict[str, Callable[[VirtualBoards, str, list[str]], None]] = {
     **dict.fromkeys(_DAMAGES, _damage),
     **dict.fromkeys(_RESETS, _reset),
@@ -155,6 +169,7 @@ _COMMANDS: dict[str, Callable[[VirtualBoards, str, list[str]], None]] = {
     "freeze": _freeze,
     "thaw": _freeze,
     "lose": _lose,
+    "joystick": _joystick,
 }
 
 

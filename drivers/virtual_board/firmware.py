@@ -4,7 +4,6 @@ It is called at the ticks at which something is due, and lets its drives generat
 What frames ask of it is in ``messages.py``.
 """
 
-from collections import deque
 from math import inf
 
 import numpy as np
@@ -14,7 +13,6 @@ from rotemina.drivers.mc68hc11.budget import Line
 from rotemina.drivers.mc68hc11.codes import LCD_COLUMNS, LCD_ROWS, Fault, State
 from rotemina.drivers.mc68hc11.framing import Frame
 from rotemina.drivers.mc68hc11.message import Message
-from rotemina.drivers.mc68hc11.reports import Captured, Inputs, Telemetry
 from rotemina.drivers.virtual_board.axis_drive import AxisDrive
 from rotemina.drivers.virtual_board.clock import BoardClock
 from rotemina.drivers.virtual_board.homing import HomingAxis
@@ -22,7 +20,7 @@ from rotemina.drivers.virtual_board.kept import KeptParameters
 from rotemina.drivers.virtual_board.machine import Machine
 from rotemina.drivers.virtual_board.notes import Notes, StopNote
 from rotemina.drivers.virtual_board.profile import Profile
-from rotemina.drivers.virtual_board.sampling import WAITING, Capture, Schedule
+from rotemina.drivers.virtual_board.reporter import Reporter
 from rotemina.drivers.virtual_board.stream import Stream
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.robot.model import Robot
@@ -30,10 +28,7 @@ from rotemina.sim.robot.model import Robot
 _WATCH_US = 500_000
 _LOOK_S, _LOOK_CLOSER_S = 10e-3, 1e-3  # between looks at the switches of steppers that move
 _MARGIN_S = 2.0  # looks at full speed: from there on the board looks closer
-_READING = (1 << 23) - 1
-_INPUTS_EVERY = 4
 _CENTRE = 2048
-_BUTTON_AT = 6  # in the byte of the switches
 
 
 class Firmware:
@@ -98,11 +93,8 @@ class Firmware:
         self.last: tuple[int, Frame | None] | None = None  # number and answer
         self.watch_us = _WATCH_US
         self.watch_tick: int | None = None
-        self.telemetry: Schedule | None = None
-        self.sample: Telemetry | None = None
-        self.capture: Capture | None = None
-        self.waiting: deque[Captured] = deque()
-        self.polls = self._unasked = self._said = 0
+        self.reporter = Reporter(waits=self.line.half_duplex)
+        self._said = 0
         self.lcd = [" " * LCD_COLUMNS] * LCD_ROWS
         self.heading = [0.0] * len(self.axes)
         self._stop_heard_s: float | None = None
@@ -136,8 +128,6 @@ class Firmware:
                 drive.ramp(round(self.kept.rest(axis)), self.kept.slew(axis))
         self._note(f"fault {fault.name}")
 
-    # --- what it is doing ------------------------------------------------------------------------
-
     @property
     def now_s(self) -> float:
         """The latest tick, as time of the process."""
@@ -152,7 +142,8 @@ class Firmware:
     @property
     def state(self) -> State:
         """What telemetry says."""
-        capturing = self.capture is not None and self.capture.begins <= self.now
+        capture = self.reporter.capture
+        capturing = capture is not None and capture.begins <= self.now
         return State(
             State.MOVING * self.moving
             | State.PLAYING * (self.stream.playing or self.profile.running)
@@ -162,16 +153,6 @@ class Firmware:
             | State.ARMED * (self.profile.trigger is not None)
             | State.POSITION_UNKNOWN * (not self.known)
         )
-
-    def switches(self) -> int:
-        """Return the limit switches and buttons, bit by bit; the machine is up to date."""
-        bits = (self.buttons & 3) << _BUTTON_AT
-        for axis, index in enumerate(self.indices):
-            low, high = self.machine.closed(index)
-            bits |= (low | high << 1) << 2 * axis
-        return bits
-
-    # --- halting ---------------------------------------------------------------------------------
 
     def stop(self, heard_s: float) -> None:
         """Carry out a stop that was heard at this time."""
@@ -195,7 +176,7 @@ class Firmware:
         self.stream.clear()
         self.profile.end()
         self.leases.clear()
-        self.capture = None
+        self.reporter.capture = None
         self.end_homing()
 
     def _speeds(self) -> dict[int, float]:
@@ -221,8 +202,6 @@ class Firmware:
         if running:
             drive = self.drives[axis]
             drive.place(drive.position, speed if self.steppers[axis] else 0.0)
-
-    # --- a tick ----------------------------------------------------------------------------------
 
     def act(self, tick: int) -> None:
         """Do what is due at a tick, before its command is generated."""
@@ -338,55 +317,6 @@ class Firmware:
         heard_s = self._stop_heard_s
         self._stop_heard_s = None
         self.notes.stopped(StopNote(self.number, heard_s, max(rest_s, heard_s)))
-
-    # --- samples ---------------------------------------------------------------------------------
-
-    @property
-    def next_sample(self) -> float:
-        """The next tick of which a reading is needed."""
-        telemetry = self.telemetry.tick if self.telemetry is not None else inf
-        due = self.capture.due if self.capture is not None else None
-        return min(telemetry, inf if due is None else due)
-
-    def take_samples(self) -> list[Message]:
-        """Take what is due at the present tick; return what is sent unasked."""
-        said: list[Message] = []
-        if self.telemetry is not None and self.telemetry.tick <= self.now:
-            self.sample = self.fresh_sample()
-            self.telemetry.go_on(self.now)
-            said.append(self.sample)
-            self._unasked += 1
-            if self._unasked % _INPUTS_EVERY == 0:
-                said.append(self.inputs())
-        if self.capture is not None and self.capture.due is not None:
-            self._go_on_capturing(said)
-        return [] if self.line.half_duplex else said
-
-    def _go_on_capturing(self, said: list[Message]) -> None:
-        capture = self.capture
-        if capture is None or capture.due is None or capture.due > self.now:
-            return
-        self.machine.simulate()
-        report = capture.taken()
-        said.append(report)
-        if self.line.half_duplex and len(self.waiting) < WAITING:
-            self.waiting.append(report)
-        if capture.due is None:
-            self.capture = None
-
-    def fresh_sample(self) -> Telemetry:
-        """Return a sample of the present tick."""
-        self.machine.simulate()
-        counted = self.machine.counted()[self.indices.start : self.indices.stop]
-        readings = [int(min(max(one, -_READING), _READING)) for one in counted]
-        commands = [round(drive.position) for drive in self.drives]
-        time_us = self.clock.at_tick(self.now)
-        axes = tuple(zip(readings, commands, strict=True))
-        return Telemetry.of(time_us, int(self.state), int(self.fault), self.switches(), axes)
-
-    def inputs(self) -> Inputs:
-        """Return what the operator holds."""
-        return Inputs.of(self.buttons, self.readings)
 
     def framed(self, message: Message) -> Frame:
         """Return a frame of the board's own count."""

@@ -74,6 +74,13 @@ class SerialLine:
         """When something happens next: a byte has come, or a board begins to answer."""
         return min(self._heard[0].end_s if self._heard else inf, self._speak_s)
 
+    @property
+    def leaves_s(self) -> float:
+        """When the next whole frame, or what is left of one, has reached the host."""
+        said = self._said[0] if self._said else None
+        ends_s = inf if said is None else said.begin_s + len(said.data) * self.byte_s
+        return min(ends_s, self._delayed[0][0] if self._delayed else inf)
+
     def hear(self, data: bytes, at_s: float) -> None:
         """Let the host have written bytes at a time that is not before the latest one."""
         data = self.to_board.passed(data, at_s)

@@ -6,7 +6,6 @@ from rotemina.drivers.virtual_board.clock import MASK, BoardClock, signed
 from rotemina.drivers.virtual_board.machine import Machine
 
 _SAMPLE = 2  # bytes of one axis
-WAITING = 12  # frames of captured samples that a board has room for
 _LOW_BITS = 0xFFFF
 
 

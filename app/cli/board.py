@@ -1,0 +1,208 @@
+"""``rotemina board``: the boards and the machine without either, for a host to talk to."""
+
+import argparse
+import os
+import selectors
+import signal
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from functools import partial
+from pathlib import Path
+from types import FrameType
+from typing import Literal
+
+from rotemina.app.cli.board_ports import HostPort, PseudoTerminal, Socket
+from rotemina.app.cli.options import add_robot, robot_of
+from rotemina.drivers.mc68hc11.axes import board_axes
+from rotemina.drivers.mc68hc11.budget import BAUDS
+from rotemina.drivers.virtual_board.boards import VirtualBoards
+from rotemina.drivers.virtual_board.faults import FaultCommandError, Mishaps, inject
+from rotemina.sim.errors import InputError
+from rotemina.sim.robot.model import Robot
+
+_WAKE_S, _SLEEP_S = 1e-3, 20e-3  # at least so long, and at most, between two looks
+_MOST_PORTS = 2
+_STDIN = 0
+
+
+def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Add the subcommand."""
+    parser = commands.add_parser(
+        "board",
+        help="serve virtual boards that behave as the real ones, with the robot's model behind",
+        description="Serve the boards of a robot, with its model and effects behind them, on "
+        "pseudo-terminals or on sockets of this machine, byte by byte as fast as a real line. Two "
+        "ports are a line for each board; one port for more than three axes is a bus that both "
+        "share. Lines on standard input inject faults: drop N, double N, corrupt N, garbage N, "
+        "delay T ms (each towards 'board' or 'host'), silence T s, tear T s, reset BOARD, "
+        "brown-out BOARD, freeze AXIS, thaw AXIS, lose AXIS N, joystick X Y Z BUTTONS.",
+    )
+    add_robot(parser)
+    parser.add_argument(
+        "--port", type=Path, action="append", default=[], metavar="PATH",
+        help="give a pseudo-terminal this name",
+    )  # fmt: skip
+    parser.add_argument(
+        "--tcp", action="append", default=[], metavar="HOST:PORT",
+        help="listen there instead; only on 127.0.0.1 or ::1, port 0 for any",
+    )  # fmt: skip
+    parser.add_argument("--bus", action="store_true", help="one line for both boards")
+    parser.add_argument(
+        "--baud", type=int, default=BAUDS[0], metavar="N",
+        help=f"of the lines: {' or '.join(map(str, BAUDS))} (default: {BAUDS[0]})",
+    )  # fmt: skip
+    parser.add_argument("--unpaced", action="store_true", help="let bytes take no time")
+    parser.add_argument(
+        "--seed", type=int, default=0, metavar="N", help="of noise and faults (default: 0)"
+    )
+    parser.add_argument(
+        "--position-known", action="store_true", help="begin homed and without a fault"
+    )
+    parser.add_argument(
+        "--mishaps", type=float, default=0.0, metavar="RATE",
+        help="disturb the lines so often a second, at random (default: 0)",
+    )  # fmt: skip
+    parser.add_argument("--until-stdin-closes", action="store_true", help="end with standard input")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Serve until told to end."""
+    if options.seed < 0:
+        raise InputError(f"--seed {options.seed}: must be 0 or more")
+    if not 0.0 <= options.mishaps <= 1000.0:
+        raise InputError(f"--mishaps {options.mishaps:g}: must be from 0 to 1000 a second")
+    robot = robot_of(options)
+    count = _count_of_ports(options, len(board_axes(robot)))
+    boards = _boards(options, robot, count)
+    with ExitStack() as stack:
+        ports: list[HostPort] = []
+        for make in _makers(options, count):
+            ports.append(make())
+            stack.callback(ports[-1].close)
+        ended = stack.enter_context(_signals())
+        _boards(options, robot, count).live(0.05)  # what is compiled at first use is so beforehand
+        for port, line in zip(ports, boards.lines, strict=True):
+            who = " and ".join(f"board {number}" for number in line.numbers)
+            _tell(f"listening on {port.name}: {who}")
+        _Server(boards, ports, options).serve(ended)
+    return 0
+
+
+def _boards(options: argparse.Namespace, robot: Robot, count: Literal[1, 2]) -> VirtualBoards:
+    return VirtualBoards(
+        robot,
+        ports=count,
+        baud=options.baud,
+        paced=not options.unpaced,
+        seed=options.seed,
+        position_known=options.position_known,
+    )
+
+
+def _count_of_ports(options: argparse.Namespace, boards: int) -> Literal[1, 2]:
+    asked = len(options.port) + len(options.tcp)
+    if asked > _MOST_PORTS:
+        raise InputError(f"{asked} ports: two boards have {_MOST_PORTS} at most")
+    if options.bus and asked == _MOST_PORTS:
+        raise InputError("--bus: it is one line; name one port only")
+    if options.bus and boards == 1:
+        raise InputError("--bus: the robot's axes take one board, which shares no line")
+    one = options.bus or asked == 1 or (not asked and boards == 1)
+    return 1 if one else 2
+
+
+def _makers(options: argparse.Namespace, count: int) -> Iterator[Callable[[], HostPort]]:
+    if not options.port and not options.tcp:
+        for _ in range(count):
+            yield PseudoTerminal
+    for path in options.port:
+        yield partial(PseudoTerminal, path)
+    for address in options.tcp:
+        yield partial(Socket, address, _tell)
+
+
+class _Server:
+    """Lets the boards live in real time, and carries bytes and commands to and fro."""
+
+    def __init__(
+        self, boards: VirtualBoards, ports: list[HostPort], options: argparse.Namespace
+    ) -> None:
+        self._boards = boards
+        self._ends = list(zip(ports, boards.lines, strict=True))
+        self._mishaps = Mishaps(boards, options.mishaps, options.seed)
+        self._until_stdin = options.until_stdin_closes
+        self._heard: set[str] = set()
+        self._line = b""
+        # Elsewhere nothing but sockets can be waited for.
+        self._listens = os.name == "posix" and sys.stdin is not None
+
+    def serve(self, ended: Callable[[], bool]) -> None:
+        """Go on until ``ended``."""
+        began_s = time.monotonic()
+        now_s = 0.0
+        while not ended() and (self._listens or not self._until_stdin):
+            pause_s = min(max(self._boards.wake_s - now_s, _WAKE_S), _SLEEP_S)
+            commanded = self._wait(pause_s)
+            now_s = time.monotonic() - began_s
+            self._mishaps.live(now_s)
+            for port, line in self._ends:
+                if data := port.receive():
+                    self._note_host(port.name)
+                    line.receive(data, now_s)
+            if commanded:
+                self._read_commands()
+            for port, line in self._ends:
+                port.send(line.advance(now_s))
+            for event in self._boards.notes.taken():
+                _tell(f"{event.at_s:.4f} s: {event.text}")
+
+    def _wait(self, pause_s: float) -> bool:
+        """Wait for bytes; return whether there are commands to read."""
+        # Few handles, which change, and among them files: a selector made anew takes them all.
+        with selectors.SelectSelector() as selector:
+            for port, _ in self._ends:
+                for handle in port.handles():
+                    selector.register(handle, selectors.EVENT_READ)
+            if self._listens:
+                selector.register(_STDIN, selectors.EVENT_READ)
+            return any(key.fd == _STDIN for key, _ in selector.select(pause_s))
+
+    def _note_host(self, name: str) -> None:
+        if name not in self._heard:
+            self._heard.add(name)
+            _tell(f"{name}: a host speaks")
+
+    def _read_commands(self) -> None:
+        data = os.read(_STDIN, 4096)
+        self._listens = bool(data)
+        *lines, self._line = (self._line + data).split(b"\n")
+        for line in lines:
+            command = line.decode("utf-8", "replace").strip()
+            try:
+                if command:
+                    inject(self._boards, command)
+            except FaultCommandError as error:
+                print(f"rotemina: {error}", file=sys.stderr, flush=True)
+
+
+@contextmanager
+def _signals() -> Iterator[Callable[[], bool]]:
+    """Tell whether somebody wants an end, rather than be interrupted."""
+    received: list[int] = []
+
+    def note(number: int, _: FrameType | None) -> None:
+        received.append(number)
+
+    before = {one: signal.signal(one, note) for one in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield lambda: bool(received)
+    finally:
+        for one, handler in before.items():
+            signal.signal(one, handler)
+
+
+def _tell(text: str) -> None:
+    print(text, flush=True)
