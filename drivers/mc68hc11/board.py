@@ -65,6 +65,7 @@ class Board:
         self.telemetry_s = 0.0  # host time of the latest
         self.inputs: Inputs | None = None
         self.samples: deque[BoardSample] = deque(maxlen=_KEPT)
+        self.rest_number = -1  # the first sample after it came to rest
         self.reset = False
         self.wary = False  # whether a reset counts as one: not while it is being opened
         self.orders = Orders(address, self.clock, lambda: self.latest)
@@ -176,11 +177,14 @@ class Board:
             return
         if self.latest is not None and time_us <= self.latest_us and self.clock.known:
             return  # said twice, or polled before the next one was taken
+        was_busy = not self.at_rest
         self.clock.heard(time_us, said_s)
         self.latest, self.latest_us, self.telemetry_s = told, time_us, now_s
         self.orders.seen(time_us)
         number = self.grid.number(time_us) if self.grid is not None else None
         if number is not None:
+            if was_busy and self.at_rest:
+                self.rest_number = number
             pairs = told.samples()
             self.samples.append(
                 BoardSample(

@@ -10,7 +10,7 @@ _TURN = 1 << 32  # µs, then the board counts from 0 again
 _HALF = _TURN >> 1
 _WINDOW_S = 1.0  # of whose answers the least delayed is kept
 _WINDOWS = 32
-_ENOUGH = 8  # windows before a drift is believed
+_ENOUGH = 16  # windows before a drift is believed
 _MOST_DRIFT = 5e-4  # a quartz is ten times better
 _JUMP_S = 0.5  # a board that is off by more than this was reset
 
@@ -19,9 +19,16 @@ class BoardClock:
     """Follows one board's clock from the times that it tells and when they were heard.
 
     Board times are whole microseconds since an arbitrary beginning, unwrapped: they do not turn.
+
+    Attributes
+    ----------
+    drifts : bool
+        Whether to follow the drift. Where a board speaks only when it is polled, answers are late
+        by up to a period, which would look like one.
     """
 
     def __init__(self) -> None:
+        self.drifts = True
         self._latest_us: int | None = None
         self._origin_us = 0
         self._windows: deque[tuple[float, float]] = deque(maxlen=_WINDOWS)  # board s, offset s
@@ -82,7 +89,7 @@ class BoardClock:
 
     def _fit(self) -> None:
         """Lay the line of the drift below all windows."""
-        if len(self._windows) >= _ENOUGH:
+        if self.drifts and len(self._windows) >= _ENOUGH:
             count = len(self._windows)
             middle = sum(board_s for board_s, _ in self._windows) / count
             lateness = sum(late_s for _, late_s in self._windows) / count

@@ -90,6 +90,7 @@ class Opening:
         for board in self._boards:
             self._check(board)
             board.link.half_duplex = board.able(Ability.HALF_DUPLEX)
+            board.clock.drifts = not board.link.half_duplex
         self._ask()
         trust = Trust(self._robot, self._boards)
         trust.compare()

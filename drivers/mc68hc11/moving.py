@@ -1,0 +1,113 @@
+"""How the driver moves axes: targets, speeds, homing, voltages and trajectories."""
+
+from functools import partial
+from math import ceil
+
+from rotemina.drivers.abilities import Homer, TrajectoryPlayer, VelocityMover, VoltageOutput
+from rotemina.drivers.errors import StateError
+from rotemina.drivers.mc68hc11.codes import Ability
+from rotemina.drivers.mc68hc11.connected import Connected
+from rotemina.drivers.mc68hc11.message import Message
+from rotemina.drivers.mc68hc11.orders import said
+from rotemina.drivers.mc68hc11.parameters import CODES, PER_AXIS
+from rotemina.drivers.mc68hc11.player import Player
+from rotemina.drivers.mc68hc11.requests import Home, MoveTo, MoveVelocity, SetVoltage
+from rotemina.drivers.samples import DeviceState
+from rotemina.sim.records.record import Record
+from rotemina.sim.robot.model import StepperAxis
+
+_LOW, _HIGH, _SPEED, _FIRST_MV, _LAST_MV = 0, 1, 2, 4, 5  # parameters of an axis
+
+
+class Moving(Connected, TrajectoryPlayer, VelocityMover, Homer, VoltageOutput):
+    """Motion of the axes, by the boards' own ramps or by set-points."""
+
+    @property
+    def setpoint_period_s(self) -> float:
+        """The interval of telemetry and set-points, s: that of the boards once they were opened."""
+        return self._period_s
+
+    @property
+    def homing_axes(self) -> tuple[str, ...]:
+        """The steppers; a piezo's sensor always knows where it is."""
+        return tuple(n for n, axis in self.robot.axes.items() if isinstance(axis, StepperAxis))
+
+    def _move_to(self, targets: dict[str, float], speeds: dict[str, float]) -> None:
+        self._prepare("move")
+        for name, target in targets.items():
+            board, axis = self._running.board_of(name)
+            low, high = self._ends(name)
+            steps = min(max(axis.steps(target), low), high)
+            most = self._speed(name)
+            if name in speeds:
+                most = min(max(axis.steps(speeds[name]), 1), most)
+            message = MoveTo(axis.number, steps, most)
+            board.orders.give(("axis", axis.number), partial(said, message))
+        self._serve()
+
+    def _move_velocity(self, velocities: dict[str, float], lease_s: float) -> None:
+        self._prepare("move")
+        now_s = self.clock()
+        for name, velocity in velocities.items():
+            board, axis = self._running.board_of(name)
+            most = self._speed(name)
+            speed = min(max(axis.steps(velocity), -most), most)
+            # What is said late is vouched for by no longer than it was asked; a halt always is.
+            expires_s = now_s + 0.5 * lease_s if speed else float("inf")
+            make = partial(_velocity, axis.number, speed, now_s + lease_s)
+            board.orders.give(("axis", axis.number), make, expires_s=expires_s)
+        self._serve()
+
+    def _home(self, axes: tuple[str, ...]) -> None:
+        self._prepare("home")
+        session = self._running
+        for board in session.boards:
+            own = [axis.number for axis in board.axes if axis.name in axes]
+            if own:
+                message = Home(sum(1 << number for number in own))
+                board.orders.give("home", partial(said, message), DeviceState.HOMING)
+        self._serve()
+
+    def _set_voltage(self, axis: str, voltage: float) -> None:
+        self._prepare("put out a voltage")
+        board, own = self._running.board_of(axis)
+        trust = self._running.trust
+        first = 1e-3 * trust.value(board, PER_AXIS * own.number + _FIRST_MV)
+        last = 1e-3 * trust.value(board, PER_AXIS * own.number + _LAST_MV)
+        code = min(max(round((voltage - first) / (last - first) * CODES), 0), CODES)
+        message = SetVoltage(own.number, code)
+        board.orders.give(("axis", own.number), partial(said, message))
+        self._serve()
+
+    def _play(self, trajectory: Record) -> None:
+        self._prepare("play")
+        session = self._running
+        for board in session.boards:
+            if not board.able(Ability.SETPOINTS):
+                raise StateError(f"{self.name}: {board.where} cannot play trajectories")
+        speeds = {name: self._speed(name) for name in self.axes}
+        ends = {name: self._ends(name) for name in self.axes}
+        session.player = session.playback = Player(
+            trajectory, session.boards, speeds, ends, self._settle_s
+        )
+        self._progress = 0.0
+        self._serve()
+
+    def _ends(self, name: str) -> tuple[int, int]:
+        """Return the first and the last step that both the robot file and the board allow."""
+        board, axis = self._running.board_of(name)
+        low, high = axis.ends(*self.robot.axes[name].range)
+        trust, first = self._running.trust, PER_AXIS * axis.number
+        own_low, own_high = trust.value(board, first + _LOW), trust.value(board, first + _HIGH)
+        return max(low, own_low), min(high, own_high)
+
+    def _speed(self, name: str) -> int:
+        """Return the greatest speed that both the robot file and the board allow, steps/s."""
+        board, axis = self._running.board_of(name)
+        trust, index = self._running.trust, PER_AXIS * axis.number + _SPEED
+        return max(1, min(trust.wanted(board, index), trust.value(board, index)))
+
+
+def _velocity(axis: int, speed: int, end_s: float, now_s: float) -> Message:
+    left_ms = ceil(1e3 * (end_s - now_s)) if speed else 1
+    return MoveVelocity(axis, speed, max(left_ms, 1))
