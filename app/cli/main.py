@@ -10,7 +10,18 @@ import sys
 from collections.abc import Sequence
 from importlib.metadata import version
 
-from rotemina.app.cli import board, compare, convert, effect, excite, gap, play, simulate, window
+from rotemina.app.cli import (
+    board,
+    compare,
+    convert,
+    driver,
+    effect,
+    excite,
+    gap,
+    play,
+    simulate,
+    window,
+)
 from rotemina.sim.errors import InputError
 
 
@@ -43,7 +54,7 @@ def build_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"rotemina {version('rotemina')}")
     window.add_options(parser)
     commands = parser.add_subparsers(title="subcommands", metavar="")
-    for module in (play, simulate, compare, gap, convert, excite, effect, board):
+    for module in (play, simulate, compare, gap, convert, excite, effect, driver, board):
         module.add_parser(commands)
     return parser
 

@@ -29,6 +29,7 @@ from rotemina.drivers.simulator.device import SimulatedDevice
 from rotemina.drivers.simulator.front_panel import FrontPanel
 from rotemina.drivers.simulator.homing import Homing
 from rotemina.drivers.simulator.profile_motion import ProfileMotion
+from rotemina.drivers.simulator.setpoints import SetpointLimits
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.plant.errors import PlantError
@@ -145,9 +146,8 @@ class Simulator(
         return value
 
     def _start_position(self, fraction: float) -> FloatArray:
-        ranges = np.array([axis.range for axis in self.robot.axes.values()], dtype=np.float64)
-        low, high = ranges.T
-        return np.asarray(low + fraction * (high - low))
+        limits = SetpointLimits.of(self.robot)
+        return np.asarray(limits.low + fraction * (limits.high - limits.low))
 
     def _open(self) -> None:
         self._opened_at_s = self.clock()
@@ -324,7 +324,8 @@ class Simulator(
         """Carry out the stop, or the end of the leases, of this time."""
         if self._stops_s and self._stops_s[0] <= at_s:
             device.stop()
-            self._stops_s.popleft()
+            while self._stops_s and self._stops_s[0] <= at_s:  # one stop is as good as many
+                self._stops_s.popleft()
             self._leases_s.clear()
             return
         for index in [index for index, end_s in self._leases_s.items() if end_s <= at_s]:

@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.robot.model import Robot
+from rotemina.sim.robot.model import Axis, PiezoAxis, Robot
+from rotemina.sim.trajectory.limits import voltage_bounds
 
 # What an axis without declared bounds is given: its range in a second, that speed in a tenth.
 _CROSSING_S = 1.0
@@ -24,7 +25,10 @@ _STARTING_S = 0.1
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SetpointLimits:
-    """Bounds of each axis, (axes,) each: m or rad, per s, per s²."""
+    """Bounds of each axis, (axes,) each: m or rad, per s, per s².
+
+    ``low`` and ``high`` are ends of the range, or nearer where the amplifier's voltage ends.
+    """
 
     low: FloatArray
     high: FloatArray
@@ -40,8 +44,18 @@ class SetpointLimits:
             axis.max_acceleration or fastest / _STARTING_S
             for axis, fastest in zip(axes, speed, strict=True)
         ]
-        low, high = np.array([axis.range for axis in axes], dtype=np.float64).T
+        low, high = np.array([_reach(axis) for axis in axes], dtype=np.float64).T
         return cls(low.copy(), high.copy(), speed, np.array(acceleration, dtype=np.float64))
+
+
+def _reach(axis: Axis) -> tuple[float, float]:
+    """Return the part of the range that an axis' amplifier can hold it in, m or rad."""
+    low, high = axis.range
+    bounds = voltage_bounds(axis)
+    if bounds is None or not isinstance(axis, PiezoAxis):
+        return low, high
+    ends = sorted(voltage * axis.gain for voltage in bounds)
+    return max(low, ends[0]), min(high, ends[1])
 
 
 class SetpointGenerator:
@@ -79,7 +93,9 @@ class SetpointGenerator:
         """Send axes, by their number, to new targets inside the range, no faster than this."""
         for index, target in targets.items():
             greatest = float(self._limits.speed[index])
-            self._target[index] = target
+            # Targets may be beyond by the rounding of units, where no axis would ever arrive.
+            low, high = self._limits.low[index], self._limits.high[index]
+            self._target[index] = min(max(target, float(low)), float(high))
             self._speed[index] = greatest if most_speed is None else min(most_speed, greatest)
             self._stopping[index] = False
 

@@ -119,3 +119,19 @@ def test_an_axis_without_bounds_crosses_its_range_in_a_second():
 @pytest.mark.parametrize("kernel", [setpoints._fill, setpoints._braking_speed])
 def test_other_threads_run_while_set_points_are_computed(kernel):
     assert kernel.targetoptions["nogil"]
+
+
+def test_a_target_beyond_the_range_by_rounding_is_arrived_at():
+    robot = load_robot("rotemina")
+    limits = SetpointLimits.of(robot)
+    generator = SetpointGenerator(limits, 1e-3, 0.99 * limits.high)
+    generator.retarget({0: float(limits.high[0]) * (1.0 + 1e-12)})
+    generator.generate(1000)
+    assert not generator.moving
+    assert generator.position[0] == limits.high[0]
+
+
+def test_an_axis_ends_where_its_amplifier_does():
+    limits = SetpointLimits.of(load_robot("picma"))
+    assert limits.low[0] == 0.0
+    assert limits.high[0] == 3.7 * 12.53e-6

@@ -1,0 +1,80 @@
+"""The bench that a driver is put on: it makes the driver and lets its time pass."""
+
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+
+from rotemina.drivers.clock import VirtualClock
+from rotemina.drivers.conformance.subject import Subject
+from rotemina.drivers.driver import Driver
+from rotemina.sim.robot.model import Robot
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bench:
+    """How checks get hold of a driver, and of what surrounds it.
+
+    Attributes
+    ----------
+    make : callable
+        Returns a new driver with settings beside those that the bench has by itself; opens nothing.
+    advance : callable
+        Lets so many seconds pass on the driver's clock: real ones, or those of a clock set by hand
+        together with whatever stands at the other end of an in-memory line.
+    cut_link, restore_link : callable, optional
+        Pull the cable and put it back. Without them nothing is checked about lost links.
+    cause_fault : callable, optional
+        Bring about a fault of the open device that can be cleared at once.
+    touched : callable, optional
+        Whether anything has reached the device since the bench was made.
+    short_loss_s, long_loss_s : float
+        A loss of the link that the driver must mask, and one after which it must have given up.
+    """
+
+    make: Callable[[Mapping[str, object]], Driver]
+    advance: Callable[[float], None]
+    cut_link: Callable[[], None] | None = None
+    restore_link: Callable[[], None] | None = None
+    cause_fault: Callable[[Driver], None] | None = None
+    touched: Callable[[], bool] | None = None
+    short_loss_s: float = 0.1
+    long_loss_s: float = 5.0
+
+    @contextmanager
+    def opened(self, *, to_move: bool = True) -> Iterator[Subject]:
+        """Make a driver, open it and, in order ``to_move`` it, home it if it has to be.
+
+        Afterwards it is stopped and closed.
+
+        Raises
+        ------
+        Inapplicable
+            If the position is unknown and the device cannot home, so that it cannot be moved.
+        """
+        driver = self.make({})
+        driver.open()
+        try:
+            subject = Subject(driver, self.advance)
+            if to_move:
+                subject.make_ready()
+            yield subject
+        finally:
+            # What closing raises is the matter of the checks of closing, not of every check.
+            with suppress(Exception):
+                driver.stop()
+            with suppress(Exception):
+                driver.close()
+
+
+def bench_of(
+    driver: type[Driver], robot: Robot, settings: Mapping[str, object] | None = None
+) -> Bench:
+    """Return a bench for an installed driver: on a clock set by hand if it can live on one."""
+    own = dict(settings or {})
+    if not driver.virtual_time:
+        return Bench(make=lambda given: driver(robot, {**own, **given}), advance=time.sleep)
+    clock = VirtualClock(1234.5)
+    return Bench(
+        make=lambda given: driver(robot, {**own, **given}, clock=clock), advance=clock.advance
+    )
