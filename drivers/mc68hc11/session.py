@@ -29,7 +29,6 @@ _SHORT_PERIODS = 3.5
 _KEEP_ALIVE = 4  # of the watchdog's time
 _APART = 0.5  # periods between the boards' samples, from where on they are put in step again
 _APART_ON_BUS = 1.5  # where times of boards are known by their polls only
-_AHEAD_S = 0.1
 
 
 class Session:
@@ -250,7 +249,7 @@ class Session:
             assert board.grid is not None, "telemetry is on"
             if not board.at_rest or board.busy_line():
                 continue
-            number = first.number_at(now_s + _AHEAD_S) + 2
+            number = first.number_at(now_s + board.link.answer_s) + 2
             wanted_s = first.clock.host_time_s(first.grid.time_us(number))
             apart_s = board.clock.host_time_s(board.grid.time_us(number)) - wanted_s
             most = _APART_ON_BUS if board.link.half_duplex else _APART
@@ -262,7 +261,7 @@ class Session:
         assert board.grid is not None, "telemetry is on"
         every = period_ms // self.period_ms
         if number is None:
-            number = board.number_at(self._clock() + _AHEAD_S) + 1
+            number = board.number_at(self._clock() + board.link.answer_s) + 1
             number += -number % every
         begin_us = board.grid.time_us(number) % (1 << 32)
         board.link.dialogues[board.address].ask(
