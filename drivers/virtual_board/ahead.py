@@ -1,10 +1,12 @@
-"""A plant that looks ahead while nothing is commanded to move: far fewer, longer runs.
+"""A plant that looks ahead of the present: far fewer, longer runs.
 
 A run of the plant costs the same for one tick as for a hundred. Boards look at it at every sample
-of telemetry; so an idle machine is simulated beyond the present, and taken back to it when a
-command changes. What comes out is the same, noise included, as without it.
+of telemetry; so the machine is simulated beyond the present over the commands that will come if
+nobody interferes, and taken back to it when other ones come. What comes out is the same, noise
+included, as without it.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -16,6 +18,8 @@ from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.state import PlantState
 
 _AHEAD = 100  # ticks
+
+Expected = Callable[[int], FloatArray | None]  # the next so many commands, if anybody knows them
 
 
 class Response(NamedTuple):
@@ -52,13 +56,18 @@ class _Chance(Chance):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Beyond:
-    """What follows if the command stays: the state before and after, and how much is used."""
+    """What follows expected commands: the state before and after, and how many have come."""
 
     before: PlantState
-    command: FloatArray
+    commands: FloatArray
     response: Response
     after: PlantState
     used: int
+
+    def foresaw(self, commands: FloatArray) -> bool:
+        """Return whether these come next, as far as was looked."""
+        seen = self.commands[self.used : self.used + len(commands)]
+        return np.array_equal(commands[: len(seen)], seen)
 
 
 class PlantRun:
@@ -69,11 +78,10 @@ class PlantRun:
         self._tick_s = tick_s
         self._chance = _Chance(np.random.default_rng(seed))
         self._state = plant.at_rest(0.0, position)
-        self._latest = np.array(position)
         self._beyond: _Beyond | None = None
 
-    def advance(self, commands: FloatArray) -> Response:
-        """Return the response to commands (ticks, axes), at least one.
+    def advance(self, commands: FloatArray, expected: Expected) -> Response:
+        """Return the response to commands (ticks, axes), at least one; others are expected then.
 
         Raises
         ------
@@ -81,14 +89,13 @@ class PlantRun:
             If the motion leaves what a number can hold.
         """
         parts = []
-        idle = bool((commands == self._latest).all())
-        self._latest = commands[-1]
-        if idle and self._beyond is not None:
+        if self._beyond is not None and self._beyond.foresaw(commands):
             parts.append(self._use(self._beyond, len(commands)))
             commands = commands[len(parts[0].position) :]
         if len(commands):
             self._settle()
-            parts.append(self._look_ahead(commands) if idle else self._run(commands))
+            ahead = expected(_AHEAD) if len(commands) < _AHEAD else None
+            parts.append(self._run(commands) if ahead is None else self._look(commands, ahead))
         if len(parts) == 1:
             return parts[0]
         return Response(*(np.concatenate(both) for both in zip(*parts, strict=True)))
@@ -120,14 +127,14 @@ class PlantRun:
             return
         self._chance.take_back(len(beyond.response.position))
         self._state = beyond.before
-        self._run(np.tile(beyond.command, (beyond.used, 1)))
+        self._run(beyond.commands[: beyond.used])
 
-    def _look_ahead(self, commands: FloatArray) -> Response:
+    def _look(self, commands: FloatArray, ahead: FloatArray) -> Response:
+        """Return the response to commands, and keep the one to those that are expected."""
         before, ticks = self._state, len(commands)
-        count = max(_AHEAD, ticks)
-        found = self._run(np.tile(commands[-1], (count, 1)))
-        if count > ticks:
-            self._beyond = _Beyond(before, commands[-1], found, self._state, ticks)
+        both = np.concatenate((commands, ahead))
+        found = self._run(both)
+        self._beyond = _Beyond(before, both, found, self._state, ticks)
         return Response(*(part[:ticks] for part in found))
 
     def _run(self, commands: FloatArray) -> Response:

@@ -1,5 +1,7 @@
 """How a board moves one axis, tick by tick: to a target, at a speed, or along a ramp."""
 
+from copy import deepcopy
+
 import numpy as np
 
 from rotemina.drivers.simulator.setpoints import SetpointGenerator, SetpointLimits
@@ -101,6 +103,10 @@ class AxisDrive:
         if not self.moving:
             return np.full(ticks, self.position)
         return self._generator.generate(ticks)[:, 0]
+
+    def preview(self, ticks: int) -> FloatArray:
+        """Return the commands (ticks,) that `generate` will return, steps."""
+        return deepcopy(self).generate(ticks) if self.moving else np.full(ticks, self.position)
 
     def _generate_ramp(self, ticks: int, end: float) -> FloatArray:
         begin, step = self.position, self._ramp_speed * self._tick_s

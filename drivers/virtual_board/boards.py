@@ -143,6 +143,7 @@ class VirtualBoards:
             )
             for number, board in enumerate(own, start=1)
         )
+        self.machine.previews = [board.preview for board in self.boards]
         groups = [self.boards] if shared else [(board,) for board in self.boards]
         self.serial = tuple(
             SerialLine(group, speed, paced=paced, seed=seed + number)

@@ -46,7 +46,7 @@ class BoardClock:
         The time is taken to be within 2^31 µs of the present, before or after it.
         """
         ahead_us = signed(time_us - self.at_tick(now))
-        tick = now + ceil(ahead_us / (self._tick_us * self._rate) - 1e-6)
+        tick = now + floor(ahead_us / (self._tick_us * self._rate)) - 1  # rounding, at most
         while signed(self.at_tick(tick) - time_us) < 0:
             tick += 1
         return tick

@@ -211,8 +211,8 @@ def _count(words: list[str], most: int) -> int:
 
 def _duration_s(words: list[str]) -> float:
     """Take the only duration that is left."""
-    number, unit = (words.pop(0), words.pop(0)) if len(words) >= 2 else ("", "")
-    _end(words)
+    number, unit = [*words, "", ""][:2]
+    _end(words[2:])
     try:
         value_s = float(number) * _UNITS[unit]
     except (KeyError, ValueError):

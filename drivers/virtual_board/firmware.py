@@ -156,7 +156,9 @@ class Firmware:
 
     def stop(self, heard_s: float) -> None:
         """Carry out a stop that was heard at this time."""
-        self._stop_heard_s = heard_s
+        if self._stop_heard_s is None:  # one that is said again is the same
+            self._stop_heard_s = heard_s
+            self.notes.say(heard_s, f"board {self.number}: stop heard")
         self.halt(Fault.STOPPED)
 
     def halt(self, fault: Fault) -> None:
@@ -289,6 +291,13 @@ class Firmware:
         if self._stop_heard_s is not None and not any(drive.moving for drive in self.drives):
             self._note_rest(commands, before)
         return commands
+
+    def preview(self, ticks: int) -> FloatArray | None:
+        """Return the commands (ticks, axes) to come if no frame does; None if nobody knows."""
+        if self.stream.playing or self.profile.running:
+            return None
+        ahead = [drive.preview(ticks) for drive in self.drives]
+        return np.rint(np.stack(ahead, axis=1))
 
     def _profile(self, ticks: int, drive: AxisDrive) -> FloatArray:
         """Return the positions (ticks,) of the axis that a profile moves."""

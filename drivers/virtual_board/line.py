@@ -10,7 +10,7 @@ from math import inf
 from typing import NamedTuple
 
 from rotemina.drivers.mc68hc11.budget import Line as Speed
-from rotemina.drivers.mc68hc11.framing import STOP, Decoder, Frame, encoded
+from rotemina.drivers.mc68hc11.framing import Decoder, Frame, encoded
 from rotemina.drivers.mc68hc11.message import Message
 from rotemina.drivers.virtual_board.cable import Channel
 from rotemina.drivers.virtual_board.firmware import Firmware
@@ -106,15 +106,13 @@ class SerialLine:
                 continue
             for frame in decoder.feed(heard.data):
                 said = answer(board, frame, heard.end_s)
-                if frame is STOP:
-                    board.notes.say(heard.end_s, f"board {board.number}: stop heard")
                 if said is not None:
                     answers.append((board, said))
         if answers and not self.bus:
             for board, said in answers:
                 self._send(encoded(said), heard.end_s, board)
         elif answers and not (self._heard and self.byte_s):
-            self._answers = answers
+            self._answers += answers
             self._speak_s = heard.end_s + _SLOT * self.byte_s
 
     def say(self, board: Firmware, messages: Sequence[Message], at_s: float) -> None:

@@ -1,6 +1,6 @@
 """The machine that the boards move: plant, sensors, limit switches, and what boards count from."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +11,8 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.takeover import taken_over
 from rotemina.sim.robot.model import AxisEffect, Robot, StepperAxis
+
+Preview = Callable[[int], FloatArray | None]  # whole steps (ticks, own axes) that will come next
 
 _OVERTRAVEL = 0.01  # of the range: how far beyond its ends the limit switches are
 _KEPT = 512  # readings that are kept for captures, ticks
@@ -58,6 +60,7 @@ class Machine:
         self.reading_origin = np.zeros(len(own))
         self.position = np.array(position, dtype=np.float64)
         self.command = self.position.copy()
+        self.previews: list[Preview] = []  # of each board, in the order of the axes
         self._frozen: dict[int, float] = {}
         self._pending: list[FloatArray] = []
         self._readings = (self.position + [axis.offset for axis in own])[None]
@@ -113,7 +116,7 @@ class Machine:
             return
         commands = np.concatenate(self._pending) if len(self._pending) > 1 else self._pending[0]
         self._pending.clear()
-        response = self._run.advance(commands)
+        response = self._run.advance(commands, self._expected)
         self.position = response.position[-1]
         readings = np.array(response.reading)
         for index, value in self._frozen.items():
@@ -122,6 +125,13 @@ class Machine:
         left_out = max(len(kept) - max(_KEPT, len(readings)), 0)
         self._first += left_out
         self._readings = kept[left_out:]
+
+    def _expected(self, ticks: int) -> FloatArray | None:
+        parts = [preview(ticks) for preview in self.previews]
+        known = [part for part in parts if part is not None]
+        if len(known) < len(parts) or not known:
+            return None
+        return np.asarray(self.command_origin + np.concatenate(known, axis=1) * self.step)
 
     def readings(self, ticks: Sequence[int], indices: Sequence[int]) -> FloatArray:
         """Return the readings (ticks, indices) of late ticks, steps, rounded."""

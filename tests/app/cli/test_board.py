@@ -1,0 +1,186 @@
+"""``rotemina board`` as its users meet it: a process of its own, talked to over its ports."""
+
+import os
+import re
+import select
+import signal
+import socket
+import subprocess
+import sys
+
+import pytest
+
+from rotemina.app.cli.board_ports import PseudoTerminal, Socket
+from rotemina.app.cli.main import main
+from rotemina.drivers.mc68hc11.framing import STOP_BYTES, Decoder, Frame, encoded
+from rotemina.drivers.mc68hc11.reports import Done, Identity
+from rotemina.drivers.mc68hc11.requests import Identify, MoveTo
+
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="pseudo-terminals are of POSIX")
+ANSWER_S = 20.0  # a machine under load may take its time; nothing waits so long that works
+
+
+def wire(number, message, board=1):
+    return encoded(Frame(board, number, message.TYPE, message.packed()))
+
+
+def heard(handle, count, decoder):
+    """Return so many frames that a board says."""
+    frames = []
+    while len(frames) < count and select.select([handle], [], [], ANSWER_S)[0]:
+        frames += decoder.feed(os.read(handle, 4096))
+    return frames
+
+
+def lines_until(stream, words):
+    """Return the lines up to one with these words."""
+    found = []
+    for line in stream:
+        found.append(line)
+        if words in line:
+            return found
+    raise AssertionError(f"{words!r} is not in {found}")
+
+
+def test_a_host_talks_to_boards_and_stops_them_and_all_ends_cleanly(tmp_path):
+    links = [tmp_path / "board1", tmp_path / "board2"]
+    links[1].symlink_to("/dev/pts/999999")  # of a process that died
+    asked = [a for link in links for a in ("--port", str(link))]
+    with subprocess.Popen(
+        [sys.executable, "-m", "rotemina.app.cli.main", "board", "--position-known", *asked],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        try:
+            listening = lines_until(process.stdout, "board 2")
+            assert re.match(r"listening on .*board1 \(/dev/\S+\): board 1$", listening[0])
+            handle = os.open(links[0], os.O_RDWR | os.O_NOCTTY)
+            decoder = Decoder()
+            os.write(handle, wire(1, Identify(1)))
+            (frame,) = heard(handle, 1, decoder)
+            assert Identity.unpacked(frame.payload).name == b"RoTeMiNa 1"
+            os.write(handle, wire(2, MoveTo(0, 275_100, 1000)))
+            (frame,) = heard(handle, 1, decoder)
+            assert Done.unpacked(frame.payload) == Done(2)
+            os.write(handle, STOP_BYTES)
+            lines_until(process.stdout, "axes at rest")
+            process.stdin.write("lose x 40\nnonsense\n")
+            process.stdin.flush()
+            lines_until(process.stdout, "injected: lose x 40")
+            os.close(handle)
+            process.send_signal(signal.SIGTERM)
+            assert process.wait(ANSWER_S) == 0
+            assert "fault 'nonsense': there is no such command" in process.stderr.read()
+        finally:
+            process.kill()
+    assert not any(link.is_symlink() for link in links)
+
+
+def test_on_a_socket_until_standard_input_closes():
+    asked = "--robot picma --tcp 127.0.0.1:0 --unpaced --until-stdin-closes"
+    with subprocess.Popen(
+        [sys.executable, "-m", "rotemina.app.cli.main", "board", *asked.split()],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as process:
+        try:
+            line = lines_until(process.stdout, "listening")[0]
+            port = int(re.search(r"socket://127\.0\.0\.1:(\d+)", line)[1])
+            with socket.create_connection(("127.0.0.1", port), timeout=ANSWER_S) as host:
+                host.sendall(wire(1, Identify(1)))
+                (frame,) = heard(host.fileno(), 1, Decoder())
+                assert Identity.unpacked(frame.payload).axes == 1
+            process.stdin.close()
+            assert process.wait(ANSWER_S) == 0
+            assert "host connected" in process.stdout.read()
+        finally:
+            process.kill()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--robot", "emps"], "axis q is moved by a force"),
+        (["--tcp", "0.0.0.0:5000"], "'0.0.0.0' is not this machine's own loop"),
+        (["--tcp", "127.0.0.1:x"], "the port must be a number"),
+        (["--tcp", "5000"], "'no host' is not"),
+        (["--baud", "19200"], "must be one of 125000, 9600"),
+        (["--seed", "-1"], "--seed -1: must be 0 or more"),
+        (["--mishaps", "-1"], "--mishaps -1: must be from 0"),
+        (["--bus", "--robot", "fsm"], "take one board"),
+        (["--bus", "--port", "a", "--port", "b"], "name one port only"),
+        (["--port", "a", "--port", "b", "--port", "c"], "3 ports: two boards have 2 at most"),
+        (["--port", "a", "--port", "b", "--robot", "fsm"], "take one board"),
+        (["--port", "nowhere/at/all"], "--port nowhere/at/all: cannot make a link there"),
+    ],
+)
+def test_what_cannot_be_served_is_refused_in_one_line(
+    arguments, words, capsys, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    assert main(["board", *arguments]) == 2
+    said = capsys.readouterr()
+    assert words in said.err
+    assert said.err.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("kind", ["file", "folder", "live link", "dead link elsewhere"])
+def test_nothing_is_overwritten_by_the_name_of_a_port(tmp_path, capsys, kind):
+    name = tmp_path / "board"
+    if kind == "file":
+        name.write_text("mine")
+    elif kind == "folder":
+        name.mkdir()
+    else:
+        name.symlink_to("/dev/null" if kind == "live link" else tmp_path / "gone")
+    assert main(["board", "--bus", "--port", str(name)]) == 2
+    assert "there is something of this name already" in capsys.readouterr().err
+    assert name.exists() or name.is_symlink()
+
+
+def test_a_link_that_somebody_changed_is_left_alone(tmp_path):
+    link = tmp_path / "board"
+    port = PseudoTerminal(link)
+    link.unlink()
+    link.write_text("mine")
+    port.close()
+    assert link.read_text() == "mine"
+
+
+def test_what_a_host_does_not_read_is_kept_in_order_and_bounded():
+    port = PseudoTerminal()
+    handle = os.open(port.name, os.O_RDWR | os.O_NOCTTY)
+    sent = bytes(range(1, 251)) * 100
+    for begin in range(0, len(sent), 1000):
+        port.send(sent[begin : begin + 1000])
+    got = b""
+    while len(got) < len(sent):
+        port.send(b"")
+        got += os.read(handle, 4096)
+    assert got == sent
+    os.close(handle)
+    port.close()
+
+
+def test_one_host_at_a_time():
+    said = []
+    port = Socket("localhost:0", said.append)
+    address = port.name.removeprefix("socket://").split(":")
+    with (
+        socket.create_connection((address[0], int(address[1])), timeout=ANSWER_S) as first,
+        socket.create_connection((address[0], int(address[1])), timeout=ANSWER_S) as second,
+    ):
+        first.sendall(b"abc")
+        got = b""
+        while len(got) < 3:
+            select.select(port.handles(), [], [], ANSWER_S)
+            got += port.receive()
+        while not any("turned away" in line for line in said):
+            port.receive()
+        assert second.recv(1) == b""
+    port.close()
+    assert got == b"abc"
