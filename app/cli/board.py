@@ -83,7 +83,7 @@ def run(options: argparse.Namespace) -> int:
             ports.append(make())
             stack.callback(ports[-1].close)
         ended = stack.enter_context(_signals())
-        _boards(options, robot, count).live(0.05)  # what is compiled at first use is so beforehand
+        _boards(options, robot, count).rehearse()
         for port, line in zip(ports, boards.lines, strict=True):
             who = " and ".join(f"board {number}" for number in line.numbers)
             _tell(f"listening on {port.name}: {who}")

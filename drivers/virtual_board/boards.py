@@ -189,6 +189,16 @@ class VirtualBoards:
         self.now_s = max(self.now_s, to_s)
         self._tick_until(self.now_s)
 
+    def rehearse(self) -> None:
+        """Move a little and look, so that all that is compiled at its first use is so from now on.
+
+        These boards are used up by it: whoever serves others in real time does it before.
+        """
+        for drive in self.boards[0].drives:
+            drive.move_to(drive.position + 10.0, 1e3)
+        self.live(self.now_s + 0.05)
+        self.machine.simulate()
+
     def set_inputs(self, readings: tuple[int, int, int], buttons: int = 0, board: int = 1) -> None:
         """Hold the joystick at a board: three readings of 12 bits, and buttons bit by bit."""
         one = self.boards[board - 1]
