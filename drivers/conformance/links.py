@@ -2,7 +2,7 @@
 
 from rotemina.drivers.conformance.bench import Bench
 from rotemina.drivers.conformance.check import check
-from rotemina.drivers.conformance.findings import Unmet, demand, refused
+from rotemina.drivers.conformance.findings import Inapplicable, Unmet, demand, refused
 from rotemina.drivers.conformance.subject import CATCH_S, Subject
 from rotemina.drivers.errors import ConnectionLostError, DriverError, StateError
 from rotemina.drivers.samples import DeviceState
@@ -82,6 +82,8 @@ def nothing_resumes(bench: Bench) -> None:
         subject.run(CATCH_S)
         try:
             _lose(bench, subject)
+        except Unmet as found:
+            raise Inapplicable("it does not give up a lost link (long-loss)") from found
         finally:
             _restore(bench)
         refused(

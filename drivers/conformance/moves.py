@@ -22,6 +22,12 @@ STOP_LATE_S = 0.010
 # Of a move: gains of amplifiers and sensors are wrong by some percent, units by a factor of 57
 # (degrees) or 1000 (millimetres).
 _GAIN_ERROR = 0.2
+# Of its greatest speed: slow, and still well seen in the time of a check.
+_SLOWLY = 0.3
+# Of a speed: what a device's own unit of speed may be coarser than ours.
+_SPEED_ERROR = 0.05
+# Speeds are taken over so long, in which steps and samples weigh little.
+_WINDOW_S = 0.05
 
 
 @check()
@@ -82,6 +88,28 @@ def moves_keep_the_speed(bench: Bench) -> None:
         worst = int(np.argmax(excess))
         bound = float(way[worst] - excess[worst])
         at_most(f"axis {axis.name} went in one sample", float(way[worst]), bound, axis.unit)
+
+
+@check()
+def move_at_a_speed(bench: Bench) -> None:
+    """A move that is given a speed goes no faster, and one of no speed is refused."""
+    with bench.opened() as subject:
+        driver, axis = subject.driver, subject.slow
+        target = axis.far_end(float(subject.command()[axis.index]))
+        refused(
+            "a move at no speed",
+            lambda: driver.move_to({axis.name: target}, {axis.name: 0.0}),
+            LimitError,
+        )
+        speed = _SLOWLY * axis.speed
+        driver.move_to({axis.name: target}, {axis.name: speed})
+        samples = subject.run(CATCH_S)
+        subject.stop()
+        bound = speed * (1.0 + _SPEED_ERROR) + axis.resolution / _WINDOW_S
+        seen = speed_of(samples, axis)
+        at_most(f"told to go slowly, axis {axis.name} goes at", seen, bound, f"{axis.unit}/s")
+        demand(seen > 0.0, f"axis {axis.name} stands still", "a slow move")
+        subject.rest()
 
 
 @check()
@@ -170,7 +198,7 @@ def demand_halt(
     at_most(f"axis {axis.name} went on for", took_s, speed / axis.acceleration + slack_s, "s")
 
 
-def speed_of(samples: Samples, axis: Motion, window_s: float = 0.05) -> float:
+def speed_of(samples: Samples, axis: Motion, window_s: float = _WINDOW_S) -> float:
     """Return the latest speed of a command, m/s or rad/s, without its sign."""
     time_s = samples.device_time_s
     first = int(np.searchsorted(time_s, time_s[-1] - window_s))
@@ -239,6 +267,7 @@ CHECKS = (
     moving_is_said,
     moves_stay_inside,
     moves_keep_the_speed,
+    move_at_a_speed,
     new_target,
     units,
     refused_targets,
