@@ -8,7 +8,7 @@ from typing import ClassVar
 
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
-from rotemina.drivers.errors import DriverError
+from rotemina.drivers.errors import ConnectionLostError, DriverError
 from rotemina.drivers.mc68hc11.axes import board_axes
 from rotemina.drivers.mc68hc11.board import Board
 from rotemina.drivers.mc68hc11.port import OpenPort, open_port
@@ -60,7 +60,8 @@ class Connected(Driver):
         self._stops = count(1)
         self._asked_stop = self._seen_stop = 0
         self._fault: str | None = None  # noted here, not on a board
-        self._told_lost = False
+        self._searched: set[str] = set()  # by a homing that is under way
+        self._distrusted: set[str] = set()  # axes whose homing was ended before its end
         self._ended = False  # by a fault or refusal that was followed up
         self._progress = 0.0
         self._profile: Board | None = None
@@ -82,7 +83,8 @@ class Connected(Driver):
                 f"{self.name}: robot {self.robot.name!r} has one board; leave second_port empty"
             )
         self._asked_stop = self._seen_stop = 0
-        self._fault, self._told_lost, self._progress, self._profile = None, False, 0.0, None
+        self._fault, self._progress, self._profile = None, 0.0, None
+        self._searched, self._distrusted = set(), set()
         self._ended = False
         self._session = Session(
             self.robot,
@@ -110,15 +112,14 @@ class Connected(Driver):
         unhomed = tuple(
             axis.name
             for board in boards
-            if board.unknown
             for axis in board.axes
-            if axis.name in steppers
+            if axis.name in steppers and (board.unknown or axis.name in self._distrusted)
         )
         if session.lost is not None:
             return DeviceStatus(
                 DeviceState.FAULT, self._progress, str(session.lost), False, unhomed
             )
-        known = not any(board.unknown for board in boards)
+        known = not self._distrusted and not any(board.unknown for board in boards)
         state, fault = self._state(session), self._fault_of(session)
         if fault is not None:
             state = DeviceState.FAULT
@@ -170,9 +171,8 @@ class Connected(Driver):
 
     def _read(self) -> Samples:
         session = self._running
-        if session.lost is not None and not self._told_lost:
-            self._told_lost = True
-            raise session.lost
+        if session.lost is not None:
+            raise ConnectionLostError(str(session.lost)) from session.lost
         self._serve()
         return session.samples()
 
@@ -186,14 +186,18 @@ class Connected(Driver):
         session = self._running
         self._follow_stop(session)
         player = session.player
-        try:
-            session.serve()
-        except DriverError:
-            self._told_lost = True
-            raise
+        session.serve()
         if player is not None:
             self._progress = player.progress
         self._note_faults(session)
+        self._note_homing(session)
+
+    def _note_homing(self, session: Session) -> None:
+        """Trust the axes of a homing that has come to its end, and only those."""
+        if self._searched and self._state(session) is not DeviceState.HOMING:
+            if self._fault_of(session) is None and not session.silent_s:
+                self._distrusted -= self._searched
+            self._searched = set()
 
     def _note_faults(self, session: Session) -> None:
         """End what goes on where a board has halted or refused."""
@@ -220,6 +224,7 @@ class Connected(Driver):
         if asked != self._seen_stop:
             session.stopped()
             self._profile = None
+            self._searched = set()
             self._seen_stop = asked
 
     def _prepare(self, action: str) -> None:

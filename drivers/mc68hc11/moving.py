@@ -1,10 +1,13 @@
 """How the driver moves axes: targets, speeds, homing, voltages and trajectories."""
 
+from dataclasses import replace
 from functools import partial
 from math import ceil
 
 from rotemina.drivers.abilities import Homer, TrajectoryPlayer, VelocityMover, VoltageOutput
+from rotemina.drivers.axes import AxisDescription
 from rotemina.drivers.errors import StateError
+from rotemina.drivers.mc68hc11.axes import BoardAxis
 from rotemina.drivers.mc68hc11.codes import Ability
 from rotemina.drivers.mc68hc11.connected import Connected
 from rotemina.drivers.mc68hc11.message import Message
@@ -13,6 +16,7 @@ from rotemina.drivers.mc68hc11.parameters import CODES, PER_AXIS
 from rotemina.drivers.mc68hc11.player import Player
 from rotemina.drivers.mc68hc11.requests import Home, MoveTo, MoveVelocity, SetVoltage
 from rotemina.drivers.samples import DeviceState
+from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import StepperAxis
 
@@ -26,6 +30,11 @@ class Moving(Connected, TrajectoryPlayer, VelocityMover, Homer, VoltageOutput):
     def setpoint_period_s(self) -> float:
         """The interval of telemetry and set-points, s: that of the boards once they were opened."""
         return self._period_s
+
+    @property
+    def descriptions(self) -> tuple[AxisDescription, ...]:
+        """What the axes are, with the boards' steps, and the ends that lie on them."""
+        return tuple(self._described(one) for one in super().descriptions)
 
     @property
     def homing_axes(self) -> tuple[str, ...]:
@@ -60,6 +69,8 @@ class Moving(Connected, TrajectoryPlayer, VelocityMover, Homer, VoltageOutput):
 
     def _home(self, axes: tuple[str, ...]) -> None:
         self._prepare("home")
+        self._searched = set(axes)
+        self._distrusted |= self._searched
         session = self._running
         for board in session.boards:
             own = [axis.number for axis in board.axes if axis.name in axes]
@@ -92,6 +103,14 @@ class Moving(Connected, TrajectoryPlayer, VelocityMover, Homer, VoltageOutput):
         )
         self._progress = 0.0
         self._serve()
+
+    def _described(self, own: AxisDescription) -> AxisDescription:
+        try:
+            axis = BoardAxis.of(self.robot, own.name, 0)
+        except InputError:  # no board can move it; opening says so
+            return own
+        low, high = (axis.value(end) for end in axis.ends(own.low, own.high))
+        return replace(own, low=low, high=high, resolution=axis.step)
 
     def _ends(self, name: str) -> tuple[int, int]:
         """Return the first and the last step that both the robot file and the board allow."""

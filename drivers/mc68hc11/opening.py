@@ -292,6 +292,6 @@ def _nobody(board: Board, baud: int, *, garbage: bool) -> DriverError:
             f"baud rate another one ({others}), or the device at this port no MC68HC11 board?"
         )
     return DriverTimeoutError(
-        f"{board.where}: nobody answers at {baud} baud; is the board switched on, the cable at the "
-        f"right port, the baud rate another one ({others})?"
+        f"{board.where}: nobody answers at {baud} baud; is the board switched on, its cable at "
+        f"this port and not at the other board's, the baud rate another one ({others})?"
     )

