@@ -25,6 +25,7 @@ class AxisDrive:
         self._low, self._high = -_FAR, _FAR
         self._limits = SetpointLimits(*(np.array([one]) for one in (-_FAR, _FAR, 1.0, 1.0)))
         self._generator = SetpointGenerator(self._limits, tick_s, np.array([position]))
+        self._position = float(position)
         self._ramp_end: float | None = None
         self._ramp_speed = 0.0
         self._rests = True  # asked for at every look: kept, not worked out
@@ -32,7 +33,7 @@ class AxisDrive:
     @property
     def position(self) -> float:
         """The latest command, steps."""
-        return float(self._generator.position[0])
+        return self._position
 
     @property
     def velocity(self) -> float:
@@ -91,6 +92,7 @@ class AxisDrive:
         self._ramp_end = None
         self._include(position)
         self._generator.take_over(np.array([position]), np.array([speed]))
+        self._position = float(self._generator.position[0])
 
     def shift(self, position: float) -> None:
         """Call the present position so from now on, and come to rest from the present speed."""
@@ -102,7 +104,9 @@ class AxisDrive:
             return self._generate_ramp(ticks, self._ramp_end)
         if not self.moving:
             return np.full(ticks, self.position)
-        return self._generator.generate(ticks)[:, 0]
+        commands = self._generator.generate(ticks)[:, 0]
+        self._position = float(commands[-1])
+        return commands
 
     def preview(self, ticks: int) -> FloatArray:
         """Return the commands (ticks,) that `generate` will return, steps."""
@@ -117,6 +121,7 @@ class AxisDrive:
             self.place(end)
         else:
             self._generator.take_over(commands[-1:], np.zeros(1))
+            self._position = float(commands[-1])
         return commands
 
     def _end_ramp(self) -> None:

@@ -143,8 +143,8 @@ def _lose(boards: VirtualBoards, _: str, words: list[str]) -> None:
         raise FaultCommandError(f"{boards.machine.names[index]} is no stepper: it has no steps")
     count = _count(words, _MOST_STEPS)
     board = next(one for one in boards.boards if index in one.indices)
-    heading = board.heading[index - board.indices.start]
-    boards.machine.lose(index, -count if heading < 0.0 else count)
+    way = board.ways[index - board.indices.start]
+    boards.machine.lose(index, -count if way < 0.0 else count)
 
 
 def _joystick(boards: VirtualBoards, _: str, words: list[str]) -> None:

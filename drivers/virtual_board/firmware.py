@@ -82,7 +82,8 @@ class Firmware:
         self.drives = [AxisDrive(tick_s, round(at)) for at in begin]
         self._clear_memory()
         self.known, self.fault = True, Fault.NONE
-        self._bind()
+        for axis, drive in enumerate(self.drives):
+            self.rebound(axis, drive)
 
     def _clear_memory(self) -> None:
         """Begin as after power came."""
@@ -96,12 +97,10 @@ class Firmware:
         self.reporter = Reporter(waits=self.line.half_duplex)
         self._said = 0
         self.lcd = [" " * LCD_COLUMNS] * LCD_ROWS
-        self.heading = [0.0] * len(self.axes)
+        self.ways = [0.0] * len(self.axes)  # in which direction each axis went last
+        self._ends = np.array([drive.position for drive in self.drives])  # the latest commands
+        self._speed = np.zeros(len(self.axes))  # steps a tick, of the latest one
         self._stop_heard_s: float | None = None
-
-    def _bind(self) -> None:
-        for axis, drive in enumerate(self.drives):
-            self.rebound(axis, drive)
 
     def rebound(self, axis: int, drive: AxisDrive) -> None:
         """Let a drive keep to what the parameters say."""
@@ -126,6 +125,7 @@ class Firmware:
             else:
                 drive = self.drives[axis]
                 drive.ramp(round(self.kept.rest(axis)), self.kept.slew(axis))
+        self._ends = np.array([drive.position for drive in self.drives])
         self._note(f"fault {fault.name}")
 
     @property
@@ -187,7 +187,7 @@ class Firmware:
         if self.stream.playing:
             speeds = {axis: speed / self.tick_s for axis, speed in enumerate(self.stream.speeds)}
         if self.profile.running:
-            speeds[self.profile.axis] = self.heading[self.profile.axis] / self.tick_s
+            speeds[self.profile.axis] = float(self._speed[self.profile.axis]) / self.tick_s
         return speeds
 
     def end_homing(self) -> None:
@@ -232,7 +232,9 @@ class Firmware:
             if not self.steppers[axis] or axis in self.homing:
                 continue
             low, high = self.machine.closed(index)
-            if (low and self.heading[axis] < 0.0) or (high and self.heading[axis] > 0.0):
+            drive = self.drives[axis]
+            way = drive.velocity if drive.moving else self.ways[axis]
+            if (low and way < 0.0) or (high and way > 0.0):
                 if self.fault is Fault.NONE:
                     self.halt(Fault.LIMIT_SWITCH)
                 return
@@ -277,7 +279,12 @@ class Firmware:
 
     def generate(self, ticks: int) -> FloatArray:
         """Return the commands (ticks, axes) of the next ticks, whole steps."""
-        before = [drive.position for drive in self.drives]
+        before = self._ends
+        if not self.moving and self._stop_heard_s is None:
+            self._ends = np.array([drive.position for drive in self.drives])
+            self._note_ways(before)
+            self.now += ticks
+            return np.tile(np.rint(self._ends), (ticks, 1))
         commands = np.empty((ticks, len(self.axes)))
         for axis, drive in enumerate(self.drives):
             if self.profile.running and axis == self.profile.axis:
@@ -285,12 +292,18 @@ class Firmware:
             else:
                 commands[:, axis] = drive.generate(ticks)
         self.now += ticks
-        last = commands[-2] if ticks > 1 else np.array(before)
-        self.heading = [float(one) for one in commands[-1] - last]
+        last = commands[-2] if ticks > 1 else before
+        self._speed = commands[-1] - last
+        self._ends = commands[-1].copy()
+        self._note_ways(before)
         commands = np.rint(commands)
         if self._stop_heard_s is not None and not any(drive.moving for drive in self.drives):
             self._note_rest(commands, before)
         return commands
+
+    def _note_ways(self, before: FloatArray) -> None:
+        for axis, change in enumerate(np.sign(self._ends - before)):
+            self.ways[axis] = float(change) or self.ways[axis]
 
     def preview(self, ticks: int) -> FloatArray | None:
         """Return the commands (ticks, axes) to come if no frame does; None if nobody knows."""
@@ -318,7 +331,7 @@ class Firmware:
             profile.end()
         return positions
 
-    def _note_rest(self, commands: FloatArray, before: list[float]) -> None:
+    def _note_rest(self, commands: FloatArray, before: FloatArray) -> None:
         changes = np.diff(np.vstack((np.rint(before), commands)), axis=0).any(axis=1)
         last = int(np.flatnonzero(changes)[-1]) + 1 if changes.any() else 0
         rest_s = (self.now - len(commands) + last) * self.tick_s

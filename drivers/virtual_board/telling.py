@@ -115,6 +115,7 @@ def _clear_fault(board: Firmware, _: requests.ClearFault) -> None:
     own = zip(board.steppers, board.drives, strict=True)
     demand(not any(stepper and drive.moving for stepper, drive in own), Refusal.FAULTY)
     board.fault = Fault.NONE
+    board.ways = [0.0] * len(board.axes)  # away from a switch is right now
 
 
 def _watch(board: Firmware, asked: requests.Watch) -> None:

@@ -1,6 +1,7 @@
 """How boards move and halt their axes."""
 
 from binascii import crc_hqx
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -153,6 +154,19 @@ def test_a_limit_switch_halts_and_lets_go_in_the_other_direction(host):
     host.live(0.6)
     sample = host.telemetry()
     assert (sample.fault, sample.switches & 1) == (0, 0)
+
+
+def test_a_limit_switch_ends_a_stream_too(host):
+    inject(host.boards, "lose x 280400")
+    host.ask(SetTelemetry(5, 0))
+    host.live(0.4)
+    row = points(host, 12)
+    for index, point in enumerate(row):
+        host.say(replace(point, first=275_000 - 1000 * index))
+        host.live(0.01)
+    host.live(0.1)
+    assert host.telemetry().fault == Fault.LIMIT_SWITCH
+    assert not host.boards.boards[0].stream.playing
 
 
 def test_lost_steps_a_frozen_sensor_and_a_reset_show_in_telemetry(host):
