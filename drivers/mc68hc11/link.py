@@ -96,8 +96,14 @@ class Link:
 
     def stop(self) -> None:
         """Say stop, now, whatever else is going on; any thread."""
-        self._port.write(STOP_BYTES)
-        self._free_s = max(self._free_s, self._clock()) + self._line.seconds(len(STOP_BYTES))
+        now_s = self._clock()
+        data = self._stop_bytes(now_s)
+        self._port.write(data)
+        self._free_s = max(self._free_s, now_s) + self._line.seconds(len(data))
+
+    def hush(self) -> None:
+        """Wait for no answers any more: a stop has cut them off."""
+        self._awaited.clear()
 
     def farewell(self, frames: Sequence[bytes]) -> None:
         """Stop, say the last words, and let go of the port."""
@@ -156,7 +162,8 @@ class Link:
     def quality(self) -> LinkQuality:
         """Return how the line does; any thread."""
         trips = [one.round_trip_s for one in self.dialogues.values() if one.round_trip_s]
-        waits_s = max(self._free_s - self._clock(), 0.0)
+        now_s = self._clock()
+        waits_s = max(self._free_s - now_s, 0.0)
         repeated = sum(one.repeated for one in self.dialogues.values())
         repeated += sum(one.repeated for one in tuple(self.windows.values()))
         return LinkQuality(
@@ -165,7 +172,7 @@ class Link:
             rejected=self.rejected,
             repeated=repeated + self._repeated,
             round_trip_s=max(trips) if trips else None,
-            stop_s=waits_s + self._line.seconds(len(STOP_BYTES)),
+            stop_s=waits_s + self._line.seconds(len(self._stop_bytes(now_s))),
             load=self._load,
         )
 
@@ -178,6 +185,15 @@ class Link:
         """Say no more set-points to a board."""
         window = self.windows.pop(address, None)
         self._repeated += window.repeated if window is not None else 0
+
+    def _stop_bytes(self, now_s: float) -> bytes:
+        """Return what says stop.
+
+        A board that speaks on a shared bus hears nothing: zeros go on until its frame has ended.
+        """
+        if self.half_duplex and self._awaited and now_s >= self._free_s:
+            return bytes(MAX_FRAME + len(STOP_BYTES))
+        return STOP_BYTES
 
     def _free(self, now_s: float) -> bool:
         if self.half_duplex:

@@ -133,6 +133,8 @@ class Session:
         if self.player is not None:
             self.player.give_up()
             self.player = None
+        for link in self.links:
+            link.hush()
         for board in self.boards:
             board.stop()
 
