@@ -125,9 +125,9 @@ def profile_follows(bench: Bench) -> None:
         runner.upload(profile)
         subject.holds(0.1)
         runner.trigger()
-        subject.run(subject.step_s)
+        begun = subject.run(subject.step_s)
         demand(subject.state is not DeviceState.IDLE, "triggered it is idle", "it runs")
-        samples = subject.rest()
+        samples = Samples.joined([begun, subject.rest()], len(subject.axes))
         off = _off(profile, axis, start, samples)
         # The device's own tick is not known: it is no longer than the time between its samples.
         tolerance = axis.half_step + 0.5 * interval_of(samples) * _EFFORT * axis.speed
@@ -139,10 +139,17 @@ def profile_follows(bench: Bench) -> None:
 def _off(profile: Profile, axis: Motion, start: float, samples: Samples) -> float:
     """Return how far the commands are from the profile, from whenever it may have begun."""
     time_s, command = samples.device_time_s, samples.command[:, axis.index]
-    step_s = 0.1 * interval_of(samples)
-    begins = np.arange(time_s[0] - 0.05, time_s[0] + 0.15, step_s)
-    worst = [np.abs(command - _polynomial(profile, start, time_s - at)).max() for at in begins]
-    return float(min(worst))
+    interval_s = interval_of(samples)
+
+    def worst(begun_s: float) -> float:
+        expected = _polynomial(profile, start, time_s - begun_s)
+        return float(np.abs(command - expected).max())
+
+    # The trigger was said just before the first sample, and needs no longer than this.
+    coarse = np.arange(-0.02, 0.15, max(interval_s, 1e-3)) + time_s[0]
+    near_s = min(coarse.tolist(), key=worst)
+    fine = np.linspace(-1.0, 1.0, 41) * interval_s + near_s
+    return min(worst(at_s) for at_s in fine.tolist())
 
 
 @check(needs=ProfileRunner)

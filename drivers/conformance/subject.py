@@ -13,7 +13,7 @@ from rotemina.drivers.simulator.setpoints import SetpointLimits
 from rotemina.sim.arrays import FloatArray
 
 # A clock set by hand is moved on in steps of this, short beside every motion that is judged.
-_STEP_S = 0.02
+_STEP_S = 0.05
 # Longer than any shipped robot takes for its whole range at half speed, twice over.
 LONGEST_S = 60.0
 # So long a motion lasts that must be caught in its middle: some thirty reads of a slow driver.

@@ -359,8 +359,8 @@ class DrivesBeyond(Cabled):
     def _read(self):
         samples = super()._read()
         low, high = np.array([axis.range for axis in ROBOT.axes.values()]).T
-        ends = 1.0 * (samples.command >= high) - 1.0 * (samples.command <= low)
-        over = 1e-3 * ends * (high - low)
+        place = (samples.command - low) / (high - low)
+        over = 1e-3 * (high - low) * (1.0 * (place > 0.9999) - 1.0 * (place < 1e-4))
         return altered(samples, command=samples.command + over) if self._driven else samples
 
 
