@@ -1,9 +1,5 @@
 """The driver against virtual boards on a clock set by hand: moves, stops, playbacks, abilities."""
 
-import importlib.util
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -13,18 +9,12 @@ from rotemina.drivers.profile import Profile, ProfileSegment
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.records.record import Record, Tap
 
-_SPEC = importlib.util.spec_from_file_location("bench", Path(__file__).with_name("bench.py"))
-bench_module = importlib.util.module_from_spec(_SPEC)
-sys.modules.setdefault("mc68hc11_bench", bench_module)
-_SPEC.loader.exec_module(bench_module)
-Bench = bench_module.Bench
-
 IDLE, MOVING, PLAYING = DeviceState.IDLE, DeviceState.MOVING, DeviceState.PLAYING
 
 
 @pytest.fixture
-def bench(robot):
-    made = Bench(robot)
+def bench(robot, joined_bench):
+    made = joined_bench(robot)
     made.driver.open()
     made.run(0.05)
     yield made
@@ -48,8 +38,8 @@ def test_it_opens_at_rest_and_samples_follow_each_other(bench):
 
 
 @pytest.mark.parametrize(("ports", "baud"), [(2, 125_000), (1, 125_000), (2, 9600), (1, 9600)])
-def test_a_move_arrives_and_is_never_idle_on_the_way(robot, ports, baud):
-    bench = Bench(robot, ports=ports, baud=baud)
+def test_a_move_arrives_and_is_never_idle_on_the_way(robot, ports, baud, joined_bench):
+    bench = joined_bench(robot, ports=ports, baud=baud)
     bench.driver.open()
     bench.driver.move_to({"x": 0.0280000001, "zn": 10e-6})
     assert bench.driver.status().state is MOVING
@@ -117,8 +107,8 @@ def test_playing_records_exactly_the_commands_asked(bench, axis, start, distance
     assert bench.driver.link_quality().repeated == 0
 
 
-def test_a_shared_bus_plays_too(robot):
-    bench = Bench(robot, ports=1)
+def test_a_shared_bus_plays_too(robot, joined_bench):
+    bench = joined_bench(robot, ports=1)
     bench.driver.open()
     period_s = bench.driver.setpoint_period_s
     time_s = np.arange(41) * period_s
@@ -175,14 +165,14 @@ def test_stop_twice_in_mid_move_and_move_at_once(bench):
 
 
 @pytest.mark.parametrize("ports", [1, 2])
-def test_a_stop_takes_less_than_5_ms_with_the_line_saturated(robot, ports):
-    bench = Bench(robot, ports=ports, settings={"settle_s": 0.0})
+def test_a_stop_takes_less_than_5_ms_with_the_line_saturated(robot, ports, joined_bench):
+    bench = joined_bench(robot, ports=ports, settings={"settle_s": 0.0})
     bench.driver.open()
     period_s = bench.driver.setpoint_period_s
     trajectory = bench.driver.accept(there_and_back("x", 0.0275, 4e-4, period_s, rows=4000))
     generator = np.random.default_rng(3)
     latencies = []
-    for _ in range(12):
+    for _ in range(6):
         bench.driver.play(trajectory)
         bench.run(0.08 + 10 * period_s + 0.001 * int(generator.integers(20)))
         bench.clock.advance(float(generator.uniform(0, 1e-3)))
@@ -215,8 +205,8 @@ def test_a_stop_that_nobody_asked_for_is_a_fault(bench):
     bench.run_until(IDLE)
 
 
-def test_homing_makes_the_position_known(robot):
-    bench = Bench(robot, position_known=False, start_fraction=0.05)
+def test_homing_makes_the_position_known(robot, joined_bench):
+    bench = joined_bench(robot, position_known=False, start_fraction=0.05)
     bench.driver.open()
     status = bench.driver.status()
     assert (status.state, status.position_known) == (IDLE, False)
@@ -300,8 +290,8 @@ def test_text_and_inputs(bench):
     assert buttons == (False, True)
 
 
-def test_other_parameters_are_refused_until_accepted_or_written(robot):
-    bench = Bench(robot)
+def test_other_parameters_are_refused_until_accepted_or_written(robot, joined_bench):
+    bench = joined_bench(robot)
     bench.boards.boards[0].kept.write(2, 90_000)
     bench.driver.open()
     (difference,) = bench.driver.differences
@@ -315,8 +305,8 @@ def test_other_parameters_are_refused_until_accepted_or_written(robot):
     bench.run_until(IDLE)
 
 
-def test_accepted_parameters_bind(robot):
-    bench = Bench(robot)
+def test_accepted_parameters_bind(robot, joined_bench):
+    bench = joined_bench(robot)
     bench.boards.boards[0].kept.write(2, 10_000)
     bench.driver.open()
     bench.driver.accept_parameters()
@@ -338,9 +328,9 @@ def test_reopening_finds_it_at_rest(bench):
     bench.run_until(IDLE)
 
 
-def test_a_second_port_of_one_board_is_refused(robot):
+def test_a_second_port_of_one_board_is_refused(robot, joined_bench):
     from rotemina.sim.robot.file import load_robot
 
-    one = Bench(load_robot("picma"), ports=1, settings={"second_port": "second"})
+    one = joined_bench(load_robot("picma"), ports=1, settings={"second_port": "second"})
     with pytest.raises(DriverError, match="second_port"):
         one.driver.open()

@@ -1,8 +1,5 @@
 """The driver on lines that lose, change and double bytes, are cut, and on boards that are reset."""
 
-import importlib.util
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -12,17 +9,12 @@ from rotemina.drivers.samples import DeviceState
 from rotemina.drivers.virtual_board.clock import BoardClock
 from rotemina.sim.records.record import Record, Tap
 
-_SPEC = importlib.util.spec_from_file_location("bench", Path(__file__).with_name("bench.py"))
-_MODULE = importlib.util.module_from_spec(_SPEC)
-_SPEC.loader.exec_module(_MODULE)
-Bench = _MODULE.Bench
-
 IDLE, MOVING, FAULT = DeviceState.IDLE, DeviceState.MOVING, DeviceState.FAULT
 
 
 @pytest.fixture
-def bench(robot):
-    made = Bench(robot)
+def bench(robot, joined_bench):
+    made = joined_bench(robot)
     made.driver.open()
     made.run(0.05)
     yield made
@@ -106,8 +98,8 @@ def test_a_board_that_is_reset_in_mid_move_ends_the_connection(bench):
     assert bench.driver.status().unhomed == ("x", "y", "z")
 
 
-def test_the_boards_clock_turns_unseen(robot):
-    bench = Bench(robot)
+def test_the_boards_clock_turns_unseen(robot, joined_bench):
+    bench = joined_bench(robot)
     for board in bench.boards.boards:
         board.clock = BoardClock(bench.boards.tick_s, (1 << 32) - 1_000_000)
     bench.driver.open()
@@ -153,8 +145,8 @@ def watched(bench):
 
 @pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("ports", [1, 2])
-def test_noise_executes_nothing_twice_and_moves_nothing_after_a_stop(robot, seed, ports):
-    bench = Bench(robot, ports=ports)
+def test_noise_repeats_no_command_and_moves_nothing_after_a_stop(robot, seed, ports, joined_bench):
+    bench = joined_bench(robot, ports=ports)
     bench.driver.open()
     executed = watched(bench)
     generator = np.random.default_rng(seed)
@@ -192,8 +184,8 @@ def asked(bench, target):
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_playback_survives_lost_frames(robot, seed):
-    bench = Bench(robot)
+def test_a_playback_survives_lost_frames(robot, seed, joined_bench):
+    bench = joined_bench(robot)
     bench.driver.open()
     generator = np.random.default_rng(seed)
 
@@ -225,8 +217,8 @@ def test_lost_telemetry_leaves_gaps_and_invents_nothing(bench):
     np.testing.assert_allclose(since, (rows - rows[0]) * 0.005, atol=2e-6)
 
 
-def test_boards_whose_quartzes_differ_stay_in_step(robot):
-    bench = Bench(robot, crystal_ppm=(200.0, -200.0))
+def test_boards_whose_quartzes_differ_stay_in_step(robot, joined_bench):
+    bench = joined_bench(robot, crystal_ppm=(200.0, -200.0))
     bench.driver.open()
     bench.run(18.0, round_s=0.02)
     first, second = bench.driver._running.boards

@@ -1,8 +1,5 @@
 """Opening: what is said when the wrong thing, or nothing, is at the other end."""
 
-import importlib.util
-from pathlib import Path
-
 import pytest
 
 from rotemina.drivers.clock import VirtualClock
@@ -12,11 +9,6 @@ from rotemina.drivers.mc68hc11.framing import Decoder, Frame, encoded
 from rotemina.drivers.mc68hc11.reports import Identity
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.robot.file import load_robot
-
-_SPEC = importlib.util.spec_from_file_location("bench", Path(__file__).with_name("bench.py"))
-_MODULE = importlib.util.module_from_spec(_SPEC)
-_SPEC.loader.exec_module(_MODULE)
-Bench = _MODULE.Bench
 
 
 class Scripted:
@@ -83,9 +75,9 @@ def test_the_wrong_end_is_told_apart_and_the_port_let_go(robot, answer, error, m
     assert clock() < 3.0
 
 
-def test_another_kind_of_axis_is_named(robot):
+def test_another_kind_of_axis_is_named(robot, joined_bench):
     # The axes of the second board first: piezos where steppers are wanted.
-    bench = Bench(load_robot("rotemina"), ports=2)
+    bench = joined_bench(load_robot("rotemina"), ports=2)
     bench.driver._open_port = lambda url, baud: _swapped(bench, url)
     with pytest.raises(DriverError, match=r"nobody answers"):
         bench.driver.open()
@@ -102,8 +94,8 @@ def test_a_robot_that_no_board_moves_is_refused():
         driver.open()
 
 
-def test_it_opens_on_the_answers_of_the_second_try(robot):
-    bench = Bench(robot)
+def test_it_opens_on_the_answers_of_the_second_try(robot, joined_bench):
+    bench = joined_bench(robot)
     bench.driver._open_port = lambda url, baud: _deaf_at_first(bench._opened(url, baud))
     bench.driver.open()
     assert bench.driver.status().state is DeviceState.IDLE
@@ -116,8 +108,8 @@ def _deaf_at_first(port):
 
 
 @pytest.mark.parametrize("number", range(0, 256, 17))
-def test_whatever_number_the_board_had_last(robot, number):
-    bench = Bench(robot)
+def test_whatever_number_the_board_had_last(robot, number, joined_bench):
+    bench = joined_bench(robot)
     bench.clock.advance(number / 1e3)
     bench.begin_s = bench.clock()
     bench.driver.open()
