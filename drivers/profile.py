@@ -47,6 +47,11 @@ class ProfileSegment:
         speeds = [abs(self.c1 + 2.0 * self.c2 * at + 3.0 * self.c3 * at**2) for at in places]
         return max(speeds) / self.duration_s
 
+    def greatest_acceleration(self) -> float:
+        """Return the greatest acceleration within the segment, m/s² or rad/s²."""
+        ends = (abs(2.0 * self.c2), abs(2.0 * self.c2 + 6.0 * self.c3))
+        return max(ends) / self.duration_s**2
+
 
 @dataclass(frozen=True, slots=True)
 class Profile:
@@ -83,14 +88,16 @@ class Profile:
                     f"{where}: duration and coefficients must be finite, time positive"
                 )
             for extreme in segment.extremes():
-                low, high = axis.range
-                if not low <= at + extreme <= high:
-                    raise InputError(
-                        f"{where}: it reaches {readable(at + extreme, unit)}: must stay within "
-                        f"{readable(low, unit)} to {readable(high, unit)}"
-                    )
+                try:
+                    check_target(robot, self.axis, at + extreme)
+                except InputError as error:
+                    raise InputError(f"{where}: {error}") from error
             speed = segment.greatest_speed()
             if axis.max_speed is not None and speed > axis.max_speed * _SLACK:
                 most = readable(axis.max_speed, unit)
                 raise InputError(f"{where}: {readable(speed, unit)}/s: at most {most}/s")
+            acceleration = segment.greatest_acceleration()
+            if axis.max_acceleration is not None and acceleration > axis.max_acceleration * _SLACK:
+                most = readable(axis.max_acceleration, unit)
+                raise InputError(f"{where}: {readable(acceleration, unit)}/s²: at most {most}/s²")
             at += segment.length

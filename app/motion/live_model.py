@@ -25,6 +25,14 @@ class LiveModel:
         self._state: PlantState | None = None
         self._time_s = 0.0
 
+    def prepare(self) -> None:
+        """Compute once, which loads what is compiled: no device is to wait for that."""
+        middle = np.array([[sum(axis.range) / 2 for axis in self._plant.robot.axes.values()]])
+        still = np.repeat(middle, 2, axis=0)
+        times, rows = np.array([0.0, 1e-3]), np.full(2, -1)
+        self.follow(Samples(times, still, still, np.full(still.shape, np.nan), rows))
+        self.restart()
+
     def restart(self) -> None:
         """Rest again at the next command."""
         self._state = None

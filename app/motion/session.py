@@ -138,6 +138,24 @@ class MotionSession(DeviceSession):
             self._worker.ownership.claim(ways[0], OPERATOR)
             self._mailbox.post(Move(tuple(legs)))
 
+    @property
+    def undoable(self) -> bool:
+        """Whether there is a move to take back."""
+        with self._lock:
+            return self._undo.leads_from(dict(self._worker.state.command))
+
+    def use(self, driver: Driver) -> None:
+        """Stop, let go of the device, and connect to another one; no way leads back to the first.
+
+        Raises
+        ------
+        RefusedError
+            As :meth:`DeviceSession.use`.
+        """
+        super().use(driver)
+        with self._lock:
+            self._undo.forget()
+
     def take_over(self, axes: Sequence[str], owner: str) -> None:
         """Make axes an owner's that another one drives; they go on until told otherwise."""
         self._worker.ownership.take_over(axes, owner)

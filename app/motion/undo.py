@@ -30,6 +30,10 @@ class Undo:
         if place and (not self._places or self._places[-1] != place):
             self._places.append(dict(place))
 
+    def leads_from(self, now: Mapping[str, float]) -> bool:
+        """Whether there is a place to go back to that is not here."""
+        return any(place != now for place in self._places)
+
     def forget(self) -> None:
         """Keep nothing: positions of before a lost connection mean nothing."""
         self._places.clear()

@@ -148,6 +148,7 @@ class Worker:
         self._stop_failure = None
         self._executor.forget()
         self._unread.clear()
+        self._model.prepare()
         self._driver.open()
         self._worked_up_s = float("-inf")
         self._history.clear()
