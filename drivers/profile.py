@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import copysign, sqrt
 
 import numpy as np
 
@@ -34,10 +35,22 @@ class ProfileSegment:
     def extremes(self) -> Iterator[float]:
         """Yield the end and the turning points, from the segment's beginning."""
         yield self.length
-        roots = np.roots([3.0 * self.c3, 2.0 * self.c2, self.c1])
-        for root in roots[np.isreal(roots)].real:
-            if 0.0 < root < 1.0:
-                yield float(((self.c3 * root + self.c2) * root + self.c1) * root)
+        for turn in self._turns():
+            if 0.0 < turn < 1.0:
+                yield ((self.c3 * turn + self.c2) * turn + self.c1) * turn
+
+    def _turns(self) -> Iterator[float]:
+        """Yield where the speed is zero, τ; as roots of a quadratic that lose no digits."""
+        a, b, c = 3.0 * self.c3, self.c2, self.c1  # a τ² + 2 b τ + c
+        inside = b * b - a * c
+        if inside < 0.0:
+            return
+        q = -(b + copysign(sqrt(inside), b))
+        # A division that overflows belongs to a turn far outside of the segment.
+        if abs(q) < abs(a):
+            yield q / a
+        if abs(c) < abs(q):
+            yield c / q
 
     def greatest_speed(self) -> float:
         """Return the greatest speed on the way, m/s or rad/s."""
