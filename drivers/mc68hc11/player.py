@@ -14,8 +14,8 @@ from rotemina.sim.arrays import IntArray
 from rotemina.sim.records.record import Record
 from rotemina.sim.trajectory.schedule import Schedule
 
-_AHEAD = 10  # set-points that a board has before their time, of the 16 that it can hold
-_LEAD = 8  # instants from the decision to begin until the first set-point acts
+_AHEAD = 14  # set-points that a board has before their time, of the 16 that it can hold
+_LEAD = 24  # instants from the decision to begin until the first set-point acts
 _CHUNK = 256
 _CLIP = 1 << 15  # steps: a deviation that telemetry cannot tell
 

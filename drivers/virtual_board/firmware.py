@@ -306,9 +306,15 @@ class Firmware:
             self.ways[axis] = float(change) or self.ways[axis]
 
     def preview(self, ticks: int) -> FloatArray | None:
-        """Return the commands (ticks, axes) to come if no frame does; None if nobody knows."""
-        if self.stream.playing or self.profile.running:
+        """Return the commands (ticks, axes) to come if no frame does; None if nobody knows.
+
+        While set-points play, these are fewer: up to the last one that waits.
+        """
+        if self.profile.running:
             return None
+        if self.stream.playing:
+            held = tuple(drive.position for drive in self.drives)
+            return np.rint(self.stream.preview(self.now, ticks, held))
         ahead = [drive.preview(ticks) for drive in self.drives]
         return np.rint(np.stack(ahead, axis=1))
 

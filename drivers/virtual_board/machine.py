@@ -129,8 +129,10 @@ class Machine:
     def _expected(self, ticks: int) -> FloatArray | None:
         parts = [preview(ticks) for preview in self.previews]
         known = [part for part in parts if part is not None]
-        if len(known) < len(parts) or not known:
+        count = min((len(part) for part in known), default=0)
+        if len(known) < len(parts) or not count:
             return None
+        known = [part[:count] for part in known]
         return np.asarray(self.command_origin + np.concatenate(known, axis=1) * self.step)
 
     def readings(self, ticks: Sequence[int], indices: Sequence[int]) -> FloatArray:

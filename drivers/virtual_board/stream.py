@@ -3,7 +3,10 @@
 from collections import deque
 from typing import NamedTuple
 
+import numpy as np
+
 from rotemina.drivers.mc68hc11.codes import SETPOINTS
+from rotemina.sim.arrays import FloatArray
 
 _INDICES = 256
 _SEEN = 128  # indices back that count as had already
@@ -77,6 +80,15 @@ class Stream:
             self.speeds = tuple((now - before) / ticks for now, before in both)
         self._acted = point
         return point
+
+    def preview(self, tick: int, ticks: int, held: tuple[float, ...]) -> FloatArray:
+        """Return the commands (n ≤ ticks, axes) behind a tick, as far as set-points say."""
+        last = self.last_tick
+        count = 0 if last is None else max(min(ticks, last - tick), 0)
+        commands = np.tile(np.array(held), (count, 1))
+        for point in self._queue:
+            commands[max(point.tick - tick - 1, 0) :] = point.position[: len(held)]
+        return commands
 
     @property
     def ran_empty(self) -> bool:
