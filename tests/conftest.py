@@ -37,7 +37,10 @@ def settings(tmp_path):
 
 @pytest.fixture
 def make_robot_window(qtbot, settings, tmp_path):
-    """Make windows on the simulator of any robot; all are closed, and no thread stays."""
+    """Make windows on the simulator of any robot; all are closed, and no thread stays.
+
+    With a driver of its own, made of the robot, nobody waits until the window can move anything.
+    """
     import gc
     import threading
 
@@ -51,13 +54,16 @@ def make_robot_window(qtbot, settings, tmp_path):
     windows = []
     gc.disable()  # as the program does: the session's thread must not free what is Qt's
 
-    def make(robot="rotemina"):
-        session = MotionSession(Simulator(load_robot(robot), {"settle_s": 0.02}))
+    def make(robot="rotemina", driver=None):
+        described = load_robot(robot)
+        simulator = Simulator(described, {"settle_s": 0.02})
+        session = MotionSession(driver(described) if driver else simulator)
         window = make_window(session, settings, tmp_path / "played")
         windows.append(window)
         window.show()
         window.workbench.start()
-        qtbot.waitUntil(lambda: session.snapshot().locked is None, timeout=20_000)
+        if driver is None:
+            qtbot.waitUntil(lambda: session.snapshot().locked is None, timeout=20_000)
         return window
 
     yield make

@@ -13,6 +13,15 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--driver", default="simulator", metavar="NAME", help="what to drive (default: simulator)"
     )
     parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        dest="assignments",
+        metavar="NAME=VALUE",
+        help="a setting of the driver, such as port=/dev/ttyUSB0; may be given several times "
+        "(default: what the window used last)",
+    )
+    parser.add_argument(
         "--offscreen",
         action="store_true",
         help="do the window's main job without a display: play the example trajectory on the "
@@ -35,5 +44,9 @@ def run(options: argparse.Namespace) -> int:
     from rotemina.app.shell.start import start
 
     return start(
-        options.robot, driver=options.driver, offscreen=options.offscreen, output=options.output
+        options.robot,
+        driver=options.driver,
+        assignments=options.assignments,
+        offscreen=options.offscreen,
+        output=options.output,
     )

@@ -5,20 +5,16 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
-from PySide6.QtCore import QByteArray, QEvent, QObject, Qt
-from PySide6.QtGui import QAction, QCloseEvent, QKeyEvent, QKeySequence, QMouseEvent
+from PySide6.QtCore import QByteArray, Qt
+from PySide6.QtGui import QAction, QCloseEvent, QKeySequence
 from PySide6.QtWidgets import (
     QApplication,
     QDockWidget,
     QFileDialog,
-    QLabel,
     QMainWindow,
     QMenu,
     QMessageBox,
-    QPushButton,
-    QSizePolicy,
     QTabWidget,
-    QToolBar,
     QVBoxLayout,
     QWidget,
 )
@@ -28,6 +24,7 @@ from rotemina.app.panel import Area, Panel
 from rotemina.app.shell import theme as themes
 from rotemina.app.shell.column_mapping import ask_columns
 from rotemina.app.shell.host import make_panels
+from rotemina.app.shell.motion_bar import MotionBar, StopWatch
 from rotemina.app.shell.notices import NoticeBar
 from rotemina.app.shell.status import StatusText
 from rotemina.app.shell.workbench import Level, Workbench
@@ -48,36 +45,6 @@ def _decoded(text: str) -> QByteArray:
         return QByteArray(b64decode(text, validate=True))
     except ValueError:
         return QByteArray()
-
-
-class StopWatch(QObject):
-    """Stops all motion on Esc and on the stop button, whatever else is open.
-
-    The event goes on to where it was meant for, so that Esc closes a dialog too.
-    """
-
-    def __init__(self, stop: Callable[[], None], button: QPushButton, parent: QObject) -> None:
-        super().__init__(parent)
-        self._stop = stop
-        self._button = button
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
-        """Stop, and let the event pass."""
-        if isinstance(event, QKeyEvent) and event.type() == QEvent.Type.KeyPress:
-            self._press(event)
-        elif isinstance(event, QMouseEvent) and event.type() == QEvent.Type.MouseButtonPress:
-            self._click(event)
-        return False
-
-    def _click(self, event: QMouseEvent) -> None:
-        """Stop where the button was pressed although a menu that is open takes the click."""
-        place = self._button.mapFromGlobal(event.globalPosition().toPoint())
-        if self._button.isVisible() and self._button.rect().contains(place):
-            self._stop()
-
-    def _press(self, event: QKeyEvent) -> None:
-        if event.key() == Qt.Key.Key_Escape:
-            self._stop()
 
 
 class Command(NamedTuple):
@@ -102,48 +69,26 @@ class MainWindow(QMainWindow):
         self.panels, broken = make_panels(workbench)
         self.docks: dict[str, QDockWidget] = {}
         self._menus: dict[str, QMenu] = {}
-        self._make_tool_bar()
+        self._bar = MotionBar(workbench)
+        self.stop_button, self.emergency_button = self._bar.stop, self._bar.emergency
+        self.addToolBar(self._bar)
         self._make_docks()
         self._make_menus()
         self._make_status_bar()
         self._restore()
         application = QApplication.instance()
         assert application is not None
-        self._stop_watch = StopWatch(workbench.stop, self.stop_button, self)
+        self._stop_watch = StopWatch(workbench, self.stop_button, self)
         application.installEventFilter(self._stop_watch)
         workbench.noticed.connect(self.notices.show_notice)
         workbench.refreshed.connect(self._refresh)
         workbench.plan_changed.connect(lambda _: self._bring_up("trajectory"))
         workbench.run_changed.connect(lambda _: self._bring_up("comparison"))
+        workbench.ports_offered.connect(lambda ports: ports and self._bring_up("connection"))
         for name, reason in broken.items():
             workbench.notify(Level.ERROR, f"Panel {name!r} is left out: {reason}")
 
     # --- parts ------------------------------------------------------------------------------------
-
-    def _make_tool_bar(self) -> None:
-        bar = QToolBar("Motion")
-        bar.setObjectName("motion")
-        bar.setMovable(False)
-        bar.toggleViewAction().setVisible(False)  # the stop button is always in sight
-        bar.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)
-        self.stop_button = QPushButton("STOP")
-        self.stop_button.setObjectName("stop")
-        self.stop_button.setToolTip(
-            "Stop all axes and hold (Esc). This is a stop by software, "
-            "not the machine's emergency switch."
-        )
-        self.stop_button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        # On pressing, not on release: a stop must not wait for the finger to lift.
-        self.stop_button.pressed.connect(self.workbench.stop)
-        self._title = QLabel(self.workbench.robot.name)
-        self._title.setProperty("heading", True)
-        self._title.setTextFormat(Qt.TextFormat.PlainText)
-        self._activity = QLabel()
-        space = QWidget()
-        space.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
-        for widget in (self._title, self._activity, space, self.stop_button):
-            bar.addWidget(widget)
-        self.addToolBar(bar)
 
     def _make_docks(self) -> None:
         centre = QWidget()
@@ -211,7 +156,13 @@ class MainWindow(QMainWindow):
             Command("&File", "&Quit", "Ctrl+Q", self.close, "Stop and leave"),
             Command("&Motion", "&Play trajectory", "Ctrl+P", bench.play, "Play the loaded one"),
             Command("&Motion", "&Stop", "", bench.stop, "Stop all axes and hold (Esc)"),
+            Command("&Motion", "&Emergency stop", "", bench.emergency_stop, "Latched (Shift+Esc)"),
+            Command("&Motion", "Re&lease the emergency stop", "", bench.release, "Unlatch it"),
+            Command("&Motion", "&Back", "", bench.undo, "Back to before the latest move"),
+            Command("&Motion", "&Home all axes", "", bench.home, "Find the limit switches"),
+            Command("&Motion", "&Clear fault", "", bench.clear_fault, "Acknowledge it"),
             Command("&Motion", "&Reconnect", "", bench.reconnect, "Connect after a failure"),
+            Command("&Motion", "&Disconnect", "", bench.let_go, "Stop, and let go of the device"),
             Command("&View", "&Light theme", "", lambda: self.use_theme("light"), ""),
             Command("&View", "&Dark theme", "", lambda: self.use_theme("dark"), ""),
             Command("&View", "&Restore the layout", "", self.reset_layout, "Bring all docks back"),
@@ -301,7 +252,7 @@ class MainWindow(QMainWindow):
     # --- what happens -----------------------------------------------------------------------------
 
     def _refresh(self, state: SessionState) -> None:
-        self._activity.setText(StatusText.activity(state))
+        self._bar.refresh(state)
 
     def _bring_up(self, name: str) -> None:
         if name in self.docks:

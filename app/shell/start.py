@@ -3,36 +3,45 @@
 import logging
 import os
 import sys
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from rotemina.app.driver_settings import assigned, kept
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.settings import Settings
 from rotemina.app.shell.display import display_fault
 from rotemina.app.system_check import complaint, missing_libraries, platform_in_use
+from rotemina.drivers.driver import Driver
 from rotemina.drivers.registry import driver_named
+from rotemina.drivers.settings import SettingError, SettingValue
 from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import Robot
 
 logger = logging.getLogger(__name__)
 
 
-def start(robot: str, *, driver: str, offscreen: bool, output: Path) -> int:
+def start(
+    robot: str, *, driver: str, assignments: Sequence[str], offscreen: bool, output: Path
+) -> int:
     """Open the window and run it until it is closed; return the exit status.
 
     Parameters
     ----------
     robot : name of a shipped robot, or a robot file.
     driver : name of an installed driver.
+    assignments : settings of the driver, each as ``name=value``.
     offscreen : do the main job without a display.
     output : folder for the picture and report of a run without a display.
 
     Raises
     ------
     InputError
-        If the robot cannot be loaded or there is no such driver.
+        If the robot cannot be loaded, there is no such driver, or it cannot take a setting.
     """
     logging.basicConfig(level=logging.WARNING, format="%(levelname)s %(name)s: %(message)s")
     described = load_robot(robot)
-    make_driver = driver_named(driver)
+    kind = driver_named(driver)
+    given = assigned(kind, assignments)
     reason = "--offscreen" if offscreen else display_fault()
     if reason:
         os.environ["QT_QPA_PLATFORM"] = "offscreen"
@@ -44,12 +53,23 @@ def start(robot: str, *, driver: str, offscreen: bool, output: Path) -> int:
     from rotemina.app.shell import qt_messages  # Qt may be loaded from here on
 
     qt_messages.log_qt_messages()
-    session = MotionSession(make_driver(described))
     if not reason:
         from rotemina.app.shell import window_run
 
-        return window_run.run(session, Settings())
+        settings = Settings()
+        return window_run.run(MotionSession(_driver(kind, described, given, settings)), settings)
     from rotemina.app.shell import offscreen_run
 
     print(f"No window ({reason}): playing the example trajectory offscreen instead.")
-    return offscreen_run.run(session, output)
+    return offscreen_run.run(MotionSession(kind(described, given)), output)
+
+
+def _driver(
+    kind: type[Driver], robot: Robot, given: Mapping[str, SettingValue], settings: Settings
+) -> Driver:
+    """Make a driver with the settings that were given, and for the rest those used last."""
+    try:
+        return kind(robot, {**kept(settings, kind), **given})
+    except SettingError as error:
+        logger.warning("kept settings of driver %s are ignored: %s", kind.name, error)
+        return kind(robot, given)  # a bad preference keeps no window shut; what was given does

@@ -1,11 +1,11 @@
-"""The status line: link, age of the data, latency of the last stop, work in the background."""
+"""The status line: link, age of the data, latency of stops, owners, work in the background."""
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
 
 from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.phase import driven, word
 from rotemina.app.shell.workbench import Workbench
-from rotemina.drivers.samples import DeviceState
 
 
 class StatusText(QLabel):
@@ -15,28 +15,27 @@ class StatusText(QLabel):
         super().__init__()
         self.setTextFormat(Qt.TextFormat.PlainText)
         self._busy = ""
-        self._device = workbench.session.driver.name
+        self._session = workbench.session
         workbench.busy_changed.connect(self._set_busy)
         workbench.refreshed.connect(self._refresh)
-
-    @staticmethod
-    def activity(state: SessionState) -> str:
-        """Return what the robot is doing, in a word or two."""
-        if state.fault:
-            return "failed – motion is locked"
-        if state.activity is DeviceState.PLAYING:
-            return f"playing {100.0 * state.progress:.0f} %"
-        return str(state.activity)
 
     def _set_busy(self, text: str) -> None:
         self._busy = text
 
     def _refresh(self, state: SessionState) -> None:
-        parts = [f"{self._device}: {state.connection}"]
+        parts = [f"{self._session.driver.name}: {word(state)}"]
+        if state.latched is not None:
+            parts.append(f"{state.latched} latched")
         if state.age_s is not None:
-            parts.append(f"data {1e3 * state.age_s:.0f} ms old")
+            parts.append(f"data {age(state.age_s)} old")
+        if state.stop_latency is not None:
+            parts.append(f"stop latency {1e3 * state.stop_latency.most:.1f} ms (99.9 %)")
         if state.stop_latency_s is not None:
             parts.append(f"last stop {1e3 * state.stop_latency_s:.1f} ms")
-        if self._busy:
-            parts.append(self._busy)
+        parts += [text for text in (driven(state), self._busy) if text]
         self.setText("   ·   ".join(parts))
+
+
+def age(seconds: float) -> str:
+    """Return an age as text: in milliseconds as long as data is fresh."""
+    return f"{1e3 * seconds:.0f} ms" if seconds < 1.0 else f"{seconds:.0f} s"

@@ -23,6 +23,7 @@ class Theme:
     on_accent: str
     danger: str
     on_danger: str
+    danger_text: str
     warning: str
     good: str
     command: str
@@ -42,6 +43,7 @@ DARK = Theme(
     on_accent="#08131f",
     danger="#d93a3a",
     on_danger="#ffffff",
+    danger_text="#ff8a80",
     warning="#e6b450",
     good="#5fbf7f",
     command="#8b95a5",
@@ -60,6 +62,7 @@ LIGHT = Theme(
     on_accent="#ffffff",
     danger="#c62828",
     on_danger="#ffffff",
+    danger_text="#b71c1c",
     warning="#8a5a00",
     good="#1f7a43",
     command="#7b8594",

@@ -1,22 +1,22 @@
 """What all panels share: the robot, the motion session, and the trajectory and record in hand."""
 
 import logging
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import datetime
 from enum import StrEnum
 from pathlib import Path
 from typing import TypeVar
 
-from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtCore import QTimer, Signal
 
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import CommandRefused, Event, Faulted, PlaybackFinished
 from rotemina.app.settings import Settings
 from rotemina.app.shell.background import Background
+from rotemina.app.shell.requests import Requests
 from rotemina.app.shell.theme import Theme
 from rotemina.sim.comparison.comparison import Comparison, compare
-from rotemina.sim.errors import InputError
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.writing import write_record
@@ -61,8 +61,11 @@ class Run:
         return self.comparison.record
 
 
-class Workbench(QObject):
+class Workbench(Requests):
     """The window's state and its requests; every panel holds the same one.
+
+    What moves or connects the machine is among :class:`~rotemina.app.shell.requests.Requests`: a
+    refusal becomes a notice.
 
     ``plan`` is the trajectory in hand, ``run`` the last comparison, ``record`` what would be
     saved, and ``unsaved`` a played record that no file holds yet: each is written into
@@ -91,10 +94,8 @@ class Workbench(QObject):
     def __init__(
         self, session: MotionSession, settings: Settings, theme: Theme, played_folder: Path
     ) -> None:
-        super().__init__()
+        super().__init__(session)
         self.played_folder = played_folder
-        self.session = session
-        self.robot = session.robot
         self.settings = settings
         self.theme = theme
         self.plan: Plan | None = None
@@ -103,6 +104,7 @@ class Workbench(QObject):
         self.unsaved: Record | None = None
         self._background = Background(self)
         self._happened.connect(self._on_event)
+        self.refused.connect(lambda reason: self.notify(Level.ERROR, reason))
         self._unsubscribe = session.subscribe(self._happened.emit)
         self._frames = QTimer(self, interval=FRAME_MS)
         self._frames.timeout.connect(lambda: self.refreshed.emit(self.session.snapshot()))
@@ -137,29 +139,13 @@ class Workbench(QObject):
 
     # --- motion -----------------------------------------------------------------------------------
 
-    def stop(self) -> None:
-        """Stop all motion now; this waits for nothing."""
-        self.session.stop()
-
-    def go_to(self, targets: Mapping[str, float]) -> None:
-        """Move axes to positions (SI); a refusal becomes a notice."""
-        self._ask(lambda: self.session.go_to(targets))
-
-    def jog(self, axis: str, distance: float) -> None:
-        """Move one axis by a distance (SI) from its last target; a refusal becomes a notice."""
-        self._ask(lambda: self.session.jog(axis, distance))
-
     def play(self) -> None:
         """Play the planned trajectory; a refusal becomes a notice."""
         plan = self.plan
         if plan is None:
             self.notify(Level.WARNING, "There is no trajectory to play: load one first.")
         else:
-            self._ask(lambda: self.session.play(plan.dry_run.require()))
-
-    def reconnect(self) -> None:
-        """Connect again after a failure; a refusal becomes a notice."""
-        self._ask(self.session.reconnect)
+            self.ask(lambda: self.session.play(plan.dry_run.require()))
 
     # --- files ------------------------------------------------------------------------------------
 
@@ -200,12 +186,6 @@ class Workbench(QObject):
         self.work("save", f"Writing {path.name} …", lambda: write_record(record, path), done)
 
     # --- inside -----------------------------------------------------------------------------------
-
-    def _ask(self, request: Callable[[], object]) -> None:
-        try:
-            request()
-        except (InputError, OSError, ValueError, RuntimeError) as error:
-            self.notify(Level.ERROR, str(error))
 
     def work(
         self,

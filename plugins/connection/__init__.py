@@ -1,1 +1,1 @@
-"""The panel of the connection: driver, port, parameters, link quality, stop latency."""
+"""Connection panel: the device, its settings, and what the operator must know before it moves."""

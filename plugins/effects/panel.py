@@ -53,6 +53,7 @@ class EffectsPanel(Panel):
         super().__init__(workbench)
         self.chain = Chain(workbench.robot)
         self.place = -1
+        self._real = False  # whether the device is no simulator
         self._last: tuple[int, str] | None = None  # what was tuned last: place and parameter
         self._past: list[Chain] = []
         self._make_buttons()
@@ -63,15 +64,10 @@ class EffectsPanel(Panel):
         self.status.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.left_out = QLabel()
         self._lay_out()
-        asked = workbench.session.effects
-        if asked is None:
-            self._body.setEnabled(False)
-            self._say(REAL_MACHINE)
-            return
         self._offer_effects()
         self.live = LiveEffects(workbench.session, self)
         self._connect()
-        self._adopt(asked)
+        self._adopt(workbench.session.effects)
 
     # --- parts ------------------------------------------------------------------------------------
 
@@ -268,11 +264,12 @@ class EffectsPanel(Panel):
         self._show()
         self.live.ask(self.chain.silent if self.all_off.isChecked() else self.chain.asked)
 
-    def _adopt(self, effects: Effects) -> None:
-        """Show effects that came from elsewhere."""
+    def _adopt(self, effects: Effects | None) -> None:
+        """Show effects that came from elsewhere, or that a real machine has its own."""
+        self._real = effects is None
         if len(self.chain):
             self._remember()
-        self.chain, self._last = Chain.of(self.workbench.robot, effects), None
+        self.chain, self._last = Chain.of(self.workbench.robot, effects or ()), None
         self.place = min(max(self.place, 0), len(self.chain) - 1)
         self.all_off.blockSignals(True)
         self.all_off.setChecked(False)
@@ -280,7 +277,7 @@ class EffectsPanel(Panel):
         self._show()
 
     def _refresh(self, state: SessionState) -> None:
-        self._body.setEnabled(state.connection is Connection.CONNECTED)
+        self._body.setEnabled(state.connection is Connection.CONNECTED and not self._real)
         self.live.refresh(state)
 
     def _show(self) -> None:
@@ -299,7 +296,9 @@ class EffectsPanel(Panel):
 
     def _show_standing(self) -> None:
         self._mark_fields()
-        if self.live.standing is Standing.REFUSED:
+        if self._real:
+            self._say(REAL_MACHINE)
+        elif self.live.standing is Standing.REFUSED:
             self._say(f"Not applied: {self.live.reason}", bad=True)
         elif self.live.standing is Standing.PREPARING:
             self._say("preparing …")

@@ -1,1 +1,1 @@
-"""The panel of faults: those that happened, and those that are put in on purpose."""
+"""Faults panel: what went wrong and when, and faults on purpose for training."""

@@ -5,7 +5,7 @@ from importlib.metadata import EntryPoint
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFileDialog, QMessageBox
+from PySide6.QtWidgets import QFileDialog, QLabel, QMessageBox
 
 from rotemina.app.shell import main_window as module
 from rotemina.app.shell.host import GROUP
@@ -17,7 +17,8 @@ from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_record
 
 LONG_MS = 30_000
-BUILT_IN = ["control", "plots", "trajectory", "comparison", "identification", "effects", "gap"]
+BUILT_IN = ["control", "plots", "trajectory", "comparison", "connection", "identification"]
+BUILT_IN += ["effects", "gap", "faults"]
 
 
 def short_trajectory(path, seconds=0.4, height=2e-4):
@@ -329,6 +330,6 @@ def _load_from_here(load, here):
 def test_a_notice_is_plain_text_and_can_be_closed(qtbot, window):
     window.workbench.notify(module.Level.ERROR, "<b>file</b><script>x</script>.csv is bad")
     (notice,) = window.notices.notices()
-    label = notice.findChild(module.QLabel)
+    label = notice.findChild(QLabel)
     assert label.textFormat() is Qt.TextFormat.PlainText
     assert "<script>" in label.text()

@@ -61,6 +61,10 @@ def test_a_missing_library_is_one_line_with_the_command(monkeypatch, capsys, tmp
     [
         (["--driver", "nobody"], "there is no driver 'nobody'; installed: simulator"),
         (["--robot", "nobody"], "nobody: no such robot file"),
+        (["--set", "colour=red"], "driver 'simulator' has no setting 'colour'; it knows"),
+        (["--set", "seed=many"], "setting seed: 'many' is no whole number"),
+        (["--set", "seed"], "write it as name=value"),
+        (["--set", "start_fraction=7"], "start_fraction"),
     ],
 )
 def test_a_bad_option_is_one_clear_line(arguments, message, capsys):

@@ -1,0 +1,80 @@
+"""Settings of drivers as people write them: typed by their defaults, and kept between starts."""
+
+import re
+from collections.abc import Iterable, Mapping
+
+from rotemina.app.settings import Settings
+from rotemina.drivers.driver import Driver
+from rotemina.drivers.settings import SettingError, SettingValue
+
+# What float() and int() take beside these (1_0, digits of other scripts) is likelier a slip.
+_WHOLE = re.compile(r"[+-]?[0-9]+")
+_NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
+_SWITCHES = {"true": True, "yes": True, "on": True, "1": True}
+_SWITCHES |= {"false": False, "no": False, "off": False, "0": False}
+
+
+def typed(name: str, default: SettingValue, text: str) -> SettingValue:
+    """Return the value of a setting that a text means, in the type of its default.
+
+    Raises
+    ------
+    SettingError
+        With what was written and what is wanted.
+    """
+    word = text.strip()
+    if isinstance(default, str):
+        return word
+    if isinstance(default, bool):
+        if word.lower() in _SWITCHES:
+            return _SWITCHES[word.lower()]
+        raise SettingError(f"setting {name}: {text!r} is no switch; write true or false")
+    if isinstance(default, int):
+        if _WHOLE.fullmatch(word):
+            return int(word)
+        raise SettingError(f"setting {name}: {text!r} is no whole number")
+    if _NUMBER.fullmatch(word):
+        return float(word)
+    raise SettingError(f"setting {name}: {text!r} is no number; write one with a decimal point")
+
+
+def assigned(kind: type[Driver], assignments: Iterable[str]) -> dict[str, SettingValue]:
+    """Return the settings that texts such as ``baud=9600`` give a driver.
+
+    Raises
+    ------
+    SettingError
+        If one is no assignment, names no setting of the driver, or has a value of another type.
+    """
+    values: dict[str, SettingValue] = {}
+    defaults = kind.default_settings
+    for text in assignments:
+        name, equals, value = text.partition("=")
+        name = name.strip()
+        if not equals or not name:
+            raise SettingError(f"--set {text!r}: write it as name=value, such as baud=9600")
+        if name not in defaults:
+            known = ", ".join(defaults) or "none at all"
+            raise SettingError(f"driver {kind.name!r} has no setting {name!r}; it knows {known}")
+        values[name] = typed(name, defaults[name], value)
+    return values
+
+
+def kept(settings: Settings, kind: type[Driver]) -> dict[str, SettingValue]:
+    """Return all settings of a driver: as used last, else their defaults."""
+    return {
+        name: settings.get(_key(kind, name), default)
+        for name, default in kind.default_settings.items()
+    }
+
+
+def keep(settings: Settings, kind: type[Driver], values: Mapping[str, SettingValue]) -> None:
+    """Remember settings of a driver for the next start; what has not changed is not written."""
+    before = kept(settings, kind)
+    for name, value in values.items():
+        if before[name] != value:
+            settings.set(_key(kind, name), value)
+
+
+def _key(kind: type[Driver], name: str) -> str:
+    return f"driver.{kind.name}.{name}"

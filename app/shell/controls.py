@@ -1,0 +1,53 @@
+"""Small manners of controls: one that cannot act says why, and a long text is cut with dots."""
+
+from html import escape
+
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
+
+
+def plain_tip(*lines: str) -> str:
+    """Return a tooltip whose lines are no markup, whatever they hold."""
+    return f"<qt>{'<br>'.join(escape(line) for line in lines if line)}</qt>"
+
+
+def allow(widget: QWidget, why_not: str | None, tip: str) -> None:
+    """Enable a control, or disable it with a tooltip that says why it cannot act."""
+    widget.setEnabled(why_not is None)
+    text = plain_tip(tip, f"Not now: {why_not}" if why_not else "")
+    if widget.toolTip() != text:
+        widget.setToolTip(text)
+
+
+class ElidedLabel(QLabel):
+    """One line of plain text that takes what room there is; its tooltip has all of it."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setTextFormat(Qt.TextFormat.PlainText)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
+
+    def show_text(self, text: str) -> None:
+        """Show another text."""
+        if text != self.text():
+            self.setText(text)
+            self.setToolTip(plain_tip(text) if text else "")
+
+    def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
+        """Ask for no width: it takes what the others leave."""
+        return self.minimumSizeHint()
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
+        """Ask for no width at all."""
+        return QSize(0, super().minimumSizeHint().height())
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Draw as much of the text as there is room for."""
+        painter = QPainter(self)
+        painter.setPen(self.palette().color(self.foregroundRole()))
+        cut = self.fontMetrics().elidedText(
+            self.text(), Qt.TextElideMode.ElideRight, self.contentsRect().width()
+        )
+        painter.drawText(self.contentsRect(), int(Qt.AlignmentFlag.AlignVCenter), cut)
+        painter.end()

@@ -1,0 +1,93 @@
+"""The session's phase as screens show it: one word, and how grave it is."""
+
+from enum import StrEnum
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
+
+from rotemina.app.display import label
+from rotemina.app.motion.state import Connection, Phase, SessionState
+from rotemina.drivers.samples import DeviceState
+
+
+class Tone(StrEnum):
+    """How grave a word is; the style sheet has a colour for each."""
+
+    GOOD = "good"
+    BUSY = "busy"
+    WARNING = "warning"
+    DANGER = "danger"
+    QUIET = "quiet"
+
+
+_TONES = {
+    Phase.DISCONNECTED: Tone.QUIET,
+    Phase.CONNECTING: Tone.BUSY,
+    Phase.READY: Tone.GOOD,
+    Phase.MOVING: Tone.BUSY,
+    Phase.STOPPING: Tone.WARNING,
+    Phase.SHORT_LOSS: Tone.WARNING,
+    Phase.FAULT: Tone.DANGER,
+    Phase.POSITION_UNKNOWN: Tone.WARNING,
+}
+
+
+def word(state: SessionState) -> str:
+    """Return how the session stands, in a word or two."""
+    if state.connection is Connection.FAILED:
+        return "failed"
+    if state.phase is Phase.READY and state.locked is not None:
+        return "locked"
+    return str(state.phase)
+
+
+def tone(state: SessionState) -> Tone:
+    """Return how grave that is."""
+    if state.connection is Connection.FAILED or state.latched is not None:
+        return Tone.DANGER
+    if state.phase is Phase.READY and state.locked is not None:
+        return Tone.WARNING
+    return _TONES[state.phase]
+
+
+def doing(state: SessionState) -> str:
+    """Return what the robot does, or why it does not move; "" when it may be told to."""
+    if state.activity is DeviceState.PLAYING:
+        return f"playing {100.0 * state.progress:.0f} %"
+    if state.activity is DeviceState.HOMING:
+        return "looks for its limit switches"
+    if state.locked is not None:
+        return state.locked[:1].upper() + state.locked[1:]
+    return driven(state)
+
+
+def driven(state: SessionState) -> str:
+    """Return who drives which axes; "" where nobody does."""
+    owned: dict[str, list[str]] = {}
+    for axis, owner in state.owners.items():
+        owned.setdefault(owner, []).append(label(axis))
+    return "; ".join(f"{', '.join(axes)}: {owner}" for owner, axes in owned.items())
+
+
+def set_tone(widget: QWidget, value: Tone) -> None:
+    """Give a widget the colours of a tone."""
+    if widget.property("tone") != str(value):
+        widget.setProperty("tone", str(value))
+        widget.style().unpolish(widget)
+        widget.style().polish(widget)
+
+
+class PhaseLabel(QLabel):
+    """The phase in one word, in its colour."""
+
+    def __init__(self) -> None:
+        super().__init__("–")
+        self.setTextFormat(Qt.TextFormat.PlainText)
+        self.setAccessibleName("Phase of the session")
+        self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+        set_tone(self, Tone.QUIET)
+
+    def show_state(self, state: SessionState) -> None:
+        """Show the phase of a state."""
+        self.setText(word(state))
+        set_tone(self, tone(state))

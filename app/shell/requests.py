@@ -1,0 +1,137 @@
+"""What an operator asks of the motion session: thin requests, whose refusals are told."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import NamedTuple
+
+from PySide6.QtCore import QObject, Signal
+
+from rotemina.app.motion.session import MotionSession
+from rotemina.drivers.driver import Driver
+from rotemina.drivers.settings import SettingValue
+from rotemina.sim.errors import InputError
+
+
+class OfferedPort(NamedTuple):
+    """A port that a driver can be connected to, and what is there."""
+
+    device: str
+    about: str
+
+
+class DriverUnusableError(InputError):
+    """A driver whose constructor fails; the message says how."""
+
+
+class Requests(QObject):
+    """Requests to a session; none of them waits for the device.
+
+    Signals
+    -------
+    refused(str) : a request that was not taken, and why.
+    ports_offered(tuple of OfferedPort) : where virtual boards listen now.
+    """
+
+    refused = Signal(str)
+    ports_offered = Signal(object)
+
+    def __init__(self, session: MotionSession) -> None:
+        super().__init__()
+        self.session = session
+        self.robot = session.robot
+
+    # --- stop -------------------------------------------------------------------------------------
+
+    def stop(self) -> None:
+        """Stop all motion now; this waits for nothing."""
+        self.session.stop()
+
+    def emergency_stop(self) -> None:
+        """Stop all motion now, and let nothing move until :meth:`release`."""
+        self.session.emergency_stop()
+
+    def release(self) -> None:
+        """Let the machine move again after an emergency stop."""
+        self.session.release()
+
+    # --- motion -----------------------------------------------------------------------------------
+
+    def go_to(self, targets: Mapping[str, float]) -> None:
+        """Move axes to positions (SI)."""
+        self.ask(lambda: self.session.go_to(targets))
+
+    def jog(self, axis: str, distance: float) -> None:
+        """Move one axis by a distance (SI) from its last target."""
+        self.ask(lambda: self.session.jog(axis, distance))
+
+    def home(self, axes: Sequence[str] | None = None) -> None:
+        """Find the limit switches of axes, or of all that have some."""
+        self.ask(lambda: self.session.home(axes))
+
+    def undo(self) -> None:
+        """Go back to where the axes rested before the latest move."""
+        self.ask(self.session.undo)
+
+    # --- connection -------------------------------------------------------------------------------
+
+    def use_driver(self, kind: type[Driver], settings: Mapping[str, SettingValue]) -> bool:
+        """Let go of the device and connect to another one; return whether that was begun."""
+
+        def use() -> None:
+            try:
+                driver = kind(self.robot, settings)
+            except InputError:
+                raise
+            except Exception as error:  # whatever a plugin raises, the window stays
+                raise DriverUnusableError(
+                    f"driver {kind.name!r} cannot be made: {type(error).__name__}: {error}"
+                ) from error
+            self.session.use(driver)
+
+        return self.ask(use)
+
+    def offer_ports(self, ports: Iterable[tuple[str, str]]) -> None:
+        """Tell where virtual boards listen now, each with what is there; nowhere ends that."""
+        self.ports_offered.emit(tuple(OfferedPort(*port) for port in ports))
+
+    def reconnect(self) -> None:
+        """Connect again after a failure."""
+        self.ask(self.session.reconnect)
+
+    def let_go(self) -> None:
+        """Stop, and disconnect from the device; it holds."""
+        self.ask(self.session.disconnect)
+
+    def clear_fault(self) -> None:
+        """Acknowledge the device's fault."""
+        self.ask(self.session.clear_fault)
+
+    def confirm_position(self) -> None:
+        """Trust the position again after a lost connection."""
+        self.ask(self.session.confirm_position)
+
+    def accept_parameters(self) -> None:
+        """Move with the device's parameters as they are."""
+        self.ask(self.session.accept_parameters)
+
+    def write_parameters(self) -> None:
+        """Write the robot file's parameters into the device."""
+        self.ask(self.session.write_parameters)
+
+    # --- bounds of the tip ------------------------------------------------------------------------
+
+    def teach_floor(self) -> None:
+        """Put the tip's floor where the tip is now."""
+        self.ask(self.session.teach_floor)
+
+    def clear_floor(self) -> None:
+        """Take the tip's floor away."""
+        self.ask(self.session.clear_floor)
+
+    def ask(self, request: Callable[[], object]) -> bool:
+        """Make a request of the session; a refusal is told. Return whether it was taken."""
+        try:
+            request()
+        except (InputError, OSError, ValueError, RuntimeError) as error:
+            self.refused.emit(str(error))
+            return False
+        return True

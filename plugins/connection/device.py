@@ -1,0 +1,164 @@
+"""Which driver, with which settings; connect, disconnect, reconnect."""
+
+from PySide6.QtGui import QStandardItemModel, QWheelEvent
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QToolButton
+
+from rotemina.app.driver_settings import keep, kept
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.requests import OfferedPort
+from rotemina.app.shell.workbench import Workbench
+from rotemina.drivers.driver import Driver
+from rotemina.drivers.registry import discover_drivers
+from rotemina.plugins.connection import reasons
+from rotemina.plugins.connection.fields import SettingForm
+from rotemina.plugins.connection.ports import PortFinder
+from rotemina.plugins.connection.section import Section, button
+
+
+class DriverChoice(QComboBox):
+    """The installed drivers; broken ones are there, with their reason, and cannot be chosen."""
+
+    def __init__(self, found: dict[str, type[Driver]], broken: dict[str, str]) -> None:
+        super().__init__()
+        self.setAccessibleName("Driver")
+        self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        for name, kind in found.items():
+            self.addItem(name, kind)
+        model = self.model()
+        assert isinstance(model, QStandardItemModel)
+        for name, reason in broken.items():
+            self.addItem(f"{name} – cannot be used")
+            item = model.item(self.count() - 1)
+            item.setEnabled(False)
+            item.setToolTip(plain_tip(reason))
+
+    def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
+        """Leave the wheel to what scrolls."""
+        event.ignore()
+
+
+class DeviceSection(Section):
+    """The choice of a driver, its settings, and the connection to it."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__("Device")
+        self._workbench = workbench
+        discovery = discover_drivers()
+        self.choice = DriverChoice(discovery.found, discovery.broken)
+        self.find = QToolButton()
+        self.find.setText("⟳")
+        self.find.setAccessibleName("Look for ports again")
+        self.find.setToolTip("Look for serial ports again")
+        row = QHBoxLayout()
+        row.setSpacing(6)
+        row.addWidget(self.choice, 1)
+        row.addWidget(self.find)
+        self.column.addLayout(row)
+        self.broken = self.add_text()
+        self.broken.setText(
+            "\n".join(f"{name} is left out: {why}" for name, why in discovery.broken.items())
+        )
+        self.broken.setVisible(bool(discovery.broken))
+        self.form = SettingForm({}, {})
+        self._place = self.column.count()
+        self.column.addWidget(self.form)
+        self.connect_button = button("Connect", self._connect)
+        self.connect_button.setProperty("primary", True)
+        self.disconnect_button = button("Disconnect", workbench.let_go)
+        self.reconnect_button = button("Reconnect", workbench.reconnect)
+        self.add_row(self.connect_button, self.disconnect_button, self.reconnect_button)
+        self._ports: list[OfferedPort] = []
+        self._offered: tuple[OfferedPort, ...] = ()
+        self._finder = PortFinder(workbench, self)
+        self._finder.found.connect(self._take_ports)
+        self.find.clicked.connect(lambda _: self._finder.look())
+        self.choice.currentIndexChanged.connect(lambda _: self._show_settings())
+        workbench.ports_offered.connect(self.offer_ports)
+        self._choose(type(workbench.session.driver))
+        self._show_settings()
+
+    @property
+    def kind(self) -> type[Driver] | None:
+        """The chosen driver."""
+        kind = self.choice.currentData()
+        return kind if isinstance(kind, type) else None
+
+    def refresh(self, state: SessionState) -> None:
+        """Lock what cannot be done now."""
+        wrong = "no driver is chosen" if self.kind is None else self.form.complaint()
+        why = wrong or reasons.against_connecting(state, same=wrong is None and self._same())
+        name = self.choice.currentText()
+        allow(self.connect_button, why, f"Connect to {name}; any other device is let go")
+        allow(
+            self.disconnect_button,
+            reasons.against_disconnecting(state),
+            "Stop, and let go of the device; it holds where it stands",
+        )
+        allow(
+            self.reconnect_button,
+            reasons.against_reconnecting(state),
+            f"Connect again to {self._workbench.session.driver.name}, with the settings it had",
+        )
+
+    def offer_ports(self, ports: tuple[OfferedPort, ...]) -> None:
+        """Offer ports of virtual boards, and fill them in where a driver takes ports."""
+        self._offered = ports
+        if ports and not self.form.port_fields:
+            self._choose_one_with_ports()
+        self._take_ports(self._ports)
+        for field, port in zip(self.form.port_fields, (*ports, None), strict=False):
+            if ports:
+                field.set_text(port.device if port is not None else "")
+
+    def _choose(self, kind: type[Driver]) -> None:
+        for index in range(self.choice.count()):
+            if self.choice.itemData(index) is kind:
+                self.choice.setCurrentIndex(index)
+
+    def _choose_one_with_ports(self) -> None:
+        for index in range(self.choice.count()):
+            kind = self.choice.itemData(index)
+            if isinstance(kind, type) and "port" in kind.default_settings:
+                self.choice.setCurrentIndex(index)
+                return
+
+    def _show_settings(self) -> None:
+        kind, session = self.kind, self._workbench.session
+        defaults = dict(kind.default_settings) if kind is not None else {}
+        values = kept(self._workbench.settings, kind) if kind is not None else {}
+        if kind is type(session.driver):
+            values = dict(session.driver.settings)
+        self.column.removeWidget(self.form)
+        self.form.hide()
+        self.form.deleteLater()
+        self.form = SettingForm(defaults, values)
+        self.form.changed.connect(self._keep)
+        self.column.insertWidget(self._place, self.form)
+        takes_ports = bool(self.form.port_fields)
+        self.find.setVisible(takes_ports)
+        if takes_ports:
+            self._take_ports(self._ports)
+            self._finder.look()
+
+    def _keep(self) -> None:
+        """Remember what makes sense."""
+        if self.kind is not None and self.form.complaint() is None:
+            keep(self._workbench.settings, self.kind, self.form.values())
+
+    def _take_ports(self, ports: list[OfferedPort]) -> None:
+        self._ports = ports
+        for field in self.form.port_fields:
+            field.offer((*self._offered, *ports))
+
+    def _same(self) -> bool:
+        driver = self._workbench.session.driver
+        return self.kind is type(driver) and self.form.values() == dict(driver.settings)
+
+    def _connect(self) -> None:
+        kind = self.kind
+        if kind is None or self.form.complaint() is not None:
+            return
+        values = self.form.values()
+        if self._workbench.use_driver(kind, values):
+            keep(self._workbench.settings, kind, values)

@@ -1,0 +1,61 @@
+"""How the line to the device does, and how long a stop takes."""
+
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.workbench import Workbench
+from rotemina.plugins.connection.section import Figures, Section
+
+_LINE = ("Frames sent", "Frames received", "Rejected", "Repeated", "Round trip", "Load")
+_STOP = ("Latest", "99.9 % of stops within", "Worst", "Last stop handed over in", "At rest after")
+
+
+class LineSection(Section):
+    """Frames, losses, round trip and load."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__("Line")
+        self._session = workbench.session
+        self.text = self.add_text()
+        self.figures = Figures(*_LINE)
+        self.column.addWidget(self.figures)
+
+    def refresh(self, state: SessionState) -> None:
+        """Show a state."""
+        link = state.link
+        self.text.setVisible(link is None)
+        self.figures.setVisible(link is not None)
+        if link is None:
+            self.text.setText(f"{self._session.driver.name} has no line, or has not opened it yet.")
+            return
+        self.figures.show_values(
+            f"{link.sent}",
+            f"{link.received}",
+            f"{link.rejected}",
+            f"{link.repeated}",
+            milliseconds(link.round_trip_s),
+            f"{100.0 * link.load:.0f} %",
+        )
+
+
+class StopSection(Section):
+    """How long a stop takes to be out on the line, as of all the time."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__("Stop latency")
+        self.figures = Figures(*_STOP)
+        self.column.addWidget(self.figures)
+
+    def refresh(self, state: SessionState) -> None:
+        """Show a state."""
+        latency = state.stop_latency
+        self.figures.show_values(
+            milliseconds(latency.latest if latency else None),
+            milliseconds(latency.most if latency else None),
+            milliseconds(latency.worst if latency else None),
+            milliseconds(state.stop_latency_s),
+            milliseconds(state.standstill_s),
+        )
+
+
+def milliseconds(seconds: float | None) -> str:
+    """Return a short time as text."""
+    return "–" if seconds is None else f"{1e3 * seconds:.2f} ms"

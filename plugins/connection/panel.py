@@ -1,0 +1,65 @@
+"""The device and how it stands: what an operator sees to before anything moves."""
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QFrame, QScrollArea, QVBoxLayout, QWidget
+
+from rotemina.app.motion.state import SessionState
+from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.workbench import Workbench
+from rotemina.plugins.connection.device import DeviceSection
+from rotemina.plugins.connection.line import LineSection, StopSection
+from rotemina.plugins.connection.parameters import ParameterSection
+from rotemina.plugins.connection.position import PositionSection
+from rotemina.plugins.connection.standing import StandingSection
+from rotemina.plugins.connection.tip import TipSection
+
+
+class ConnectionPanel(Panel):
+    """State, device, position, parameters, tip, line and stop latency, one below the other."""
+
+    title = "Connection"
+    area = Area.RIGHT
+    order = 20
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__(workbench)
+        self.standing = StandingSection(workbench)
+        self.device = DeviceSection(workbench)
+        self.position = PositionSection(workbench)
+        self.parameters = ParameterSection(workbench)
+        self.tip = TipSection(workbench)
+        self.line = LineSection(workbench)
+        self.stop = StopSection(workbench)
+        self._sections = (
+            self.standing,
+            self.device,
+            self.position,
+            self.parameters,
+            self.tip,
+            self.line,
+            self.stop,
+        )
+        content = QWidget()
+        column = QVBoxLayout(content)
+        column.setContentsMargins(10, 4, 10, 8)
+        column.setSpacing(4)
+        for section in self._sections:
+            column.addWidget(section)
+        column.addStretch(1)
+        scroll = QScrollArea()
+        scroll.setObjectName("panelScroll")
+        scroll.setFrameShape(QFrame.Shape.NoFrame)
+        scroll.setWidgetResizable(True)
+        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        scroll.setWidget(content)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        outer.addWidget(scroll)
+        bar = scroll.verticalScrollBar().sizeHint().width()
+        self.setMinimumWidth(max(content.minimumSizeHint().width() + bar, 300))
+        workbench.refreshed.connect(self._refresh)
+        self._refresh(workbench.session.snapshot())
+
+    def _refresh(self, state: SessionState) -> None:
+        for section in self._sections:
+            section.refresh(state)

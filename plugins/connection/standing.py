@@ -1,0 +1,46 @@
+"""How the session stands: its phase, why nothing moves, and the emergency stop."""
+
+from PySide6.QtWidgets import QHBoxLayout, QLabel
+
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.controls import allow
+from rotemina.app.shell.phase import PhaseLabel
+from rotemina.app.shell.workbench import Workbench
+from rotemina.plugins.connection import reasons
+from rotemina.plugins.connection.section import Section, button
+
+
+class StandingSection(Section):
+    """The phase in one word, and the reason why motion is locked."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__("State")
+        self.phase = PhaseLabel()
+        self.device = QLabel()
+        self.device.setProperty("quiet", True)
+        row = QHBoxLayout()
+        row.setSpacing(8)
+        row.addWidget(self.phase)
+        row.addWidget(self.device, 1)
+        self.column.addLayout(row)
+        self.reason = self.add_text()
+        self.emergency = button("E-stop", workbench.emergency_stop)
+        self.release = button("Release", workbench.release)
+        self.clear = button("Clear fault", workbench.clear_fault)
+        self.add_row(self.emergency, self.release, self.clear)
+        self._session = workbench.session
+
+    def refresh(self, state: SessionState) -> None:
+        """Show a state."""
+        self.phase.show_state(state)
+        self.device.setText(self._session.driver.name)
+        locked = state.locked
+        self.reason.setText("Motion is possible." if locked is None else f"Locked: {locked}.")
+        latched = f"{state.latched} is latched already" if state.latched is not None else None
+        allow(self.emergency, latched, "Stop all axes, and let nothing move until it is released")
+        allow(
+            self.release,
+            None if state.latched is not None else "no emergency stop is latched",
+            "Let the machine move again; it stands until it is told to",
+        )
+        allow(self.clear, reasons.against_clearing(state), "Acknowledge the device's fault")

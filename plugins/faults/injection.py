@@ -1,0 +1,221 @@
+"""Faults on purpose: a virtual board started from here, and a row of controls for each fault."""
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QLocale, Signal
+from PySide6.QtGui import QWheelEvent
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QDoubleSpinBox,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.shell.controls import ElidedLabel, allow, plain_tip
+from rotemina.app.shell.workbench import Workbench
+from rotemina.plugins.faults.board_process import TAKES_COMMANDS, BoardProcess
+from rotemina.plugins.faults.commands import Fault, Number, Pick, faults
+from rotemina.sim.robot.model import StepperAxis
+
+_ABOUT = (
+    "For training. The simulator inside this program has neither line nor board that could fail; "
+    "what its machine does wrong is in the panel Effects. A virtual board is a process of its own: "
+    "start it, connect to its ports, and let things go wrong."
+)
+_NOT_RUNNING = "no virtual board runs; start it first"
+_NO_COMMANDS = "on this system a virtual board takes no commands"
+_BOARD_AXES = 3
+
+
+class Choice(QComboBox):
+    """A parameter that is one of some words; the wheel does not change it."""
+
+    def __init__(self, pick: Pick) -> None:
+        super().__init__()
+        for shown, word in pick.words:
+            self.addItem(shown, word)
+        self.setEnabled(len(pick.words) > 1)
+        self.setVisible(len(pick.words) > 1)
+
+    def word(self) -> str:
+        """Return what is sent."""
+        return str(self.currentData())
+
+    def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
+        """Leave the wheel to what scrolls."""
+        event.ignore()
+
+
+class Amount(QDoubleSpinBox):
+    """A parameter that is a number; always with a decimal point."""
+
+    def __init__(self, number: Number) -> None:
+        super().__init__()
+        self._number = number
+        locale = QLocale.c()
+        locale.setNumberOptions(QLocale.NumberOption.RejectGroupSeparator)
+        self.setLocale(locale)
+        self.setDecimals(number.decimals)
+        self.setRange(number.low, number.high)
+        self.setValue(number.preset)
+        if number.unit:
+            self.setSuffix(f" {number.unit}")
+
+    def word(self) -> str:
+        """Return what is sent."""
+        return self._number.word(self.value())
+
+    def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
+        """Leave the wheel to what scrolls."""
+        event.ignore()
+
+
+class FaultRow:
+    """The controls of one kind of fault in a row of a grid."""
+
+    def __init__(self, fault: Fault, inject: Callable[[str], None]) -> None:
+        self.fault = fault
+        self.fields = [
+            Choice(each) if isinstance(each, Pick) else Amount(each) for each in fault.parameters
+        ]
+        for field, parameter in zip(self.fields, fault.parameters, strict=True):
+            field.setAccessibleName(f"{fault.title}: {parameter.name}")
+            field.setToolTip(plain_tip(f"{parameter.name}. {fault.meaning}"))
+        self.button = QPushButton("Inject")
+        self.button.setAccessibleName(f"Inject {fault.title}")
+        self.button.clicked.connect(lambda _: inject(self.command()))
+
+    def command(self) -> str:
+        """Return the command as the fields have it."""
+        return self.fault.command(tuple(field.word() for field in self.fields))
+
+    def place(self, grid: QGridLayout, row: int) -> None:
+        """Put the controls into a row of a grid."""
+        title = QLabel(self.fault.title)
+        title.setToolTip(plain_tip(self.fault.meaning))
+        grid.addWidget(title, row, 0)
+        fields = QHBoxLayout()
+        fields.setSpacing(6)
+        for field in self.fields:
+            fields.addWidget(field, 1)
+        grid.addLayout(fields, row, 1)
+        grid.addWidget(self.button, row, 2)
+
+
+class Injection(QWidget):
+    """The virtual board, and what can be done to it.
+
+    Signals
+    -------
+    told(str, bool) : something about it worth keeping, and whether it is a complaint.
+    """
+
+    told = Signal(str, bool)
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__()
+        self._workbench = workbench
+        self.board = BoardProcess(workbench.robot, self)
+        self.lines = QComboBox()
+        self.lines.setAccessibleName("Lines of the virtual board")
+        most = 2 if len(workbench.robot.axes) > _BOARD_AXES else 1
+        self._lines = most
+        if most > 1:
+            self.lines.addItem("a line for each board", 2)
+        self.lines.addItem("one line" if most == 1 else "one shared line", 1)
+        self.homed = QCheckBox("Position known")
+        self.homed.setToolTip("Begin homed and without a fault, as no real board does")
+        self.start = QPushButton("Start virtual board")
+        self.start.setProperty("primary", True)
+        self.start.clicked.connect(lambda _: self._start())
+        self.end = QPushButton("End")
+        self.end.setAccessibleName("End the virtual board")
+        self.end.clicked.connect(lambda _: self.board.end())
+        self.state = ElidedLabel()
+        self.rows: list[FaultRow] = []
+        self._lay_out()
+        self._connect()
+        self._show()
+
+    def _lay_out(self) -> None:
+        about = QLabel(_ABOUT)
+        about.setWordWrap(True)
+        about.setProperty("quiet", True)
+        self.state.setProperty("quiet", True)
+        buttons, options = QHBoxLayout(), QHBoxLayout()
+        for widget in (self.start, self.end):
+            buttons.addWidget(widget)
+        buttons.addWidget(self.state, 1)
+        for widget in (self.lines, self.homed):
+            options.addWidget(widget)
+        options.addStretch(1)
+        grid = QGridLayout()
+        grid.setHorizontalSpacing(8)
+        grid.setVerticalSpacing(5)
+        grid.setColumnStretch(1, 1)
+        axes = self._workbench.robot.axes
+        steppers = tuple(name for name, axis in axes.items() if isinstance(axis, StepperAxis))
+        for row, fault in enumerate(faults(tuple(axes), steppers, self._lines)):
+            made = FaultRow(fault, self._inject)
+            made.place(grid, row)
+            self.rows.append(made)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(2, 0, 8, 4)
+        column.setSpacing(6)
+        column.addLayout(buttons)
+        column.addLayout(options)
+        column.addLayout(grid)
+        column.addWidget(about)
+        column.addStretch(1)
+
+    def _connect(self) -> None:
+        self.board.listening.connect(self._offer)
+        self.board.said.connect(self._note)
+        self.board.complained.connect(lambda line: self.told.emit(line, True))
+        self.board.ended.connect(self._ended)
+        self._workbench.closing.connect(self.board.close)
+
+    def _start(self) -> None:
+        lines, homed = int(self.lines.currentData()), self.homed.isChecked()
+        if self._workbench.ask(lambda: self.board.start(lines, homed=homed)):
+            self._show()
+
+    def _inject(self, command: str) -> None:
+        self.board.inject(command)
+
+    def _offer(self, ports: tuple[tuple[str, str], ...]) -> None:
+        self._workbench.offer_ports((port, f"virtual {who}") for port, who in ports)
+        self.told.emit(f"virtual board on {', '.join(port for port, _ in ports)}", False)
+        self._show()
+
+    def _note(self, line: str) -> None:
+        _, _, text = line.partition(" s: ")
+        if text:
+            self.told.emit(text, False)
+
+    def _ended(self, why: str) -> None:
+        self._workbench.offer_ports(())
+        self.told.emit(f"virtual board ended{f': {why}' if why else ''}", bool(why))
+        self._show()
+
+    def _show(self) -> None:
+        """Show how the board stands, and lock what cannot be done."""
+        running, ports = self.board.running, self.board.ports
+        if ports:
+            text = f"Listening on {', '.join(port for port, _ in ports)}: connect to it."
+        else:
+            text = "Starting …" if running else "No virtual board runs."
+        self.state.show_text(text)
+        allow(self.start, "it runs already" if running else None, "Start boards of this robot")
+        allow(self.end, None if running else _NOT_RUNNING, "End it: a line that is torn off")
+        for widget in (self.lines, self.homed):
+            widget.setEnabled(not running)
+        why = None if ports else _NOT_RUNNING
+        for row in self.rows:
+            why = why if TAKES_COMMANDS else _NO_COMMANDS
+            allow(row.button, why, row.fault.meaning)

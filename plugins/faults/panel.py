@@ -1,0 +1,157 @@
+"""What went wrong and when, and faults on purpose."""
+
+from collections.abc import Callable
+from datetime import datetime
+from pathlib import Path
+
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import (
+    QFileDialog,
+    QFrame,
+    QHBoxLayout,
+    QPushButton,
+    QScrollArea,
+    QSplitter,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.files import write_text
+from rotemina.app.motion.state import Connection, Event, SessionState
+from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.controls import allow
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.plugins.faults.history import Entry, History, Kind, as_text
+from rotemina.plugins.faults.injection import Injection
+from rotemina.plugins.faults.table import HistoryTable
+
+
+class FaultsPanel(Panel):
+    """The history beside the faults that can be injected."""
+
+    title = "Faults"
+    area = Area.BOTTOM
+    order = 60
+
+    _happened = Signal(object, object)
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__(workbench)
+        self.history, self.table = History(), HistoryTable()
+        self.injection = Injection(workbench)
+        self._shown: tuple[Entry, ...] = ()
+        self.clear_fault = _button("Clear fault", workbench.clear_fault)
+        self.copy = _button("Copy", self.copy_all)
+        self.save = _button("Save …", self._ask_save)
+        self.empty = _button("Empty", self._empty)
+        self._lay_out()
+        # Told on the session's thread: the time is taken there, not when this window has time.
+        self._unsubscribe = workbench.session.subscribe(
+            lambda event: self._happened.emit(now(), event)
+        )
+        self._happened.connect(self._note)
+        self.injection.told.connect(self._note_injection)
+        workbench.refused.connect(lambda text: self.history.add(now(), Kind.REFUSED, text))
+        workbench.refreshed.connect(self._refresh)
+        workbench.theme_changed.connect(self.table.use_theme)
+        workbench.closing.connect(self._unsubscribe)
+        self._refresh(workbench.session.snapshot())
+
+    def copy_all(self) -> None:
+        """Put the chosen rows, or all where none is chosen, on the clipboard."""
+        chosen = self.table.chosen() or self.history.entries
+        QGuiApplication.clipboard().setText(as_text(chosen))
+
+    def save_to(self, path: Path) -> None:
+        """Write the whole history into a text file."""
+        text = as_text(self.history.entries)
+        self.workbench.work(
+            "faults",
+            f"Writing {path.name} …",
+            lambda: write_text(path, text),
+            lambda _: self.workbench.notify(Level.GOOD, f"Saved {path}"),
+        )
+
+    def _lay_out(self) -> None:
+        buttons = QHBoxLayout()
+        buttons.setSpacing(6)
+        buttons.addWidget(self.clear_fault)
+        buttons.addStretch(1)
+        for widget in (self.copy, self.save, self.empty):
+            buttons.addWidget(widget)
+        left = QWidget()
+        column = QVBoxLayout(left)
+        column.setContentsMargins(0, 0, 4, 0)
+        column.addLayout(buttons)
+        column.addWidget(self.table, 1)
+        scroll = QScrollArea()
+        scroll.setObjectName("panelScroll")
+        scroll.setFrameShape(QFrame.Shape.NoFrame)
+        scroll.setWidgetResizable(True)
+        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        scroll.setWidget(self.injection)
+        bar = scroll.verticalScrollBar().sizeHint().width()
+        scroll.setMinimumWidth(self.injection.minimumSizeHint().width() + bar)
+        split = QSplitter(Qt.Orientation.Horizontal)
+        split.addWidget(left)
+        split.addWidget(scroll)
+        split.setSizes([400, 520])
+        split.setChildrenCollapsible(False)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(10, 8, 10, 8)
+        outer.addWidget(split)
+
+    def _refresh(self, state: SessionState) -> None:
+        self.history.note_latch(now(), state.latched)
+        entries = self.history.entries
+        if entries != self._shown:
+            self._shown = entries
+            with QSignalBlocker(self.table):
+                self.table.show_entries(entries, self.workbench.theme)
+        allow(self.clear_fault, against_clearing(state), "Acknowledge the device's fault")
+        none = None if entries else "there is nothing yet"
+        allow(self.copy, none, "Copy the chosen rows, or all, as text (Ctrl+C)")
+        allow(self.save, none, "Write all rows into a text file")
+        allow(self.empty, none, "Forget all rows")
+
+    def _note(self, at: datetime, event: Event) -> None:
+        self.history.note_event(at, event)
+
+    def _note_injection(self, text: str, complaint: bool) -> None:
+        injected = text.removeprefix("injected: ")
+        kind = Kind.NOTE if injected == text else Kind.INJECTED
+        self.history.add(now(), Kind.REFUSED if complaint else kind, injected)
+        if complaint:
+            self.workbench.notify(Level.WARNING, text)
+
+    def _empty(self) -> None:
+        self.history.clear()
+
+    def _ask_save(self) -> None:
+        folder = self.workbench.settings.get("files.folder", "")
+        dialog = QFileDialog(self.main_window, "Save faults", folder, "Text (*.txt)")
+        dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.selectFile("faults.txt")
+        dialog.fileSelected.connect(lambda name: self.save_to(Path(name)))
+        dialog.show()
+
+
+def against_clearing(state: SessionState) -> str | None:
+    """Why no fault can be acknowledged."""
+    if state.connection is not Connection.CONNECTED:
+        return "not connected; reconnect in the panel Connection"
+    return None if state.fault is not None else "there is no fault"
+
+
+def now() -> datetime:
+    """Return the host's clock as local time."""
+    return datetime.now().astimezone()
+
+
+def _button(text: str, run: Callable[[], object]) -> QPushButton:
+    made = QPushButton(text)
+    made.clicked.connect(lambda _: run())
+    return made

@@ -1,0 +1,344 @@
+"""The connection panel on real sessions: the simulator, and devices that differ or fail."""
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QLabel
+
+from rotemina.app.motion.state import Connection, Phase
+from rotemina.drivers import registry
+from rotemina.drivers.samples import DeviceState
+from rotemina.drivers.simulator.driver import Simulator
+from rotemina.plugins.connection import device as device_module
+from rotemina.plugins.connection import ports as ports_module
+
+LONG_MS = 30_000
+
+
+@pytest.fixture(autouse=True)
+def no_real_ports(monkeypatch):
+    """Tests know which serial ports there are."""
+    found = [ports_module.OfferedPort("/dev/ttyTEST0", "a <b>cable</b>")]
+    monkeypatch.setattr(ports_module, "serial_ports", lambda: found)
+
+
+@pytest.fixture
+def press(qtbot):
+    def press(button):
+        qtbot.waitUntil(button.isEnabled, timeout=LONG_MS)
+        qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+
+    return press
+
+
+@pytest.fixture
+def panel(window):
+    return window.panels["connection"]
+
+
+def phase_is(qtbot, panel, word):
+    qtbot.waitUntil(lambda: panel.standing.phase.text() == word, timeout=LONG_MS)
+
+
+def notices(window):
+    return " ".join(notice.text for notice in window.notices.notices())
+
+
+def unhomed(robot):
+    return Simulator(robot, {"start_homed": False, "start_fraction": 0.001})
+
+
+def test_a_homed_simulator_is_ready(qtbot, window, panel):
+    phase_is(qtbot, panel, "ready")
+    assert panel.standing.phase.property("tone") == "good"
+    assert panel.standing.reason.text() == "Motion is possible."
+    assert not panel.standing.release.isEnabled()
+    assert "no emergency stop is latched" in panel.standing.release.toolTip()
+    assert "no line" in panel.line.text.text()
+
+
+def test_an_unhomed_machine_is_homed_from_here(qtbot, make_robot_window, press):
+    window = make_robot_window(driver=unhomed)
+    panel = window.panels["connection"]
+    phase_is(qtbot, panel, "position unknown")
+    assert panel.position.text.text() == "Unknown, to be homed: X, Y, Z"
+    assert "home first" in panel.standing.reason.text()
+    assert panel.tip.figures.values["Tip height"].text() == "unknown"
+    assert not panel.tip.teach.isEnabled()
+    press(panel.position.home["y"])
+    qtbot.waitUntil(
+        lambda: panel.position.text.text() == "Unknown, to be homed: X, Z", timeout=LONG_MS
+    )
+    press(panel.position.home_all)
+    phase_is(qtbot, panel, "ready")
+    assert panel.position.text.text() == "All positions are known."
+
+
+def test_the_owner_is_shown_while_homing(qtbot, make_robot_window, press):
+    window = make_robot_window(driver=lambda robot: Simulator(robot, {"start_homed": False}))
+    panel = window.panels["connection"]
+    phase_is(qtbot, panel, "position unknown")
+    press(panel.position.home["x"])
+    qtbot.waitUntil(lambda: panel.position.owners.text() == "X: homing", timeout=LONG_MS)
+    assert "X: homing" in window._status.text()
+    assert not panel.position.home["y"].isEnabled()
+    assert not panel.device.connect_button.isEnabled()
+
+
+def test_the_latch_locks_until_it_is_released_here(qtbot, window, panel, press):
+    phase_is(qtbot, panel, "ready")
+    press(panel.standing.emergency)
+    qtbot.waitUntil(lambda: "latched" in panel.standing.reason.text(), timeout=LONG_MS)
+    assert panel.standing.phase.property("tone") == "danger"
+    assert not panel.standing.emergency.isEnabled()
+    assert not panel.position.home_all.isEnabled()
+    assert "latched" in panel.position.home_all.toolTip()
+    press(panel.standing.release)
+    qtbot.waitUntil(panel.standing.emergency.isEnabled, timeout=LONG_MS)
+
+
+def test_a_move_is_taken_back(qtbot, window, panel, press):
+    session = window.workbench.session
+    phase_is(qtbot, panel, "ready")
+    assert "no move to take back" in panel.position.back.toolTip()
+    start = session.snapshot().command["zn"]
+    window.workbench.jog("zn", 1e-6)
+    press(panel.position.back)
+    qtbot.waitUntil(lambda: abs(session.snapshot().command["zn"] - start) < 1e-12, timeout=LONG_MS)
+
+
+def test_a_floor_is_taught_after_a_question_that_names_both_heights(qtbot, window, panel, press):
+    session, tip = window.workbench.session, panel.tip
+    phase_is(qtbot, panel, "ready")
+    assert tip.figures.values["Floor"].text() == "none"
+    assert not tip.remove.isEnabled()
+    shown = tip.figures.values["Tip height"].text()
+    press(tip.teach)
+    assert tip.question.isVisibleTo(panel)
+    assert shown in tip.question.text.text()
+    assert "none yet" in tip.question.text.text()
+    qtbot.mouseClick(tip.question.no, Qt.MouseButton.LeftButton)
+    assert tip.question.isHidden()
+    assert not session.keep_out.bounded
+    press(tip.teach)
+    qtbot.mouseClick(tip.question.yes, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: tip.figures.values["Floor"].text() == shown, timeout=LONG_MS)
+    assert tip.figures.values["Above the floor"].text() == "0.0000 mm"
+    window.workbench.jog("z", -1e-3)
+    assert "floor" in notices(window)
+    press(tip.remove)
+    assert shown in tip.question.text.text()
+    assert "none" in tip.question.text.text()
+    qtbot.mouseClick(tip.question.yes, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: tip.figures.values["Floor"].text() == "none", timeout=LONG_MS)
+
+
+def test_a_question_is_withdrawn_when_the_tip_moves(qtbot, window, panel, press):
+    phase_is(qtbot, panel, "ready")
+    press(panel.tip.teach)
+    window.workbench.jog("z", 1e-4)
+    qtbot.waitUntil(panel.tip.question.isHidden, timeout=LONG_MS)
+    assert "no floor was taught" in notices(window)
+
+
+@pytest.mark.parametrize("way", ["write", "accept"])
+def test_parameters_that_differ_are_settled(qtbot, make_robot_window, press, differing, way):
+    window = make_robot_window(driver=differing)
+    panel = window.panels["connection"]
+    parameters, session = panel.parameters, window.workbench.session
+    qtbot.waitUntil(lambda: parameters.table.rowCount() == 2, timeout=LONG_MS)
+    phase_is(qtbot, panel, "locked")
+    rows = [[parameters.table.item(row, column).text() for column in range(3)] for row in range(2)]
+    assert rows == [["x pitch <b>", "0.5 mm", "0.4 mm"], ["y limit", "50 mm", "55 mm"]]
+    assert not panel.tip.teach.isEnabled()
+    press(getattr(parameters, way))
+    phase_is(qtbot, panel, "ready")
+    assert parameters.table.rowCount() == 0
+    assert (session.driver.written, session.driver.accepted) == (way == "write", way == "accept")
+    assert not parameters.write.isEnabled()
+
+
+def test_a_device_that_cannot_be_opened_leaves_a_window_with_the_reason(
+    qtbot, make_robot_window, press, absent
+):
+    window = make_robot_window(driver=absent)
+    panel = window.panels["connection"]
+    phase_is(qtbot, panel, "failed")
+    assert "nothing answers on port <COM9>" in panel.standing.reason.text()
+    assert "nothing answers on port <COM9>" in notices(window)
+    assert panel.standing.reason.textFormat() is Qt.TextFormat.PlainText
+    assert not panel.position.home_all.isEnabled()
+    qtbot.waitUntil(window._bar.reconnect.isVisible, timeout=LONG_MS)
+    window.workbench.session.driver.plugged_in = True
+    press(window._bar.reconnect)
+    phase_is(qtbot, panel, "ready")
+    qtbot.waitUntil(lambda: not window._bar.reconnect.isVisible(), timeout=LONG_MS)
+
+
+def test_a_lost_connection_is_distrusted_until_confirmed(qtbot, make_robot_window, press, losing):
+    window = make_robot_window(driver=losing)
+    panel, driver = window.panels["connection"], window.workbench.session.driver
+    phase_is(qtbot, panel, "ready")
+    driver.cut = True
+    phase_is(qtbot, panel, "failed")
+    driver.cut = False
+    press(panel.device.reconnect_button)
+    phase_is(qtbot, panel, "locked")
+    assert "may be wrong" in panel.standing.reason.text()
+    press(panel.position.confirm)
+    phase_is(qtbot, panel, "ready")
+    assert not panel.position.confirm.isEnabled()
+
+
+def test_a_fault_is_cleared_from_here(qtbot, make_robot_window, press, losing):
+    window = make_robot_window(driver=losing)
+    panel, driver = window.panels["connection"], window.workbench.session.driver
+    phase_is(qtbot, panel, "ready")
+    assert not panel.standing.clear.isEnabled()
+    driver.trouble = "too hot"
+    phase_is(qtbot, panel, "fault")
+    assert "too hot" in panel.standing.reason.text()
+    press(panel.standing.clear)
+    phase_is(qtbot, panel, "ready")
+
+
+def test_disconnecting_and_connecting_with_other_settings(qtbot, window, panel, press):
+    device, session = panel.device, window.workbench.session
+    phase_is(qtbot, panel, "ready")
+    assert not device.connect_button.isEnabled()
+    assert "connected with these settings" in device.connect_button.toolTip()
+    press(device.disconnect_button)
+    phase_is(qtbot, panel, "disconnected")
+    field = device.form.fields["start_fraction"].widget
+    field.setText("0.25")
+    device.form.fields["settle_s"].widget.setText("0.02")
+    press(device.connect_button)
+    phase_is(qtbot, panel, "ready")
+    assert session.driver.settings["start_fraction"] == 0.25
+    assert session.snapshot().command["x"] == pytest.approx(0.055 * 0.25)
+    assert window.workbench.settings.get("driver.simulator.start_fraction", 0.0) == 0.25
+    assert window.workbench.settings.get("driver.simulator.start_homed", False) is False
+
+
+def test_another_device_leads_back_to_no_place_of_the_first(qtbot, window, panel, press):
+    phase_is(qtbot, panel, "ready")
+    window.workbench.jog("zn", 1e-6)
+    qtbot.waitUntil(lambda: panel.position.back.isEnabled(), timeout=LONG_MS)
+    panel.device.form.fields["seed"].widget.setText("5")
+    press(panel.device.connect_button)
+    qtbot.waitUntil(lambda: window.workbench.session.driver.settings["seed"] == 5, timeout=LONG_MS)
+    phase_is(qtbot, panel, "ready")
+    qtbot.waitUntil(lambda: not panel.position.back.isEnabled(), timeout=LONG_MS)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "told"),
+    [
+        ("settle_s", "0,5", "decimal point"),
+        ("settle_s", "1_0", "no number"),
+        ("seed", "1.5", "no whole number"),
+    ],
+)
+def test_a_setting_of_another_type_is_marked_and_not_used(qtbot, window, panel, name, text, told):
+    field = panel.device.form.fields[name]
+    field.widget.setText(text)
+    qtbot.waitUntil(lambda: bool(field.widget.property("bad")), timeout=LONG_MS)
+    assert not panel.device.connect_button.isEnabled()
+    assert told in panel.device.connect_button.toolTip()
+
+
+def test_a_value_that_the_driver_refuses_becomes_a_notice(qtbot, window, panel, press):
+    panel.device.form.fields["start_fraction"].widget.setText("7")
+    press(panel.device.connect_button)
+    assert "start_fraction" in notices(window)
+    assert window.workbench.session.snapshot().connection is Connection.CONNECTED
+    assert window.workbench.settings.get("driver.simulator.start_fraction", 0.5) == 0.5
+
+
+class Bursting(Simulator):
+    name = "bursting"
+
+    def __init__(self, *_args, **_options):
+        raise TypeError("made for <another> age")
+
+
+def test_broken_drivers_are_listed_with_the_reason(make_robot_window, monkeypatch):
+    found = {"simulator": Simulator, "bursting": Bursting}
+    broken = {"old": "old:Driver is made for version <1>"}
+    monkeypatch.setattr(
+        device_module, "discover_drivers", lambda: registry.Discovery(found, broken)
+    )
+    window = make_robot_window()
+    device = window.panels["connection"].device
+    assert [device.choice.itemText(row) for row in range(3)] == [
+        "simulator",
+        "bursting",
+        "old – cannot be used",
+    ]
+    item = device.choice.model().item(2)
+    assert not item.isEnabled()
+    assert "&lt;1&gt;" in item.toolTip()
+    assert device.broken.text() == "old is left out: old:Driver is made for version <1>"
+    assert device.broken.textFormat() is Qt.TextFormat.PlainText
+    device.choice.setCurrentIndex(1)
+    device._connect()
+    assert "cannot be made: TypeError: made for <another> age" in notices(window)
+    assert window.workbench.session.driver.name == "simulator"
+
+
+class Ported(Simulator):
+    name = "ported"
+    default_settings = {**Simulator.default_settings, "port": "", "second_port": ""}  # noqa: RUF012
+
+
+def test_ports_are_offered_and_free_text_is_kept(qtbot, make_robot_window, monkeypatch):
+    found = {"simulator": Simulator, "ported": Ported}
+    monkeypatch.setattr(device_module, "discover_drivers", lambda: registry.Discovery(found, {}))
+    window = make_robot_window()
+    device = window.panels["connection"].device
+    assert device.find.isHidden()
+    device.choice.setCurrentIndex(1)
+    port = device.form.fields["port"].widget
+    qtbot.waitUntil(lambda: port.count() == 1, timeout=LONG_MS)
+    assert port.itemText(0) == "/dev/ttyTEST0"
+    assert "&lt;b&gt;" in port.itemData(0, Qt.ItemDataRole.ToolTipRole)
+    qtbot.keyClicks(port.lineEdit(), "socket://host:9")
+    qtbot.keyClick(port.lineEdit(), Qt.Key.Key_Return)
+    assert window.workbench.settings.get("driver.ported.port", "") == "socket://host:9"
+    device.choice.setCurrentIndex(0)
+    window.workbench.offer_ports([("/dev/pts/8", "board 1"), ("/dev/pts/9", "board 2")])
+    assert device.choice.currentText() == "ported"
+    assert device.form.values()["port"] == "/dev/pts/8"
+    assert device.form.values()["second_port"] == "/dev/pts/9"
+    window.workbench.offer_ports([("/dev/pts/7", "both boards")])
+    assert device.form.values()["second_port"] == ""
+
+
+def test_a_robot_without_tip_and_switches_says_so(qtbot, make_robot_window):
+    window = make_robot_window("picma")
+    panel = window.panels["connection"]
+    qtbot.waitSignal(window.workbench.refreshed).wait()
+    assert "no switches" in panel.position.home_all.toolTip()
+    assert "no tip" in panel.tip.teach.toolTip()
+    assert not panel.position.home
+
+
+def test_everything_that_can_be_pressed_is_reached_by_keyboard_and_named(window, panel):
+    for widget in panel.findChildren(device_module.DriverChoice) + [
+        field.widget for field in panel.device.form.fields.values()
+    ]:
+        assert widget.focusPolicy() & Qt.FocusPolicy.TabFocus
+        assert widget.accessibleName()
+    for name in ("emergency", "release", "clear"):
+        assert getattr(panel.standing, name).focusPolicy() & Qt.FocusPolicy.TabFocus
+    assert all(
+        label.textFormat() is Qt.TextFormat.PlainText
+        for label in panel.findChildren(QLabel)
+        if label.wordWrap()
+    )
+
+
+def test_nothing_is_moved_by_a_session_that_only_shows(qtbot, window, panel):
+    phase_is(qtbot, panel, "ready")
+    state = window.workbench.session.snapshot()
+    assert state.phase is Phase.READY
+    assert state.activity is DeviceState.IDLE

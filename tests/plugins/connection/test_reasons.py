@@ -1,0 +1,97 @@
+"""Why something cannot be done now: pure functions of the session's state."""
+
+import pytest
+
+from rotemina.app.motion.state import Connection, SessionState
+from rotemina.drivers.samples import DeviceState
+from rotemina.drivers.simulator.driver import Simulator
+from rotemina.plugins.connection import reasons
+from rotemina.sim.robot.file import load_robot
+
+SIMULATOR = Simulator(load_robot("rotemina"))
+PIEZO_ONLY = Simulator(load_robot("picma"))
+
+
+def state(**changes):
+    sound = {
+        "connection": Connection.CONNECTED,
+        "activity": DeviceState.IDLE,
+        "position_known": True,
+    }
+    return SessionState(**{**sound, **changes})
+
+
+CONNECTING = state(connection=Connection.CONNECTING, activity=DeviceState.CLOSED)
+GONE = state(connection=Connection.DISCONNECTED, activity=DeviceState.CLOSED, locked="gone")
+FAILED = state(connection=Connection.FAILED, activity=DeviceState.CLOSED, fault="x", locked="x")
+MOVING = state(activity=DeviceState.MOVING)
+DISTRUSTED = state(locked="the connection was lost: home, or confirm")
+
+
+@pytest.mark.parametrize(
+    ("given", "same", "why"),
+    [
+        (state(), False, None),
+        (state(), True, "connected with these settings"),
+        (GONE, True, None),
+        (FAILED, True, None),
+        (CONNECTING, False, "still connecting"),
+        (MOVING, False, "still moving"),
+    ],
+)
+def test_connecting(given, same, why):
+    told = reasons.against_connecting(given, same=same)
+    assert told is None if why is None else why in told
+
+
+def test_disconnecting_and_reconnecting_exclude_each_other():
+    for given in (state(), GONE, FAILED):
+        told = (reasons.against_disconnecting(given), reasons.against_reconnecting(given))
+        assert told.count(None) == 1
+    assert reasons.against_disconnecting(CONNECTING) is None
+    assert "connecting" in reasons.against_reconnecting(CONNECTING)
+
+
+@pytest.mark.parametrize(
+    ("given", "why"),
+    [
+        (state(), None),
+        (state(position_known=False, locked="home first"), None),
+        (MOVING, "still moving"),
+        (state(queued=1), "still moving"),
+        (state(fault="hot", locked="hot"), "clear it first"),
+        (state(latched="emergency stop", locked="latched"), "release it first"),
+        (state(silent_s=0.2), "does not answer"),
+        (GONE, "not connected"),
+    ],
+)
+def test_homing(given, why):
+    told = reasons.against_homing(given, SIMULATOR)
+    assert told is None if why is None else why in told
+    assert "no switches" in reasons.against_homing(given, PIEZO_ONLY)
+
+
+def test_only_a_doubtful_position_is_confirmed():
+    assert reasons.against_confirming(DISTRUSTED) is None
+    assert "doubtful" in reasons.against_confirming(state())
+    assert "doubtful" in reasons.against_confirming(state(locked="differ", differences=("a",)))
+    assert "home first" in reasons.against_confirming(state(position_known=False, locked="home"))
+
+
+def test_going_back():
+    assert reasons.against_going_back(state(), undoable=True) is None
+    assert "no move" in reasons.against_going_back(state(), undoable=False)
+    assert "still moving" in reasons.against_going_back(MOVING, undoable=True)
+    assert reasons.against_going_back(DISTRUSTED, undoable=True) == DISTRUSTED.locked
+
+
+def test_clearing_and_writing():
+    assert reasons.against_clearing(state(fault="hot")) is None
+    assert "no fault" in reasons.against_clearing(state())
+    assert "connect" in reasons.against_clearing(FAILED)
+    assert "keeps no parameters" in reasons.against_writing(state(), SIMULATOR)
+
+
+def test_floor():
+    assert "no tip" in reasons.against_teaching(state(), None)
+    assert "no tip" in reasons.against_removing(None)

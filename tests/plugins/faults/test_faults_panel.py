@@ -1,0 +1,134 @@
+"""The faults panel: history of a real session, and a virtual board in a process of its own."""
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QFileDialog
+
+from rotemina.drivers.errors import ConnectionLostError
+from rotemina.drivers.simulator.driver import Simulator
+
+LONG_MS = 30_000
+
+
+class Losing(Simulator):
+    name = "losing"
+    cut = False
+
+    def _read(self):
+        if self.cut:
+            raise ConnectionLostError("losing: the <cable> is torn off")
+        return super()._read()
+
+
+@pytest.fixture
+def panel(window):
+    return window.panels["faults"]
+
+
+def rows(panel):
+    table = panel.table
+    return [
+        (table.item(row, 1).text(), table.item(row, 2).text()) for row in range(table.rowCount())
+    ]
+
+
+def wait_for(qtbot, panel, *row):
+    qtbot.waitUntil(lambda: row in rows(panel), timeout=LONG_MS)
+
+
+def test_refusals_latches_and_recoveries_are_listed_newest_first(qtbot, window, panel):
+    wait_for(qtbot, panel, "recovered", "connected")
+    window.workbench.go_to({"x": 1.0})
+    window.workbench.emergency_stop()
+    wait_for(qtbot, panel, "emergency stop", "emergency stop latched")
+    window.workbench.release()
+    wait_for(qtbot, panel, "emergency stop", "released")
+    kinds = [kind for kind, _ in rows(panel)]
+    assert kinds == ["emergency stop", "emergency stop", "refused", "recovered"]
+    assert "x" in rows(panel)[2][1]
+    assert panel.table.item(0, 0).text().count(":") == 2
+
+
+def test_a_lost_device_is_listed_as_plain_text(qtbot, make_robot_window):
+    window = make_robot_window(driver=Losing)
+    panel = window.panels["faults"]
+    wait_for(qtbot, panel, "recovered", "connected")
+    window.workbench.session.driver.cut = True
+    wait_for(qtbot, panel, "lost", "losing: the <cable> is torn off")
+    assert "&lt;cable&gt;" in panel.table.item(0, 2).toolTip()
+    assert not panel.clear_fault.isEnabled()
+    assert "reconnect" in panel.clear_fault.toolTip()
+
+
+def test_rows_are_copied_and_written_as_text(qtbot, window, panel, tmp_path, monkeypatch):
+    wait_for(qtbot, panel, "recovered", "connected")
+    window.workbench.go_to({"x": 1.0})
+    qtbot.waitUntil(lambda: panel.table.rowCount() == 2, timeout=LONG_MS)
+    qtbot.mouseClick(panel.copy, Qt.MouseButton.LeftButton)
+    lines = QGuiApplication.clipboard().text().splitlines()
+    assert [line.split("\t")[1] for line in lines] == ["recovered", "refused"]
+    panel.table.selectRow(1)
+    qtbot.keyClick(panel.table, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
+    assert QGuiApplication.clipboard().text() == lines[0] + "\n"
+    target = tmp_path / "faults.txt"
+    monkeypatch.setattr(QFileDialog, "show", lambda dialog: dialog.fileSelected.emit(str(target)))
+    qtbot.mouseClick(panel.save, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(target.exists, timeout=LONG_MS)
+    assert target.read_text("utf-8").splitlines() == lines
+
+
+def test_the_list_can_be_emptied_and_goes_on(qtbot, window, panel):
+    wait_for(qtbot, panel, "recovered", "connected")
+    qtbot.mouseClick(panel.empty, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: panel.table.rowCount() == 0, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: not panel.save.isEnabled(), timeout=LONG_MS)
+    window.workbench.go_to({"x": 1.0})
+    qtbot.waitUntil(lambda: panel.table.rowCount() == 1, timeout=LONG_MS)
+
+
+def test_a_chosen_row_stays_chosen_while_others_come(qtbot, window, panel):
+    wait_for(qtbot, panel, "recovered", "connected")
+    panel.table.selectRow(0)
+    window.workbench.go_to({"x": 1.0})
+    qtbot.waitUntil(lambda: panel.table.rowCount() == 2, timeout=LONG_MS)
+    assert [entry.text for entry in panel.table.chosen()] == ["connected"]
+
+
+def test_without_a_board_nothing_can_be_injected(window, panel):
+    assert panel.injection.start.isEnabled()
+    assert not panel.injection.end.isEnabled()
+    for row in panel.injection.rows:
+        assert not row.button.isEnabled()
+        assert "start it first" in row.button.toolTip()
+        for field in row.fields:
+            assert field.accessibleName()
+
+
+def test_a_virtual_board_serves_takes_faults_and_ends_with_the_window(qtbot, window, panel):
+    injection, board = panel.injection, panel.injection.board
+    qtbot.mouseClick(injection.start, Qt.MouseButton.LeftButton)
+    assert not injection.start.isEnabled()
+    qtbot.waitUntil(lambda: len(board.ports) == 2, timeout=LONG_MS)
+    device = window.panels["connection"].device
+    assert device.choice.currentText() == "mc68hc11"
+    values = device.form.values()
+    assert (values["port"], values["second_port"]) == tuple(port for port, _ in board.ports)
+    row = next(row for row in injection.rows if row.fault.title == "Cable")
+    qtbot.waitUntil(row.button.isEnabled, timeout=LONG_MS)
+    qtbot.mouseClick(row.button, Qt.MouseButton.LeftButton)
+    wait_for(qtbot, panel, "injected", "silence 2.0 s")
+    board.inject("nonsense")
+    qtbot.waitUntil(lambda: rows(panel)[0][0] == "refused", timeout=LONG_MS)
+    assert "no such command" in rows(panel)[0][1]
+    assert window.close()
+    assert not board.running
+
+
+def test_a_board_that_cannot_be_served_says_why(qtbot, make_robot_window):
+    window = make_robot_window("emps")
+    panel = window.panels["faults"]
+    panel.injection._start()
+    qtbot.waitUntil(lambda: not panel.injection.board.running, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: any("ended: " in text for _, text in rows(panel)), timeout=LONG_MS)
+    assert panel.injection.start.isEnabled()
