@@ -221,6 +221,23 @@ def test_undo_goes_back_by_a_safe_way(free):
         free.session.undo()
 
 
+def test_whether_there_is_a_move_to_take_back_is_known_and_ends_with_the_device(free):
+    assert not free.session.undoable
+    free.session.jog("x", 1e-3)
+    free.until_idle()
+    assert free.session.undoable
+    free.session.undo()
+    free.until_idle()
+    assert not free.session.undoable
+    free.session.jog("x", 1e-3)
+    free.until_idle()
+    free.session.use(Simulator(free.driver.robot, clock=free.clock))
+    free.step(times=3)
+    assert not free.session.undoable
+    with pytest.raises(RefusedError, match="no move to take back"):
+        free.session.undo()
+
+
 REQUESTS = st.one_of(
     st.tuples(
         st.just("go"),

@@ -357,6 +357,20 @@ def test_a_real_machine_has_effects_of_its_own(make_robot_window, monkeypatch):
         assert not widget.isEnabled()
 
 
+def test_the_panel_follows_from_the_simulator_to_a_real_machine_and_back(
+    qtbot, window, loop, monkeypatch
+):
+    before = MotionSession.effects
+    with monkeypatch.context() as patch:
+        patch.setattr(MotionSession, "effects", property(lambda self: None))
+        qtbot.waitUntil(lambda: loop.status.text() == REAL_MACHINE, timeout=LONG_MS)
+        qtbot.waitUntil(lambda: not loop.add.isEnabled(), timeout=LONG_MS)
+        assert loop.table.rowCount() == 0
+    assert MotionSession.effects is before
+    qtbot.waitUntil(loop.add.isEnabled, timeout=LONG_MS)
+    assert loop.chain.asked == (LOOP,)
+
+
 def test_a_lost_simulator_locks_the_panel(qtbot, window, loop):
     window.workbench.session.close()
     qtbot.waitUntil(lambda: not loop.add.isEnabled(), timeout=LONG_MS)
