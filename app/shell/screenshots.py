@@ -45,12 +45,16 @@ def main(folder: Path) -> int:
         window.workbench.session.set_effects(effects)
         while window.workbench.session.effects != effects:  # the panel shows what is in place
             QApplication.processEvents()
+        window.workbench.emergency_stop()
         window.workbench.refreshed.emit(window.workbench.session.snapshot())
-        for theme in ("dark", "light"):
+        window.workbench.release()
+        window.workbench.teach_floor()
+        window.workbench.refreshed.emit(window.workbench.session.snapshot())
+        for theme, front in (("dark", "comparison"), ("light", "faults")):
             window.use_theme(theme)
             for width, height in SIZES:
                 window.resize(width, height)
-                window.docks["comparison"].raise_()
+                window.docks[front].raise_()
                 for _ in range(5):
                     QApplication.processEvents()
                 name = f"{width}x{height}-{theme}"
