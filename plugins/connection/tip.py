@@ -60,9 +60,9 @@ class TipSection(Section):
         self.column.addWidget(self.figures)
         self.teach = button("Teach floor …", self._ask_teach)
         self.remove = button("Remove floor …", self._ask_remove)
-        self.add_row(self.teach, self.remove)
         self.question = Question()
-        self.column.addWidget(self.question)
+        self.column.addWidget(self.question)  # above what asks it, which is in sight
+        self.add_row(self.teach, self.remove)
 
     def refresh(self, state: SessionState) -> None:
         """Show a state."""
