@@ -147,6 +147,8 @@ def _metadata(trajectory: CheckedTrajectory, driver: str) -> dict[str, str]:
     name = asked.metadata.get("trajectory") or asked.metadata.get("name")
     metadata = {
         "mode": mode_of(trajectory.robot, asked.axes),
+        # What the machine remembers from before the first row is not in the record.
+        "history": "unknown",
         "robot": trajectory.robot.name,
         "driver": driver,
         **({"trajectory": name} if name else {}),

@@ -133,6 +133,7 @@ def test_a_playback_gives_its_record(stepped):
     assert [str(column) for column in record.columns] == ["x.cmd", "x.meas"]
     assert dict(record.metadata) == {
         "mode": "open_loop",
+        "history": "unknown",
         "robot": "RoTeMiNa",
         "driver": "unruly",
         "trajectory": "there and back",

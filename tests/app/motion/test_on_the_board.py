@@ -1,0 +1,135 @@
+"""The whole way: a trajectory on virtual boards at true baud, recorded, and diagnosed."""
+
+import subprocess
+import sys
+import threading
+import time
+from contextlib import contextmanager
+from importlib.resources import files
+
+import numpy as np
+import pytest
+
+from rotemina.app.motion.session import MotionSession
+from rotemina.app.motion.state import CommandRefused, Faulted, Phase, PlaybackFinished
+from rotemina.drivers.mc68hc11.driver import MC68HC11
+from rotemina.sim.gap.method import diagnose
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.file import load_robot
+
+pytestmark = pytest.mark.slow
+ROBOT = load_robot("rotemina")
+CONNECTING_S, PLAYING_S = 20.0, 30.0
+DURATION_S = 8.0
+
+
+@contextmanager
+def board_process(robot):
+    """Serve both boards, each on a pseudo-terminal of its own; give their names."""
+    command = [sys.executable, "-m", "rotemina.app.cli.main", "board", "--robot", str(robot)]
+    with subprocess.Popen(
+        [*command, "--position-known"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        try:
+            lines = [process.stdout.readline() for _ in range(2)]
+            assert all(line.startswith("listening on ") for line in lines), lines
+            yield [line.split()[2].rstrip(":") for line in lines]
+        finally:
+            process.terminate()
+            process.communicate(timeout=10.0)
+
+
+class Told:
+    """The events of a session, and a way to wait for them."""
+
+    def __init__(self, session):
+        self.session = session
+        self.events = []
+        self._came = threading.Condition()
+        session.subscribe(self._note)
+
+    def _note(self, event):
+        with self._came:
+            self.events.append(event)
+            self._came.notify_all()
+
+    def until(self, condition, limit_s):
+        with self._came:
+            end_s = time.monotonic() + limit_s
+            while not condition():
+                left_s = end_s - time.monotonic()
+                assert left_s > 0.0, (self.session.snapshot(), self.events)
+                self._came.wait(min(left_s, 0.05))
+
+    def of(self, kind):
+        return [event for event in self.events if isinstance(event, kind)]
+
+
+def gentle(time_s):
+    """Rise and fall at the ends."""
+    return np.minimum(1.0, time_s) * np.minimum(1.0, time_s[-1] - time_s)
+
+
+def excitations(period_s):
+    time_s = np.arange(round(DURATION_S / period_s)) * period_s
+    window = gentle(time_s)
+    sweep = window * np.sin(2 * np.pi * (0.3 * time_s + 0.25 * time_s**2))
+    swing = window * np.sin(2 * np.pi * 1.1 * time_s)
+    units = {"x": "m", "zn": "m"}
+    for x, zn in ((4e-4 * swing, 20e-6 * sweep), (5e-5 * sweep, 25e-6 * swing)):
+        commands = {("x", Tap.CMD): 0.0275 + x, ("zn", Tap.CMD): 32e-6 + zn}
+        yield Record.from_signals(time_s, commands, units)
+
+
+def recorded(robot):
+    """Play both excitations on boards with this robot behind them; return the records."""
+    with board_process(robot) as (port, second):
+        session = MotionSession(MC68HC11(ROBOT, {"port": port, "second_port": second}))
+        told = Told(session)
+        session.start()
+        try:
+            told.until(lambda: session.snapshot().phase is Phase.READY, CONNECTING_S)
+            for number, trajectory in enumerate(excitations(session.setpoint_period_s)):
+                session.play(trajectory)
+                told.until(lambda n=number: len(told.of(PlaybackFinished)) > n, PLAYING_S)
+            link = session.snapshot().link
+        finally:
+            session.close()
+    assert not told.of(Faulted)
+    assert not told.of(CommandRefused)
+    played = told.of(PlaybackFinished)
+    assert all(one.completed for one in played)
+    assert link.rejected == 0
+    return [one.record for one in played]
+
+
+def effects_file(folder, axis, effect):
+    path = folder / f"{effect}.toml"
+    text = files("rotemina.resources.robots").joinpath("rotemina.toml").read_text("utf-8")
+    path.write_text(f'{text}\n[[axis.{axis}.effect]]\nid = "{effect}"\n', "utf-8")
+    return path
+
+
+def test_what_the_nominal_machine_played_shows_no_gap():
+    records = recorded("rotemina")
+    for record, asked in zip(records, excitations(5e-3), strict=True):
+        for axis, step in (("x", 1e-7), ("zn", 1e-9)):
+            wanted = asked.signal(axis, Tap.CMD)
+            assert np.abs(record.signal(axis, Tap.CMD) - wanted).max() <= 0.5001 * step
+        np.testing.assert_allclose(np.diff(record.time_s), 5e-3, rtol=1e-6)
+    diagnosis = diagnose(ROBOT, records)
+    assert diagnosis.verdict.value == "none"
+    assert not diagnosis.causes
+
+
+@pytest.mark.parametrize(("axis", "effect"), [("zn", "hysteresis"), ("x", "backlash")])
+def test_a_machine_with_one_effect_is_diagnosed_as_that_effect(tmp_path, axis, effect):
+    records = recorded(effects_file(tmp_path, axis, effect))
+    diagnosis = diagnose(ROBOT, records)
+    assert diagnosis.verdict.value == "explained"
+    assert [(one.axis, one.effect) for one in diagnosis.causes] == [(axis, effect)]
+    assert diagnosis.causes[0].closed >= 0.95
