@@ -20,7 +20,7 @@ EXTRAS_bench := [test,bench]
 EXTRAS_screenshots := [test]
 
 .NOTPARALLEL:
-.PHONY: run test test-slow lint bench screenshots clean help system rebuild
+.PHONY: run test test-slow soak lint bench screenshots clean help system rebuild
 
 run: QT_PLATFORM :=
 run: system $(VENV)/.run  ## open the program with the built-in simulator
@@ -33,6 +33,9 @@ test: system $(VENV)/.test  ## run the quick tests
 test-slow: system $(VENV)/.test  ## run the long tests
 	@if grep -rqs --include='*.py' '^ *@pytest\.mark\.slow\|^pytestmark.*slow' tests; \
 	then $(PYTEST) -m slow; else echo 'There are no slow tests.'; fi
+
+soak: system $(VENV)/.test  ## an hour of random faults on the boards
+	@ROTEMINA_SOAK_S=3600 $(PYTEST) -s -m slow tests/drivers/mc68hc11/test_soak.py
 
 lint: system $(VENV)/.lint $(VENV)/src  ## check style, types and the layers
 	@$(BIN)/ruff check .

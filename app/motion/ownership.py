@@ -1,7 +1,8 @@
 """Who drives an axis now: one owner each, told to the operator, taken over only on purpose."""
 
 import threading
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from types import MappingProxyType
 
 from rotemina.app.motion.mailbox import RefusedError
@@ -19,7 +20,7 @@ class Ownership:
 
     def __init__(self) -> None:
         self._owners: dict[str, str] = {}
-        self._lock = threading.Lock()
+        self._lock = threading.RLock()
 
     @property
     def owners(self) -> Mapping[str, str]:
@@ -27,8 +28,11 @@ class Ownership:
         with self._lock:
             return MappingProxyType(dict(self._owners))
 
-    def claim(self, axes: Iterable[str], owner: str) -> None:
-        """Make axes an owner's, or none of them.
+    @contextmanager
+    def claimed(self, axes: Iterable[str], owner: str) -> Iterator[None]:
+        """Make axes an owner's, or none; nothing is released while the body asks for motion.
+
+        If that is refused, the owners are as before.
 
         Raises
         ------
@@ -43,14 +47,21 @@ class Ownership:
                     raise RefusedError(
                         f"axis {axis} is driven by {other}; stop it, or take over first"
                     )
+            before = dict(self._owners)
             self._owners.update(dict.fromkeys(wanted, owner))
+            try:
+                yield
+            except BaseException:
+                self._owners = before
+                raise
 
     def take_over(self, axes: Iterable[str], owner: str) -> None:
         """Make axes an owner's, whoever had them."""
         with self._lock:
             self._owners.update(dict.fromkeys(axes, owner))
 
-    def release(self) -> None:
-        """Free every axis: the machine is at rest and nobody waits."""
+    def release(self, waits: Callable[[], bool] = lambda: False) -> None:
+        """Free every axis: the machine is at rest, unless somebody's request still waits."""
         with self._lock:
-            self._owners.clear()
+            if not waits():
+                self._owners.clear()

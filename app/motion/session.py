@@ -88,12 +88,12 @@ class MotionSession(DeviceSession):
         driver.check_velocity(velocities, lease_s)
         with self._lock:
             self._refuse_if_locked()
-            self._worker.ownership.claim(velocities, owner)
             guard = self._guard
             used = guard.velocity(self._place(velocities), velocities, lease_s)
             ways, braking = guard.ways(used, lease_s), guard.ways(used, 0.0)
-            self._note_rest()
-            self._mailbox.post(Drive(used, lease_s, self._clock(), ways, braking))
+            with self._worker.ownership.claimed(velocities, owner):
+                self._note_rest()
+                self._mailbox.post(Drive(used, lease_s, self._clock(), ways, braking))
         return used
 
     def home(self, axes: Sequence[str] | None = None) -> None:
@@ -113,9 +113,9 @@ class MotionSession(DeviceSession):
             self._refuse_if_unready(state)
             if state.activity is not DeviceState.IDLE or len(self._mailbox):
                 raise RefusedError("the machine is still moving; stop it or wait before homing")
-            self._worker.ownership.claim(wanted, HOMING)
+            with self._worker.ownership.claimed(wanted, HOMING):
+                self._mailbox.post(Home(wanted))
             self._undo.forget()
-            self._mailbox.post(Home(wanted))
 
     def undo(self) -> None:
         """Go back to where the axes rested before the latest move: up, across, down.
@@ -135,8 +135,9 @@ class MotionSession(DeviceSession):
             for targets in ways:
                 legs += self._guard.move(place, targets)
                 place = self._guard.place({}, {**self._worker.state.command, **targets})
-            self._worker.ownership.claim(ways[0], OPERATOR)
-            self._mailbox.post(Move(tuple(legs)))
+            axes = {axis for leg in legs for axis in leg.targets}
+            with self._worker.ownership.claimed(axes, OPERATOR):
+                self._mailbox.post(Move(tuple(legs)))
 
     @property
     def undoable(self) -> bool:
@@ -195,9 +196,9 @@ class MotionSession(DeviceSession):
             if self._worker.state.activity is not DeviceState.IDLE or len(self._mailbox):
                 raise RefusedError("the machine is still moving; stop it or wait before playing")
             self._guard.play(self._place(), checked)
-            self._worker.ownership.claim(self.driver.axes, PLAYBACK)
-            self._note_rest()
-            self._mailbox.post(Play(checked))
+            with self._worker.ownership.claimed(self.driver.axes, PLAYBACK):
+                self._note_rest()
+                self._mailbox.post(Play(checked))
 
     # --- bounds and parameters --------------------------------------------------------------------
 
@@ -237,9 +238,9 @@ class MotionSession(DeviceSession):
     def _post_move(self, targets: dict[str, float], owner: str) -> None:
         self._refuse_if_locked()
         legs = self._guard.move(self._place(), targets)
-        self._worker.ownership.claim(targets, owner)
-        self._note_rest()
-        self._mailbox.post(Move(legs))
+        with self._worker.ownership.claimed(targets, owner):
+            self._note_rest()
+            self._mailbox.post(Move(legs))
 
     def _place(self, driven: Container[str] = ()) -> Place:
         """Return where the axes may be by what they have been told and said last.

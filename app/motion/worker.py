@@ -207,8 +207,7 @@ class Worker:
             and not self._executor.between_legs
         ):
             self._executor.rested()
-            if not len(self._mailbox):
-                self.ownership.release()
+            self.ownership.release(lambda: len(self._mailbox) > 0)
 
     def _updated(self, samples: Samples, model: FloatArray, status: DeviceStatus) -> SessionState:
         fault = self._next.fault

@@ -311,3 +311,12 @@ def test_a_session_lets_go_and_connects_again(free):
     assert free.driver.status().state is DeviceState.CLOSED
     free.session.reconnect()
     assert free.step(0.02, 2).phase is Phase.READY
+
+
+def test_a_refused_request_leaves_the_owners_as_they_were(make_stepped):
+    stepped = make_stepped(driver=Simulator, queue_size=1)
+    stepped.step()
+    stepped.session.go_to({"x": 0.03}, owner="script")
+    with pytest.raises(RefusedError, match="waiting already"):
+        stepped.session.go_to({"y": 0.03}, owner="joystick")
+    assert stepped.session.snapshot().owners == {"x": "script"}
