@@ -142,6 +142,7 @@ class _Server:
     def serve(self, ended: Callable[[], bool]) -> None:
         """Go on until ``ended``."""
         began_s = time.monotonic()
+        _tell(f"0.0000 s is {began_s:.6f} s of this machine's monotonic clock")
         now_s = 0.0
         while not ended() and (self._listens or not self._until_stdin):
             pause_s = min(max(self._boards.wake_s - now_s, _WAKE_S), _SLEEP_S)

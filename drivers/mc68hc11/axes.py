@@ -122,7 +122,7 @@ def _step(axis: StepperAxis | PiezoAxis) -> tuple[int, int]:
         return _parts(resolution)
     exponent = floor(log10(finest))
     leading = next(one for one in (1, 2, 5, 10) if one * 10.0**exponent >= finest * (1.0 - 1e-9))
-    return leading, exponent
+    return (leading, exponent) if leading < 10 else (1, exponent + 1)
 
 
 def _parts(size: float) -> tuple[int, int]:
