@@ -1,6 +1,7 @@
 """``rotemina board``: the boards and the machine without either, for a host to talk to."""
 
 import argparse
+import gc
 import os
 import selectors
 import signal
@@ -87,6 +88,8 @@ def run(options: argparse.Namespace) -> int:
         for port, line in zip(ports, boards.lines, strict=True):
             who = " and ".join(f"board {number}" for number in line.numbers)
             _tell(f"listening on {port.name}: {who}")
+        gc.collect()
+        gc.freeze()  # what lives as long as the process need not be looked through while hosts wait
         _Server(boards, ports, options).serve(ended)
     return 0
 
@@ -147,14 +150,17 @@ class _Server:
         while not ended() and (self._listens or not self._until_stdin):
             pause_s = min(max(self._boards.wake_s - now_s, _WAKE_S), _SLEEP_S)
             commanded = self._wait(pause_s)
-            now_s = time.monotonic() - began_s
-            self._mishaps.live(now_s)
-            for port, line in self._ends:
-                if data := port.receive():
+            arrived = [(port, line, port.receive()) for port, line in self._ends]
+            # Behind the bytes, or they came before they were sent; before anything is simulated.
+            arrived_s = time.monotonic() - began_s
+            self._mishaps.live(arrived_s)
+            for port, line, data in arrived:
+                if data:
                     self._note_host(port.name)
-                    line.receive(data, now_s)
+                    line.receive(data, arrived_s)
             if commanded:
                 self._read_commands()
+            now_s = time.monotonic() - began_s
             for port, line in self._ends:
                 port.send(line.advance(now_s))
             for event in self._boards.notes.taken():
