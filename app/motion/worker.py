@@ -307,7 +307,7 @@ class Worker:
 
 
 _NOT_CONNECTED = "not connected; connect first"
-_PORTION_S = 0.008  # between two times that samples are worked up
+_PORTION_S = 0.016  # between two times that samples are worked up
 
 
 def _lock_reason(state: SessionState, distrust: str | None) -> str | None:

@@ -55,7 +55,7 @@ def reading_fast(bench: Bench) -> None:
     with bench.opened(to_move=False) as subject:
         usual_s = interval_of(subject.run(0.5))
         parts = []
-        for _ in range(100):
+        for _ in range(300):  # devices may tell samples in portions
             subject.advance(0.1 * usual_s)
             parts += [subject.driver.read(), subject.driver.read()]
         fast = Samples.joined(parts, len(subject.axes))

@@ -38,7 +38,7 @@ from rotemina.sim.robot.model import AxisEffect, ForceAxis, PiezoAxis, Robot, St
 from rotemina.sim.trajectory.limits import check_target
 
 MAX_RATE_HZ = 20_000.0
-_PORTION_S = 0.008  # device time that is simulated at once when somebody only reads
+_PORTION_S = 0.016  # device time that is simulated at once when somebody only reads
 MAX_READ_S = 5.0  # device time that one call simulates at most; the rest waits for the next
 MAX_CAPTURE = 100_000  # samples
 

@@ -55,7 +55,7 @@ class Stepped:
         self.session.run_once()
         return self
 
-    def step(self, seconds=0.01, times=1):
+    def step(self, seconds=0.02, times=1):
         for _ in range(times):
             self.clock.advance(seconds)
             self.session.run_once()

@@ -181,7 +181,7 @@ def test_phases_name_what_matters(free):
     free.session.go_to({"x": 0.05})
     assert free.step(0.1, 2).phase is Phase.MOVING
     free.session.stop()
-    assert free.step(0.01).phase is Phase.STOPPING
+    assert free.step(0.02).phase is Phase.STOPPING
     free.until_idle()
     assert free.session.snapshot().phase is Phase.READY
     free.session.close()
