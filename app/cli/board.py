@@ -6,8 +6,10 @@ import os
 import selectors
 import signal
 import sys
+import threading
 import time
-from collections.abc import Callable, Iterator
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from functools import partial
 from pathlib import Path
@@ -24,6 +26,7 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.robot.model import Robot
 
 _WAKE_S, _SLEEP_S = 1e-3, 20e-3  # at least so long, and at most, between two looks
+_SWITCH_S = 2e-4
 _MOST_PORTS = 2
 _STDIN = 0
 
@@ -127,6 +130,49 @@ def _makers(options: argparse.Namespace, count: int) -> Iterator[Callable[[], Ho
         yield partial(Socket, address, _tell)
 
 
+class _Ears(threading.Thread):
+    """Hears what hosts and standard input say, at the moment they do, whatever is simulated."""
+
+    def __init__(self, ports: Sequence[HostPort]) -> None:
+        super().__init__(name="board ears", daemon=True)
+        self.rung = threading.Event()
+        self.heard: deque[tuple[int, bytes, float]] = deque()  # which port, what, host time s
+        self.commands: deque[bytes] = deque()
+        # Elsewhere nothing but sockets can be waited for.
+        self.listens = os.name == "posix" and sys.stdin is not None
+        self._ports = tuple(ports)
+        self._ended = threading.Event()
+
+    def run(self) -> None:
+        """Listen until `end`."""
+        while not self._ended.is_set():
+            # Few handles, which change, and files among them: a selector made anew takes them all.
+            with selectors.SelectSelector() as selector:
+                for port in self._ports:
+                    for handle in port.handles():
+                        selector.register(handle, selectors.EVENT_READ)
+                if self.listens:
+                    selector.register(_STDIN, selectors.EVENT_READ)
+                ready = {key.fd for key, _ in selector.select(_SLEEP_S)}
+            if _STDIN in ready:
+                self._hear_commands()
+            for number, port in enumerate(self._ports):
+                if not ready.isdisjoint(port.handles()) and (data := port.receive()):
+                    self.heard.append((number, data, time.monotonic()))
+            if ready:
+                self.rung.set()
+
+    def end(self) -> None:
+        """End, and wait for it."""
+        self._ended.set()
+        self.join()
+
+    def _hear_commands(self) -> None:
+        data = os.read(_STDIN, 4096)
+        self.listens = bool(data)
+        self.commands.append(data)
+
+
 class _Server:
     """Lets the boards live in real time, and carries bytes and commands to and fro."""
 
@@ -137,54 +183,44 @@ class _Server:
         self._ends = list(zip(ports, boards.lines, strict=True))
         self._mishaps = Mishaps(boards, options.mishaps, options.seed)
         self._until_stdin = options.until_stdin_closes
-        self._heard: set[str] = set()
+        self._ears = _Ears(ports)
+        self._met: set[str] = set()
         self._line = b""
-        # Elsewhere nothing but sockets can be waited for.
-        self._listens = os.name == "posix" and sys.stdin is not None
 
     def serve(self, ended: Callable[[], bool]) -> None:
         """Go on until ``ended``."""
+        sys.setswitchinterval(_SWITCH_S)  # the ears must not wait for what is simulated
         began_s = time.monotonic()
         _tell(f"0.0000 s is {began_s:.6f} s of this machine's monotonic clock")
+        self._ears.start()
         now_s = 0.0
-        while not ended() and (self._listens or not self._until_stdin):
-            pause_s = min(max(self._boards.wake_s - now_s, _WAKE_S), _SLEEP_S)
-            commanded = self._wait(pause_s)
-            arrived = [(port, line, port.receive()) for port, line in self._ends]
-            # Behind the bytes, or they came before they were sent; before anything is simulated.
-            arrived_s = time.monotonic() - began_s
-            self._mishaps.live(arrived_s)
-            for port, line, data in arrived:
-                if data:
-                    self._note_host(port.name)
-                    line.receive(data, arrived_s)
-            if commanded:
-                self._read_commands()
-            now_s = time.monotonic() - began_s
-            for port, line in self._ends:
-                port.send(line.advance(now_s))
-            for event in self._boards.notes.taken():
-                _tell(f"{event.at_s:.4f} s: {event.text}")
+        try:
+            while not ended() and (self._ears.listens or not self._until_stdin):
+                self._ears.rung.wait(min(max(self._boards.wake_s - now_s, _WAKE_S), _SLEEP_S))
+                self._ears.rung.clear()
+                self._hear(began_s)
+                now_s = time.monotonic() - began_s
+                self._mishaps.live(now_s)
+                for port, line in self._ends:
+                    port.send(line.advance(now_s))
+                for event in self._boards.notes.taken():
+                    _tell(f"{event.at_s:.4f} s: {event.text}")
+        finally:
+            self._ears.end()
 
-    def _wait(self, pause_s: float) -> bool:
-        """Wait for bytes; return whether there are commands to read."""
-        # Few handles, which change, and among them files: a selector made anew takes them all.
-        with selectors.SelectSelector() as selector:
-            for port, _ in self._ends:
-                for handle in port.handles():
-                    selector.register(handle, selectors.EVENT_READ)
-            if self._listens:
-                selector.register(_STDIN, selectors.EVENT_READ)
-            return any(key.fd == _STDIN for key, _ in selector.select(pause_s))
+    def _hear(self, began_s: float) -> None:
+        while self._ears.heard:
+            number, data, host_time_s = self._ears.heard.popleft()
+            port, line = self._ends[number]
+            if port.name not in self._met:
+                self._met.add(port.name)
+                _tell(f"{port.name}: a host speaks")
+            # What came while the boards were further already comes now.
+            line.receive(data, max(host_time_s - began_s, self._boards.now_s))
+        while self._ears.commands:
+            self._command(self._ears.commands.popleft())
 
-    def _note_host(self, name: str) -> None:
-        if name not in self._heard:
-            self._heard.add(name)
-            _tell(f"{name}: a host speaks")
-
-    def _read_commands(self) -> None:
-        data = os.read(_STDIN, 4096)
-        self._listens = bool(data)
+    def _command(self, data: bytes) -> None:
         *lines, self._line = (self._line + data).split(b"\n")
         for line in lines:
             command = line.decode("utf-8", "replace").strip()

@@ -143,10 +143,11 @@ class Socket:
     def receive(self) -> bytes:
         """Return what the host has written since; never waits."""
         self._accept()
-        if self._client is None:
+        client = self._client
+        if client is None:
             return b""
         try:
-            data = self._client.recv(_PIECE)
+            data = client.recv(_PIECE)
         except BlockingIOError:
             return b""
         except OSError:
@@ -157,13 +158,14 @@ class Socket:
 
     def send(self, data: bytes) -> None:
         """Hand bytes to the host as soon as it takes them; never waits."""
-        if self._client is None:
+        client = self._client  # which another thread may hang up on
+        if client is None:
             return
         self._waiting += data
         if not self._waiting:
             return
         try:
-            self._waiting = self._waiting[self._client.send(self._waiting) :]
+            self._waiting = self._waiting[client.send(self._waiting) :]
         except BlockingIOError:
             self._waiting = self._waiting[-_MOST_WAITING:]
         except OSError:

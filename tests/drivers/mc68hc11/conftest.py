@@ -94,3 +94,9 @@ def robot():
 def joined_bench():
     """Return a function that joins a driver to virtual boards."""
     return Bench
+
+
+@pytest.fixture
+def memory_port():
+    """Return the class of lines in memory."""
+    return MemoryPort

@@ -1,0 +1,73 @@
+"""The boards' driver, put to the conformance kit over lines in memory to virtual boards."""
+
+import pytest
+
+from rotemina.drivers.clock import VirtualClock
+from rotemina.drivers.conformance.bench import Bench as KitBench
+from rotemina.drivers.conformance.check import Verdict
+from rotemina.drivers.conformance.suite import CHECKS
+from rotemina.drivers.mc68hc11.driver import MC68HC11
+from rotemina.drivers.virtual_board.boards import VirtualBoards
+
+pytestmark = pytest.mark.slow
+# Its clock is looked at by whoever advances it too, so the kit cannot tell when a read begins.
+NOT_HERE = {"stop-during-a-read", "stop-when-called"}
+
+
+class Surroundings:
+    """Boards that stay, whatever drivers come and go."""
+
+    def __init__(self, robot, ports, memory_port):
+        self.robot = robot
+        self.count = ports
+        self.clock = VirtualClock(1234.5)
+        self.begin_s = self.clock()
+        self.memory_port = memory_port
+        self.boards = VirtualBoards(robot, ports=ports, position_known=True)
+        self.ports = []
+        self.opened = 0
+
+    def make(self, settings):
+        own = {"port": "first", "settle_s": 0.05}
+        if self.count == 2:
+            own["second_port"] = "second"
+        return MC68HC11(
+            self.robot,
+            {**own, **settings},
+            clock=self.clock,
+            open_port=self.open_port,
+            pause=self.clock.advance,
+        )
+
+    def open_port(self, url, _baud):
+        port = self.memory_port(self.boards.lines[url == "second"], self.clock)
+        port.begin_s = self.begin_s
+        self.ports.append(port)
+        self.opened += 1
+        return port
+
+    def set_link(self, *, cut):
+        for port in self.ports:
+            port.cut = cut
+
+    def bench(self):
+        return KitBench(
+            make=self.make,
+            advance=self.clock.advance,
+            cut_link=lambda: self.set_link(cut=True),
+            restore_link=lambda: self.set_link(cut=False),
+            touched=lambda: self.opened > 0,
+        )
+
+
+@pytest.mark.parametrize("ports", [2, 1], ids=["two lines", "shared bus"])
+def test_the_boards_keep_the_contract(robot, memory_port, ports):
+    wrong, passed = [], 0
+    for check in CHECKS:
+        result = check.run(Surroundings(robot, ports, memory_port).bench())
+        if result.verdict is Verdict.PASSED:
+            passed += 1
+        elif result.verdict is not Verdict.SKIPPED or check.name not in NOT_HERE | {"fault"}:
+            wrong.append(f"{check.name}: {result.verdict}: {result.demand} {result.note}")
+    assert not wrong
+    assert passed >= len(CHECKS) - len(NOT_HERE) - 1
