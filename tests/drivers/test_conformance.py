@@ -509,6 +509,7 @@ def test_a_driver_that_keeps_the_contract_passes_every_check():
     assert [(one.name, one.note) for one in results if one.verdict is not Verdict.PASSED] == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mutant", MUTANTS, ids=lambda mutant: mutant.__name__)
 def test_a_driver_that_does_one_thing_wrong_fails_the_check_meant_for_it(mutant):
     results = run_checks(bench(mutant))
