@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import cache
 from typing import Self
 
 import numpy as np
@@ -103,6 +104,7 @@ class Samples:
             raise ProtocolError("samples: a command or reading is not a finite number")
 
     @classmethod
+    @cache  # asked for every millisecond
     def none(cls, axes: int) -> Self:
         """Return no samples of a machine with so many axes."""
         table = np.empty((0, axes))

@@ -49,6 +49,7 @@ def _set_point(board: Firmware, asked: requests.SetPoint) -> None:
     if not stream.playing:
         demand_free(board)
         demand(not board.moving, Refusal.BUSY)
+        board.profile.clear()  # both lie in the same memory
     demand(not stream.full, Refusal.QUEUE_FULL)
     position = (asked.first, asked.second, asked.third)[: len(board.axes)]
     tick = board.clock.tick_at(asked.time_us, board.now)
@@ -85,7 +86,7 @@ def _home(board: Firmware, asked: requests.Home) -> None:
 def _begin_profile(board: Firmware, asked: requests.BeginProfile) -> None:
     axis = axis_of(board, asked.axis)
     demand(0 < asked.segments <= SEGMENTS, Refusal.BAD_VALUE)
-    demand(not board.profile.running, Refusal.BUSY)
+    demand(not board.profile.running and not board.stream.playing, Refusal.BUSY)
     board.profile.begin(axis, asked.segments)
 
 

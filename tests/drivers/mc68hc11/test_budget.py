@@ -6,7 +6,9 @@ from pathlib import Path
 import pytest
 
 from rotemina.drivers.mc68hc11.budget import BAUDS, Line, rates
-from rotemina.drivers.mc68hc11.framing import STOP_BYTES
+from rotemina.drivers.mc68hc11.codes import SEGMENTS, SETPOINTS
+from rotemina.drivers.mc68hc11.framing import MAX_FRAME, STOP_BYTES
+from rotemina.drivers.mc68hc11.requests import Segment, SetPoint
 
 PAGE = (Path(__file__).parents[3] / "docs" / "protocol.md").read_text("utf-8")
 LINES = [Line(baud, half) for baud in BAUDS for half in (False, True)]
@@ -51,3 +53,13 @@ def test_the_table_of_the_documentation_is_what_is_announced():
                 round(1e3 * line.stop_s(), 1),
             ]
         )
+
+
+def test_what_a_board_keeps_fits_into_its_memory():
+    table = PAGE.partition("## What a board needs")[2].partition("##")[0]
+    sizes = [int(size) for size in re.findall(r"\| (\d+) \|$", table, re.MULTILINE)]
+    assert sizes[0] == SETPOINTS * (SetPoint.LAYOUT.size - 2)  # without index and left
+    assert sizes[0] == SEGMENTS * (Segment.LAYOUT.size - 1)  # without index
+    assert sizes[1] == MAX_FRAME - 2
+    assert sizes[2] == 2 * MAX_FRAME
+    assert sum(sizes) <= 512

@@ -371,3 +371,12 @@ def test_limits_are_kept_whatever_is_said(hosts, orders):
         for one in host.boards.boards:
             for axis, drive in enumerate(one.drives):
                 assert one.kept.inside(axis, round(drive.position))
+
+
+def test_a_stream_and_a_profile_lie_in_the_same_memory(host):
+    thrust(host, Segment(0, 100_000, 1000, 0, 0), board=1, axis=0)
+    row = points(host, 3, ahead_us=100_000)
+    host.ask(row[0])
+    assert host.refusal(TriggerProfile()) == Refusal.OUT_OF_ORDER
+    assert host.refusal(BeginProfile(0, 1)) == Refusal.BUSY
+    assert host.telemetry().state & State.ARMED == 0
