@@ -30,8 +30,8 @@ def run_test(options: Namespace) -> None:
     cases, folder = _cases(options)
     blind = BlindRun(folder, cases)
     ask = partial(diagnose, jobs=options.jobs)
-    others_too = _contest(options, folder) if options.naive else None
-    pending = blind.pending(options.shard)
+    pending = [] if options.score else blind.pending(options.shard)
+    others_too = _contest(options, folder) if options.naive and pending else None
     for number, name in enumerate(pending, start=1):
         blind.do(name, ask, others_too)
         print(f"{name}: done ({number} of {len(pending)})", file=sys.stderr)
@@ -91,7 +91,9 @@ def _write(
         if options.report is not None:
             picture = options.report.with_suffix(".svg")
             files.enter_context(replaced(options.report)).write(
-                page(figures, outcomes, picture.name, _made(cases), rivals).encode("utf-8")
+                page(figures, outcomes, picture.name, _made(cases, len(outcomes)), rivals).encode(
+                    "utf-8"
+                )
             )
             draw_confusion(counts, files.enter_context(replaced(picture)))
         if options.json not in (None, "-"):
@@ -124,9 +126,11 @@ def _document(
     }
 
 
-def _made(cases: Cases) -> str:
+def _made(cases: Cases, done: int) -> str:
     told = " ".join(f"{key} {value}" for key, value in cases.key.items())
-    return f"rotemina gap blind, {len(cases.names)} cases of {told}"
+    asked = len(cases.names)
+    share = f"{asked}" if done == asked else f"{done} of {asked}"
+    return f"rotemina gap blind, {share} cases of {told}"
 
 
 def _names(figures: dict[str, Figure]) -> dict[str, Figure]:

@@ -39,6 +39,9 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     )
     parser.add_argument("--jobs", type=int, metavar="N", help="how many processes a diagnosis uses")
     parser.add_argument(
+        "--score", action="store_true", help="score what is done, and do no more cases"
+    )
+    parser.add_argument(
         "--naive",
         action="store_true",
         help="let three naive methods answer the same cases, for comparison (takes longer)",
