@@ -173,10 +173,14 @@ class Worker:
         samples = self._driver.read()
         if len(samples):
             self._unread.append(samples)
-        status = self._driver.status()
         now_s = self._clock()
+        since_s = now_s - self._worked_up_s
+        if not len(samples) and since_s < _PORTION_S:
+            return
+        status = self._driver.status()
         news = status.state is not self._next.activity and not self._executor.between_legs
-        if news or now_s - self._worked_up_s >= _PORTION_S:
+        # A cycle that has just read a portion leaves the work to the next one, which has the time.
+        if news or since_s >= _LATEST_S or (since_s >= _PORTION_S and not len(samples)):
             self._worked_up_s = now_s
             parts, self._unread = self._unread, []
             self._work_up(Samples.joined(parts, len(self._driver.axes)), status)
@@ -308,6 +312,7 @@ class Worker:
 
 _NOT_CONNECTED = "not connected; connect first"
 _PORTION_S = 0.016  # between two times that samples are worked up
+_LATEST_S = 0.019
 
 
 def _lock_reason(state: SessionState, distrust: str | None) -> str | None:
