@@ -306,7 +306,7 @@ class Worker:
 
     def _publish(self) -> None:
         before, self.state = self.state, self._next
-        if _told(before) != _told(self.state):
+        if before is not self.state and _told(before) != _told(self.state):
             self._emit(StateChanged(self.state))
 
 

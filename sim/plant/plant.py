@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Self
 
 import numpy as np
@@ -24,6 +25,7 @@ from rotemina.sim.plant.steps import steps_through
 from rotemina.sim.robot.model import Axis, CascadeController, PiezoAxis, Robot, StepperAxis
 
 _TRIES = 50  # of the input with which a controller holds an axis
+_SHORT = 64  # rows of a run that may come again, as a live one does
 _HELD = 1e-12  # relative change of that input which is none
 
 
@@ -254,8 +256,7 @@ class Plant:
         moved = kernel.State(state.x.copy(), state.memory.copy(), state.seen.copy())
         acting = self._acting(stack, behind)
         kernel.run(
-            self._machine(behind),
-            self._steps(stack.time_s, history, behind),
+            *_prepared(self, stack.time_s, history, behind),
             given,
             acting.taken(effort),
             moved,
@@ -340,7 +341,8 @@ class Plant:
         """Return the delays of inputs that act between rows, s."""
         return tuple(np.asarray(self._delays(behind)) - self._late_at_once(behind))
 
-    def _steps(self, time_s: FloatArray, first: int, behind: Behind) -> kernel.Steps:
+    def steps(self, time_s: FloatArray, first: int, behind: Behind) -> kernel.Steps:
+        """Return the steps through samples (n,), of which those before ``first`` are history."""
         return steps_through(
             cut(time_s, first, tuple(sorted(set(self._stepped_delays(behind))))),
             self.assembly.all_groups,
@@ -348,7 +350,7 @@ class Plant:
             with_holds=bool(self.effects),
         )
 
-    def _machine(self, behind: Behind) -> Machine:
+    def machine(self, behind: Behind) -> Machine:
         """Return the tables with the loops entered."""
         machine = self.assembly.machine
         axis = machine.axis.copy()
@@ -421,6 +423,23 @@ class Plant:
             f"t = {stack.time_s[stack.first + row]:.6g} s; check the commands,{named} "
             "and the controller's gains"
         )
+
+
+def _prepared(
+    plant: Plant, time_s: FloatArray, first: int, behind: Behind
+) -> tuple[Machine, kernel.Steps]:
+    """Return what a run needs beside its inputs; a live one asks for the same again and again."""
+    if len(time_s) <= _SHORT:
+        return _prepared_before(plant, time_s.tobytes(), first, behind)
+    return plant.machine(behind), plant.steps(time_s, first, behind)
+
+
+@lru_cache(maxsize=32)
+def _prepared_before(
+    plant: Plant, times: bytes, first: int, behind: Behind
+) -> tuple[Machine, kernel.Steps]:
+    time_s = np.frombuffer(times, dtype=np.float64)
+    return plant.machine(behind), plant.steps(time_s, first, behind)
 
 
 def _input_per_command(axis: Axis) -> float:
