@@ -4,12 +4,13 @@ import subprocess
 import sys
 import threading
 import time
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib.resources import files
 
 import numpy as np
 import pytest
 
+from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import CommandRefused, Faulted, Phase, PlaybackFinished
 from rotemina.drivers.mc68hc11.driver import MC68HC11
@@ -21,14 +22,15 @@ pytestmark = pytest.mark.slow
 ROBOT = load_robot("rotemina")
 CONNECTING_S, PLAYING_S = 20.0, 30.0
 DURATION_S = 8.0
+MISBEHAVING_S = 25.0
 
 
 @contextmanager
-def board_process(robot):
-    """Serve both boards, each on a pseudo-terminal of its own; give their names."""
+def board_process(robot, *options):
+    """Serve both boards, each on a pseudo-terminal of its own; give names and standard input."""
     command = [sys.executable, "-m", "rotemina.app.cli.main", "board", "--robot", str(robot)]
     with subprocess.Popen(
-        [*command, "--position-known"],
+        [*command, "--position-known", *options],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
@@ -37,7 +39,7 @@ def board_process(robot):
         try:
             lines = [process.stdout.readline() for _ in range(2)]
             assert all(line.startswith("listening on ") for line in lines), lines
-            yield [line.split()[2].rstrip(":") for line in lines]
+            yield [line.split()[2].rstrip(":") for line in lines], process.stdin
         finally:
             process.terminate()
             process.communicate(timeout=10.0)
@@ -65,6 +67,11 @@ class Told:
                 assert left_s > 0.0, (self.session.snapshot(), self.events)
                 self._came.wait(min(left_s, 0.05))
 
+    def wait(self, limit_s):
+        """Wait for the next event, or so long."""
+        with self._came:
+            self._came.wait(limit_s)
+
     def of(self, kind):
         return [event for event in self.events if isinstance(event, kind)]
 
@@ -87,7 +94,7 @@ def excitations(period_s):
 
 def recorded(robot):
     """Play both excitations on boards with this robot behind them; return the records."""
-    with board_process(robot) as (port, second):
+    with board_process(robot) as ((port, second), _):
         session = MotionSession(MC68HC11(ROBOT, {"port": port, "second_port": second}))
         told = Told(session)
         session.start()
@@ -133,3 +140,46 @@ def test_a_machine_with_one_effect_is_diagnosed_as_that_effect(tmp_path, axis, e
     assert diagnosis.verdict.value == "explained"
     assert [(one.axis, one.effect) for one in diagnosis.causes] == [(axis, effect)]
     assert diagnosis.causes[0].closed >= 0.95
+
+
+def recover(session):
+    """Do the next thing that an operator would do to be able to move again."""
+    state = session.snapshot()
+    if state.phase is Phase.DISCONNECTED:
+        session.reconnect()
+    elif state.fault is not None:
+        session.clear_fault()
+    elif state.unhomed:
+        session.home()
+    elif state.locked and "confirm" in state.locked:
+        session.confirm_position()
+
+
+def test_the_worker_outlives_a_line_that_misbehaves():
+    rng = np.random.default_rng(0)
+    faults = ("silence 0.2 s", "silence 1 s", "reset 1", "brown-out 2", "garbage 20", "tear 0.1 s")
+    with board_process("rotemina", "--mishaps", "2") as ((port, second), commands):
+        session = MotionSession(MC68HC11(ROBOT, {"port": port, "second_port": second}))
+        told = Told(session)
+        session.start()
+        asked = 0
+        try:
+            told.until(lambda: session.snapshot().phase is Phase.READY, CONNECTING_S)
+            end_s = time.monotonic() + MISBEHAVING_S
+            while time.monotonic() < end_s:
+                with suppress(RefusedError):
+                    recover(session)
+                    session.go_to({"zn": float(rng.uniform(5e-6, 60e-6))})
+                    asked += 1
+                if rng.uniform() < 0.05:
+                    commands.write(f"{faults[rng.integers(len(faults))]}\n")
+                    commands.flush()
+                until_s = min(time.monotonic() + 0.1, end_s)
+                while time.monotonic() < until_s:
+                    told.wait(until_s - time.monotonic())
+            session.stop()
+        finally:
+            ended = session.close()
+    assert ended
+    assert asked > 20
+    assert not [event for event in told.of(Faulted) if "unexpected" in event.message]
