@@ -1,7 +1,8 @@
 """A session on boards whose lines, supply and sensors misbehave at random, at accelerated pace.
 
 Four minutes of life by default, in a minute or so; `make soak` lives for an hour. What must hold
-whatever happens: the machine is never commanded beyond its range, nothing moves after a stop, and nothing piles up.
+whatever happens: the machine is never commanded beyond its range, nothing moves after a stop, and
+nothing piles up.
 """
 
 import gc
