@@ -1,0 +1,1 @@
+"""Automatic cell penetration: approach, contact, thrust, hold, retract."""

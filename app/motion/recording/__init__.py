@@ -1,0 +1,1 @@
+"""The recorder of a session: everything on one clock, safe against crashes."""

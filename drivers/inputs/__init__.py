@@ -1,0 +1,1 @@
+"""Input devices: joysticks, gamepads, potentiometers and keys, behind one contract."""
