@@ -1,0 +1,114 @@
+"""A watch on the gap between model and machine: too far apart for too long stops the motion."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+import numpy as np
+
+from rotemina.drivers.samples import Samples
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.errors import InputError
+from rotemina.sim.robot.model import Robot
+from rotemina.sim.trajectory.wording import readable
+
+LASTING_S = 0.02  # an outlier of a sensor is no reason to stop
+
+
+@dataclass(frozen=True, slots=True)
+class Gap:
+    """How far readings were from the model: root mean square and largest, m or rad."""
+
+    rms: float
+    peak: float
+
+
+@dataclass(frozen=True, slots=True)
+class Excess:
+    """An axis that was beyond its bound for too long; m or rad."""
+
+    axis: str
+    deviation: float
+    bound: float
+    text: str
+
+
+class DeviationWatch:
+    """Compares readings with the nominal model's, portion by portion, while something plays.
+
+    Parameters
+    ----------
+    robot : Robot
+    bounds : mapping axis -> float
+        The greatest deviation that is no reason to stop, m or rad; axes without one are only
+        compared.
+    lasting_s : float
+        Device time for which a deviation must last.
+
+    Raises
+    ------
+    InputError
+        If there is no such axis, or a bound is not above 0.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        bounds: Mapping[str, float] = MappingProxyType({}),
+        lasting_s: float = LASTING_S,
+    ) -> None:
+        for axis, bound in bounds.items():
+            if axis not in robot.axes:
+                raise InputError(f"deviation: there is no axis {axis!r}")
+            if not bound > 0.0:
+                raise InputError(f"deviation: axis {axis}: a bound of {bound:g}: must be above 0")
+        self._robot = robot
+        self._axes = tuple(robot.axes)
+        self._bounds = np.array([bounds.get(axis, np.inf) for axis in self._axes])
+        self._lasting_s = lasting_s
+        self._since_s = np.full(len(self._axes), np.nan)  # device time; NaN within the bound
+        self._squares = np.zeros(len(self._axes))
+        self._peak = np.zeros(len(self._axes))
+        self._count = 0
+
+    @property
+    def gaps(self) -> dict[str, Gap]:
+        """How far model and machine have been apart, of each axis; empty before the first sample.
+
+        An axis whose model had no finite answer is left out.
+        """
+        if not self._count:
+            return {}
+        rms = np.sqrt(self._squares / self._count)
+        pairs = zip(self._axes, rms.tolist(), self._peak.tolist(), strict=True)
+        return {axis: Gap(one, peak) for axis, one, peak in pairs if np.isfinite(one)}
+
+    def add(self, samples: Samples, model: FloatArray) -> Excess | None:
+        """Take samples and the model's answers (n, axes); return what is beyond its bound."""
+        if not len(samples):
+            return None
+        deviation = np.abs(samples.measured - model)
+        self._squares += (deviation**2).sum(axis=0)
+        self._peak = np.maximum(self._peak, deviation.max(axis=0))
+        self._count += len(samples)
+        beyond = deviation > self._bounds
+        if not beyond.any() and np.isnan(self._since_s).all():
+            return None
+        for row in range(len(samples)):
+            time_s = float(samples.device_time_s[row])
+            begun = beyond[row] & np.isnan(self._since_s)
+            self._since_s[begun] = time_s
+            self._since_s[~beyond[row]] = np.nan
+            lasting = np.flatnonzero(time_s - self._since_s >= self._lasting_s)
+            if len(lasting):
+                return self._excess(int(lasting[0]), float(deviation[row, lasting[0]]))
+        return None
+
+    def _excess(self, column: int, deviation: float) -> Excess:
+        axis, bound = self._axes[column], float(self._bounds[column])
+        unit = self._robot.unit(axis) or ""
+        text = (
+            f"axis {axis} is {readable(deviation, unit)} from where the model expects it, for more "
+            f"than {self._lasting_s * 1e3:g} ms: at most {readable(bound, unit)}"
+        )
+        return Excess(axis, deviation, bound, text)

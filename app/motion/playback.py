@@ -1,0 +1,282 @@
+"""Playing a trajectory by an operator's hand: at a pace, paused, row by row, watched."""
+
+import threading
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+from types import MappingProxyType
+
+import numpy as np
+
+from rotemina.app.motion.deviation import DeviationWatch, Excess, Gap
+from rotemina.app.motion.mailbox import RefusedError
+from rotemina.app.motion.retiming import Piece, check_speed, piece
+from rotemina.app.motion.session import MotionSession
+from rotemina.app.motion.state import Connection, Event, PlaybackFinished, StateChanged
+from rotemina.drivers.samples import DeviceState, Samples
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.trajectory.checked import CheckedTrajectory
+
+_ROUNDING_S = 1e-6  # of times that came from a device
+
+
+class PlaybackPhase(StrEnum):
+    """What a playback does."""
+
+    IDLE = "idle"
+    PLAYING = "playing"
+    PAUSED = "paused"
+
+
+@dataclass(frozen=True, slots=True)
+class PlaybackState:
+    """One moment of a playback.
+
+    Attributes
+    ----------
+    phase : PlaybackPhase
+    row, rows : int
+        The last row that was reached (−1 before the first one), of how many.
+    path_s, duration_s : float
+        Where that is in the trajectory's own time, of how much.
+    speed : float
+        Times as fast as the trajectory says.
+    gaps : mapping axis -> Gap
+        Model against machine since the beginning.
+    excess : Excess or None
+        Why it was stopped, if the deviation was excessive.
+    """
+
+    phase: PlaybackPhase = PlaybackPhase.IDLE
+    row: int = -1
+    rows: int = 0
+    path_s: float = 0.0
+    duration_s: float = 0.0
+    speed: float = 1.0
+    gaps: Mapping[str, Gap] = field(default_factory=lambda: MappingProxyType({}))
+    excess: Excess | None = None
+
+
+class Playback:
+    """Plays one trajectory at a time through a session; every method from any thread.
+
+    A pause brings the axes to rest at once, each within its own acceleration, and so off the path
+    by no more than their braking; going on leads them back to the last row that began. Each
+    stretch that is played makes a record of its own, told by the session's ``PlaybackFinished``.
+    Whatever else stops the machine (stop, fault, lost link) ends the playback.
+
+    Parameters
+    ----------
+    session : MotionSession
+    exceeded : callable
+        Told once, on the session's thread, when a deviation has stopped the playback.
+    """
+
+    def __init__(
+        self, session: MotionSession, exceeded: Callable[[Excess], None] = lambda _: None
+    ) -> None:
+        self._session = session
+        self._exceeded = exceeded
+        self._lock = threading.Lock()
+        self._whole: CheckedTrajectory | None = None
+        self._piece: Piece | None = None
+        self._watch: DeviationWatch | None = None
+        self._pausing = False
+        self._state = PlaybackState()
+        self._ends = (session.subscribe(self._on_event), session.tap(self._on_samples))
+
+    def close(self) -> None:
+        """Have nothing more to do with the session; what plays goes on."""
+        for end in self._ends:
+            end()
+
+    @property
+    def state(self) -> PlaybackState:
+        """The present state."""
+        with self._lock:
+            state, watch = self._state, self._watch
+            piece_, whole = self._piece, self._whole
+            gaps = watch.gaps if watch is not None else state.gaps
+        if state.phase is PlaybackPhase.PLAYING and piece_ is not None and whole is not None:
+            elapsed_s = self._session.snapshot().progress * piece_.trajectory.duration_s
+            state = self._at(state, whole, piece_.path_time(elapsed_s))
+        return replace(state, gaps=MappingProxyType(gaps))
+
+    def play(
+        self,
+        trajectory: CheckedTrajectory,
+        *,
+        speed: float = 1.0,
+        bounds: Mapping[str, float] = MappingProxyType({}),
+    ) -> None:
+        """Play a trajectory from its first row.
+
+        Parameters
+        ----------
+        trajectory : CheckedTrajectory
+            As a dry run allowed it.
+        speed : float
+            Times as fast as it says, 0.01 to 10; another pace than 1 is checked against all limits.
+        bounds : mapping axis -> float
+            The greatest deviation of readings from the model, m or rad, beyond which it is stopped.
+
+        Raises
+        ------
+        InputError
+            If speed or bounds are none, or as :meth:`MotionSession.play`.
+        """
+        commands = trajectory.commands
+        watch = DeviationWatch(self._session.robot, bounds)
+        state = PlaybackState(
+            rows=len(commands.time_s), duration_s=commands.duration_s, speed=check_speed(speed)
+        )
+        self._begin(trajectory, 0, state, watch)
+
+    def pause(self) -> None:
+        """Bring the axes to rest, to go on later.
+
+        Raises
+        ------
+        RefusedError
+            If nothing plays.
+        """
+        with self._lock:
+            if self._state.phase is not PlaybackPhase.PLAYING:
+                raise RefusedError("nothing plays that could be paused")
+            self._pausing = True
+        self._session.stop()
+
+    def resume(self, *, speed: float | None = None) -> None:
+        """Go on from the last row that began, at the speed of before or at another one.
+
+        Raises
+        ------
+        RefusedError
+            If nothing is paused, or as :meth:`MotionSession.play`.
+        """
+        whole, watch, state = self._paused("go on with")
+        pace = state.speed if speed is None else check_speed(speed)
+        row = min(max(state.row, 0), state.rows - 1)
+        self._begin(whole, row, replace(state, speed=pace, excess=None), watch)
+
+    def step(self, rows: int = 1) -> None:
+        """Go some rows on, or back, and rest there; at the axes' own speed, without a record.
+
+        Raises
+        ------
+        RefusedError
+            If nothing is paused, or as :meth:`MotionSession.go_to`.
+        """
+        whole, _, state = self._paused("step through")
+        row = state.row + rows
+        if not 0 <= row < state.rows:
+            raise RefusedError(
+                f"playback: row {row}: the trajectory has rows 0 to {state.rows - 1}"
+            )
+        commands = whole.commands
+        self._session.go_to(
+            {axis: float(commands.signal(axis, Tap.CMD)[row]) for axis in commands.axes}
+        )
+        with self._lock:
+            path_s = float(commands.time_s[row] - commands.time_s[0])
+            self._state = replace(state, row=row, path_s=path_s)
+
+    def load_paused(self, trajectory: CheckedTrajectory) -> None:
+        """Take a trajectory in hand before its first row, to step through it.
+
+        Raises
+        ------
+        RefusedError
+            If something plays.
+        """
+        commands = trajectory.commands
+        with self._lock:
+            if self._state.phase is PlaybackPhase.PLAYING:
+                raise RefusedError("a trajectory is playing; pause or stop it first")
+            self._whole, self._watch = trajectory, DeviationWatch(self._session.robot)
+            self._state = PlaybackState(
+                PlaybackPhase.PAUSED, rows=len(commands.time_s), duration_s=commands.duration_s
+            )
+
+    def end(self) -> None:
+        """Stop, and forget what was paused."""
+        self._session.stop()
+        with self._lock:
+            self._state = replace(self._state, phase=PlaybackPhase.IDLE)
+
+    def _paused(self, what: str) -> tuple[CheckedTrajectory, DeviationWatch, PlaybackState]:
+        with self._lock:
+            if self._state.phase is not PlaybackPhase.PAUSED or not (self._whole and self._watch):
+                raise RefusedError(f"nothing is paused that one could {what}")
+            return self._whole, self._watch, self._state
+
+    def _begin(
+        self, whole: CheckedTrajectory, row: int, state: PlaybackState, watch: DeviationWatch
+    ) -> None:
+        period_s = self._session.setpoint_period_s
+        played: Record | CheckedTrajectory = whole
+        part = piece(whole.commands, row=row, speed=state.speed, setpoint_period_s=period_s)
+        if row or state.speed != 1.0:
+            played = part.trajectory
+        with self._lock:
+            if self._state.phase is PlaybackPhase.PLAYING:
+                raise RefusedError("a trajectory is playing; pause or stop it first")
+            before = (self._whole, self._piece, self._watch, self._state)
+            self._whole, self._piece, self._watch = whole, part, watch
+            self._state = replace(state, phase=PlaybackPhase.PLAYING)
+            self._pausing = False
+        try:
+            self._session.play(played)
+        except BaseException:
+            with self._lock:
+                self._whole, self._piece, self._watch, self._state = before
+            raise
+
+    def _on_samples(self, samples: Samples, model: FloatArray) -> None:
+        """Watch the gap of what belongs to the playback; on the session's thread."""
+        began = np.flatnonzero(samples.playback_row >= 0)
+        with self._lock:
+            playing = self._state.phase is PlaybackPhase.PLAYING
+            if not playing or self._watch is None or not (len(began) or self._watch.gaps):
+                return
+            excess = self._watch.add(samples, model)
+            if excess is None or self._state.excess is not None:
+                return
+            self._state = replace(self._state, excess=excess)
+            self._pausing = True
+        self._session.stop()
+        self._exceeded(excess)
+
+    def _on_event(self, event: Event) -> None:
+        if isinstance(event, StateChanged):
+            lost = event.state.connection is not Connection.CONNECTED
+            if lost or event.state.activity is DeviceState.FAULT:
+                with self._lock:  # never goes on by itself, nor from where it was
+                    self._pausing = False
+                    self._state = replace(self._state, phase=PlaybackPhase.IDLE)
+        elif isinstance(event, PlaybackFinished):
+            with self._lock:
+                self._finish(event)
+
+    def _finish(self, event: PlaybackFinished) -> None:
+        whole, part = self._whole, self._piece
+        if self._state.phase is not PlaybackPhase.PLAYING or whole is None or part is None:
+            return
+        reached_s = (
+            part.path_s[0]
+            if event.record is None
+            else part.path_time(event.record.duration_s + _ROUNDING_S)
+        )
+        if event.record is not None or self._state.row >= 0:
+            self._state = self._at(self._state, whole, reached_s)
+        paused = self._pausing and not event.completed
+        self._pausing = False
+        phase = PlaybackPhase.PAUSED if paused else PlaybackPhase.IDLE
+        self._state = replace(self._state, phase=phase)
+
+    @staticmethod
+    def _at(state: PlaybackState, whole: CheckedTrajectory, path_s: float) -> PlaybackState:
+        time_s = whole.commands.time_s
+        row = int(np.searchsorted(time_s - time_s[0], path_s + _ROUNDING_S, side="right")) - 1
+        return replace(state, row=max(row, 0), path_s=path_s)
