@@ -1,0 +1,228 @@
+"""Playback by hand: a pace, pauses, steps, and a stop where model and machine part."""
+
+import numpy as np
+import pytest
+
+from rotemina.app.motion.mailbox import RefusedError
+from rotemina.app.motion.playback import Playback, PlaybackPhase
+from rotemina.app.motion.state import PlaybackFinished
+from rotemina.drivers.samples import DeviceState
+from rotemina.sim.errors import InputError
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.trajectory.checked import check
+from rotemina.sim.trajectory.limits import OutOfLimitsError
+
+PERIOD_S = 1e-3
+ROWS = 2001
+
+
+def swing(robot, amplitude=1e-3, axis="x", start=0.02):
+    time_s = np.arange(ROWS) * PERIOD_S
+    path = start + amplitude * np.sin(np.pi * time_s / 2.0) ** 4
+    trajectory = Record.from_signals(time_s, {(axis, Tap.CMD): path}, {axis: "m"})
+    return check(robot, trajectory, PERIOD_S)
+
+
+@pytest.fixture
+def stepped(make_stepped):
+    return make_stepped(settings={"settle_s": 0.1})
+
+
+@pytest.fixture
+def told():
+    return []
+
+
+@pytest.fixture
+def playback(stepped, told):
+    playback = Playback(stepped.session, told.append)
+    yield playback
+    playback.close()
+
+
+def until_row(stepped, playback, row):
+    for _ in range(2000):
+        stepped.step(0.005)
+        if playback.state.row >= row:
+            return
+    raise AssertionError(playback.state)
+
+
+def records(stepped):
+    return [event.record for event in stepped.told(PlaybackFinished)]
+
+
+def test_a_playback_ends_at_its_last_row(stepped, playback):
+    trajectory = swing(stepped.session.robot)
+    playback.play(trajectory)
+    assert playback.state.phase is PlaybackPhase.PLAYING
+    stepped.until_idle()
+    state = playback.state
+    assert (state.phase, state.row, state.rows) == (PlaybackPhase.IDLE, ROWS - 1, ROWS)
+    assert state.path_s == pytest.approx(2.0, abs=1e-6)
+    assert 0.0 < state.gaps["x"].rms <= state.gaps["x"].peak < 1e-6
+    (record,) = records(stepped)
+    np.testing.assert_allclose(
+        record.signal("x", Tap.CMD), trajectory.commands.signal("x", Tap.CMD), atol=1e-12
+    )
+
+
+@pytest.mark.parametrize("speed", [0.5, 2.0])
+def test_a_pace(stepped, playback, speed):
+    playback.play(swing(stepped.session.robot), speed=speed)
+    stepped.until_idle()
+    assert playback.state.row == ROWS - 1
+    assert records(stepped)[0].duration_s == pytest.approx(2.0 / speed, abs=2e-3)
+
+
+def test_a_pace_beyond_the_limits_is_refused_and_nothing_moves(stepped, playback):
+    with pytest.raises(InputError, match=r"axis x|x:"):
+        playback.play(swing(stepped.session.robot, 8e-3), speed=10.0)
+    assert playback.state.phase is PlaybackPhase.IDLE
+    stepped.step()
+    assert stepped.session.snapshot().activity is DeviceState.IDLE
+
+
+def test_paused_and_gone_on_with_the_machine_passes_every_row(stepped, playback):
+    trajectory = swing(stepped.session.robot)
+    playback.play(trajectory)
+    until_row(stepped, playback, 700)
+    playback.pause()
+    stepped.until_idle()
+    paused = playback.state
+    assert paused.phase is PlaybackPhase.PAUSED
+    assert 700 <= paused.row < 720
+    stood = stepped.session.snapshot().command["x"]
+    stepped.step(0.02, 20)
+    assert stepped.session.snapshot().command["x"] == stood  # it does not go on by itself
+    playback.resume()
+    stepped.until_idle()
+    assert playback.state.phase is PlaybackPhase.IDLE
+    assert playback.state.row == ROWS - 1
+    first, second = records(stepped)
+    wanted = trajectory.commands.signal("x", Tap.CMD)
+    reached = first.signal("x", Tap.CMD)
+    np.testing.assert_allclose(reached, wanted[: len(reached)], atol=1e-12)
+    assert second.signal("x", Tap.CMD)[0] == pytest.approx(wanted[paused.row], abs=1e-12)
+    assert second.signal("x", Tap.CMD)[-1] == pytest.approx(wanted[-1], abs=1e-12)
+
+
+def test_a_pause_before_the_first_row_begins_at_the_first_row(stepped, playback):
+    playback.play(swing(stepped.session.robot))
+    stepped.step(0.02)
+    playback.pause()
+    stepped.until_idle()
+    assert playback.state.phase is PlaybackPhase.PAUSED
+    assert playback.state.row == -1
+    playback.resume()
+    stepped.until_idle()
+    assert playback.state.row == ROWS - 1
+    assert len(records(stepped)[-1].time_s) >= ROWS
+
+
+def test_steps_go_to_rows_and_back(stepped, playback):
+    trajectory = swing(stepped.session.robot)
+    playback.load_paused(trajectory)
+    wanted = trajectory.commands.signal("x", Tap.CMD)
+    for rows, row in ((1, 0), (500, 500), (-200, 300), (1700, 2000)):
+        playback.step(rows)
+        stepped.until_idle()
+        assert playback.state.row == row
+        assert stepped.session.snapshot().command["x"] == pytest.approx(wanted[row], abs=1e-12)
+    with pytest.raises(RefusedError, match="rows 0 to 2000"):
+        playback.step(1)
+
+
+def test_from_a_step_it_can_be_played_on(stepped, playback):
+    playback.load_paused(swing(stepped.session.robot))
+    playback.step(1001)
+    stepped.until_idle()
+    playback.resume(speed=2.0)
+    stepped.until_idle()
+    assert playback.state.row == ROWS - 1
+    assert records(stepped)[0].duration_s == pytest.approx(0.5 + 0.25, abs=0.01)
+
+
+def test_model_and_machine_parting_stops_the_motion(stepped, playback, told):
+    effect = AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.2})
+    stepped.session.set_effects((effect,))
+    stepped.step()
+    trajectory = swing(stepped.session.robot, 20e-6, axis="zn", start=30e-6)
+    playback.play(trajectory, bounds={"zn": 8e-6})
+    stepped.until_idle()
+    assert [one.axis for one in told] == ["zn"]
+    state = playback.state
+    assert state.excess == told[0]
+    assert state.phase is PlaybackPhase.PAUSED
+    assert 0 < state.row < ROWS // 2
+    assert records(stepped)[0] is not None  # what was played is kept
+
+
+def test_an_operator_s_stop_ends_it(stepped, playback):
+    playback.play(swing(stepped.session.robot))
+    until_row(stepped, playback, 100)
+    stepped.session.stop()
+    stepped.until_idle()
+    assert playback.state.phase is PlaybackPhase.IDLE
+    with pytest.raises(RefusedError, match="nothing is paused"):
+        playback.resume()
+
+
+def test_an_emergency_stop_in_a_pause_lets_nothing_go_on_until_released(stepped, playback):
+    playback.play(swing(stepped.session.robot))
+    until_row(stepped, playback, 100)
+    playback.pause()
+    stepped.until_idle()
+    stepped.session.emergency_stop()
+    with pytest.raises(RefusedError, match="latched"):
+        playback.resume()
+    with pytest.raises(RefusedError, match="latched"):
+        playback.step()
+    stepped.session.release()
+    playback.resume()
+    stepped.until_idle()
+    assert playback.state.row == ROWS - 1
+
+
+def test_a_lost_device_ends_a_pause(stepped, playback):
+    playback.play(swing(stepped.session.robot))
+    until_row(stepped, playback, 100)
+    playback.pause()
+    stepped.until_idle()
+
+    def gone():
+        raise ConnectionError("unplugged")
+
+    stepped.driver.before["read"] = gone
+    stepped.step()
+    assert playback.state.phase is PlaybackPhase.IDLE
+
+
+def test_nothing_to_pause_or_step_is_refused(playback):
+    for request in (playback.pause, playback.resume, playback.step):
+        with pytest.raises(RefusedError, match="nothing"):
+            request()
+
+
+def test_two_at_once_are_refused(stepped, playback):
+    trajectory = swing(stepped.session.robot)
+    playback.play(trajectory)
+    stepped.step()
+    with pytest.raises(RefusedError, match="playing"):
+        playback.play(trajectory)
+    with pytest.raises(RefusedError, match="playing"):
+        playback.load_paused(trajectory)
+    stepped.until_idle()
+    assert playback.state.row == ROWS - 1
+
+
+def test_a_path_into_the_floor_is_refused_as_in_any_playback(stepped, playback):
+    robot = stepped.session.robot
+    time_s = np.arange(3001) * PERIOD_S
+    down = 0.04 - 0.002 * np.sin(np.pi * time_s / 6.0) ** 2
+    dive = check(robot, Record.from_signals(time_s, {("z", Tap.CMD): down}, {"z": "m"}), PERIOD_S)
+    stepped.session.teach_floor(0.0005)
+    with pytest.raises(OutOfLimitsError):
+        playback.play(dive)
+    assert playback.state.phase is PlaybackPhase.IDLE
