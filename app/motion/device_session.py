@@ -21,7 +21,7 @@ from rotemina.app.motion.state import (
     Event,
     SessionState,
 )
-from rotemina.app.motion.worker import Worker
+from rotemina.app.motion.worker import Tap, Worker
 from rotemina.drivers.abilities import (
     Display,
     EffectCarrier,
@@ -30,6 +30,8 @@ from rotemina.drivers.abilities import (
 )
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
+from rotemina.drivers.samples import Samples
+from rotemina.sim.arrays import FloatArray
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
 
@@ -74,14 +76,18 @@ class DeviceSession:
         self._period_s = period_s if period_s is not None else driver.service_period_s
         self._stale_after_s = stale_after_s
         self._mailbox = Mailbox(queue_size)
-        self._worker = Worker(driver, self._mailbox, self.history, self._clock, self._emit)
+        self._worker = Worker(
+            driver, self._mailbox, self.history, self._clock, self._emit, self._tell_samples
+        )
         self._thread: threading.Thread | None = None
         self._closing = threading.Event()
         # Guards what follows; never held while the driver is called.
         self._lock = threading.Lock()
         self._latched: str | None = None
         self._callbacks: list[Callback] = []
+        self._taps: dict[Tap, bool] = {}  # whether it has failed
         self._stop_latency_s: float | None = None
+        self._stop_asked_s: float | None = None
 
     def start(self) -> None:
         """Connect to the device and keep talking to it, on a thread of its own.
@@ -191,6 +197,7 @@ class DeviceSession:
         self._worker.stopped(asked_s, failure)
         with self._lock:
             self._stop_latency_s = latency_s
+            self._stop_asked_s = asked_s
 
     def emergency_stop(self, reason: str = "emergency stop") -> None:
         """Stop, and let nothing move until :meth:`release`; any thread, never waits or raises."""
@@ -303,6 +310,26 @@ class DeviceSession:
 
         return unsubscribe
 
+    def tap(self, callback: Tap) -> Callable[[], None]:
+        """Have each portion of samples told to ``callback``, with the model's answers (n, axes).
+
+        It is called on the worker's thread, which waits for it: at most every 16 ms, after the
+        state is published and before events tell of it. Returns how to end that.
+        """
+        with self._lock:
+            self._taps[callback] = False
+
+        def end() -> None:
+            with self._lock:
+                self._taps.pop(callback, None)
+
+        return end
+
+    @property
+    def stop_asked_s(self) -> float | None:
+        """Host time of the latest stop, whoever asked for it; None before the first."""
+        return self._stop_asked_s
+
     def _ask(self, action: Callable[[Driver], None]) -> None:
         """Have something done on the thread that talks to the driver."""
         if self._worker.state.connection is not Connection.CONNECTED:
@@ -333,6 +360,19 @@ class DeviceSession:
                 callback(event)
             except Exception:  # a subscriber's mistake must not stop the machine's worker
                 _LOG.exception("a subscriber failed on %s", type(event).__name__)
+
+    def _tell_samples(self, samples: Samples, model: FloatArray) -> None:
+        with self._lock:
+            taps = tuple(self._taps.items())
+        for callback, failed in taps:
+            try:
+                callback(samples, model)
+            except Exception:  # as of a subscriber; said once, not sixty times a second
+                if not failed:
+                    _LOG.exception("a tap failed")
+                    with self._lock:
+                        if callback in self._taps:  # it may have ended itself
+                            self._taps[callback] = True
 
     def _run(self) -> None:
         next_s = time.monotonic()

@@ -33,6 +33,9 @@ from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 
+#: Called with samples and the nominal model's answers (n, axes) to them, m or rad.
+Tap = Callable[[Samples, FloatArray], None]
+
 
 class Worker:
     """Connects, executes queued commands, takes samples, records, and publishes ``state``.
@@ -40,7 +43,7 @@ class Worker:
     ``state`` is replaced as a whole, so any thread may look at it.
 
     The device is read in every cycle, which may be every millisecond; what it said is worked up in
-    portions, as fast as a screen could show it.
+    portions, as fast as a screen could show it. ``tell`` gets each portion; it must not raise.
     """
 
     def __init__(
@@ -50,6 +53,7 @@ class Worker:
         history: LiveHistory,
         clock: Clock,
         emit: Callable[[Event], None],
+        tell: Tap = lambda _, __: None,
     ) -> None:
         self.state = SessionState(locked=_NOT_CONNECTED)
         self.ownership = Ownership()
@@ -59,11 +63,13 @@ class Worker:
         self._history = history
         self._clock = clock
         self._emit = emit
+        self._tell = tell
         self._model = LiveModel(driver.robot)
         self._executor = Executor(driver, mailbox, clock)
         self._next = self.state
         self._unread: list[Samples] = []
         self._worked_up_s = float("-inf")
+        self._received_s = float("-inf")
         self._distrust: str | None = None
         # Set by other threads, each in one assignment.
         self._stop_asked_s: float | None = None
@@ -171,9 +177,10 @@ class Worker:
 
     def _take_samples(self) -> None:
         samples = self._driver.read()
+        now_s = self._clock()
         if len(samples):
             self._unread.append(samples)
-        now_s = self._clock()
+            self._received_s = now_s
         since_s = now_s - self._worked_up_s
         if not len(samples) and since_s < _PORTION_S:
             return
@@ -197,6 +204,8 @@ class Worker:
             self._executor.forget()
         # Published before events tell of it: a subscriber may answer with the next command.
         self._publish()
+        if len(samples):
+            self._tell(samples, model)
         if self._executor.recorder is not None:
             self._executor.recorder.add(samples)
             if status.state is not DeviceState.PLAYING:
@@ -238,7 +247,7 @@ class Worker:
                 command=_by_axis(axes, samples.command),
                 model=_by_axis(axes, model),
                 device_time_s=float(samples.device_time_s[-1]),
-                sample_host_time_s=self._clock(),
+                sample_host_time_s=self._received_s,
             )
         known = status.position_known and state.sample_host_time_s is not None
         state = replace(state, position_known=known)
