@@ -1,0 +1,7 @@
+"""What is wrong with a profile that somebody asked for."""
+
+from rotemina.sim.errors import InputError
+
+
+class ShapingError(InputError):
+    """A profile, shaper or fit that cannot be made; the message says what, value and bound."""
