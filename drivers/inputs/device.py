@@ -5,11 +5,13 @@ nor trusted: that a stick stands at its centre, which axis it is for and how far
 business of :mod:`rotemina.app.motion.teleoperation`.
 """
 
+import time
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
+from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import DriverError
 
 
@@ -46,6 +48,8 @@ class InputReading:
         When it came in, on the host's monotonic clock.
     axes : tuple of float
         −1 to 1 each, of the whole range that the device declares; a hat is two axes of −1, 0, 1.
+        NaN: the device has not told this axis yet (one with several reports tells a few at a time);
+        it is nowhere, and not to be taken for centred.
     buttons : tuple of bool
         Whether each is held.
     """
@@ -74,6 +78,8 @@ class InputDevice(ABC):
         ------
         InputLostError
             If the device has gone; it is then to be closed.
+        StateError
+            If it was closed.
         """
 
     @abstractmethod
@@ -90,11 +96,26 @@ class Rumbler(InputDevice, ABC):
 
 
 class InputSource(ABC):
-    """Finds input devices of one kind; what an entry point of ``rotemina.inputs`` names."""
+    """Finds input devices of one kind; what an entry point of ``rotemina.inputs`` names.
+
+    Parameters
+    ----------
+    clock : callable
+        The host's time, s: what readings are stamped with. An entry point's class is made with
+        this alone.
+    """
 
     api_version: ClassVar[int] = 1
     #: How screens call this kind of device.
     name: ClassVar[str] = "input"
+
+    def __init__(self, *, clock: Clock = time.monotonic) -> None:
+        self.clock = clock
+
+    @property
+    def problem(self) -> str | None:
+        """Why it can find nothing at the moment, in words for the operator; None if it can."""
+        return None
 
     @abstractmethod
     def devices(self) -> Sequence[InputIdentity]:

@@ -1,0 +1,136 @@
+"""The joystick at the machine's own controller: potentiometers and buttons, as a device."""
+
+import time
+from collections.abc import Callable, Sequence
+
+from rotemina.drivers.abilities import AnalogInputs
+from rotemina.drivers.clock import Clock
+from rotemina.drivers.driver import Driver
+from rotemina.drivers.errors import StateError
+from rotemina.drivers.inputs.device import (
+    InputDevice,
+    InputIdentity,
+    InputLostError,
+    InputReading,
+    InputSource,
+)
+from rotemina.drivers.samples import DeviceState
+
+Told = tuple[tuple[float, ...], tuple[bool, ...]]
+
+
+class BoardInputs(InputSource):
+    """What stands on the controller's desk, if the driver in use has it.
+
+    The driver belongs to a worker that alone talks to the device. Nothing is asked of the device
+    here: its driver's latest status and readings are looked at, as any thread may.
+
+    Parameters
+    ----------
+    driver : callable
+        Returns the driver in use now; the program exchanges it.
+    clock : callable
+        The host's time, s.
+    """
+
+    name = "Joystick of the controller"
+
+    def __init__(
+        self, driver: Callable[[], Driver | None], *, clock: Clock = time.monotonic
+    ) -> None:
+        super().__init__(clock=clock)
+        self._driver = driver
+
+    def devices(self) -> Sequence[InputIdentity]:
+        """Return the one device, if the driver in use has it and tells of it."""
+        driver = self._driver()
+        if not isinstance(driver, AnalogInputs):
+            return ()
+        try:
+            _latest(driver)
+        except InputLostError:
+            return ()
+        return (_identity(driver),)
+
+    def open(self, identity: InputIdentity) -> "BoardJoystick":
+        """Open it; see :class:`InputSource`."""
+        driver = self._driver()
+        if not isinstance(driver, AnalogInputs) or _identity(driver) != identity:
+            raise InputLostError(f"{identity.name}: the driver in use has none of this name")
+        return BoardJoystick(identity, driver, self._driver, self.clock)
+
+
+class BoardJoystick(InputDevice):
+    """Potentiometers and buttons, as long as the driver that they were opened on is in use.
+
+    Parameters
+    ----------
+    identity : InputIdentity
+    driver : AnalogInputs
+        The driver that has them.
+    in_use : callable
+        Returns the driver in use now.
+    clock : callable
+        The host's time, s.
+    """
+
+    def __init__(
+        self,
+        identity: InputIdentity,
+        driver: AnalogInputs,
+        in_use: Callable[[], Driver | None],
+        clock: Clock,
+    ) -> None:
+        self.identity = identity
+        readings, buttons = _latest(driver)
+        self.axes = tuple(f"Potentiometer {number}" for number in range(1, len(readings) + 1))
+        self.buttons = tuple(f"Button {number}" for number in range(1, len(buttons) + 1))
+        self._driver = driver
+        self._in_use = in_use
+        self._clock = clock
+        self._told: Told | None = None
+        self._is_open = True
+
+    def read(self) -> tuple[InputReading, ...]:
+        """Return a reading if anything has changed; see :class:`InputDevice`."""
+        if not self._is_open:
+            raise StateError(f"{self.identity.name}: it was closed; open it again")
+        if self._in_use() is not self._driver:
+            raise InputLostError(f"{self.identity.name}: another driver is in use now")
+        readings, buttons = told = _latest(self._driver)
+        if (len(readings), len(buttons)) != (len(self.axes), len(self.buttons)):
+            raise InputLostError(
+                f"{self.identity.name}: it has {len(readings)} axes and {len(buttons)} buttons now,"
+                f" {len(self.axes)} and {len(self.buttons)} before; open it again"
+            )
+        if told == self._told:
+            return ()
+        self._told = told
+        axes = tuple(2.0 * reading - 1.0 for reading in readings)
+        return (InputReading(self._clock(), axes, buttons),)
+
+    def close(self) -> None:
+        """Let go of it; see :class:`InputDevice`."""
+        self._is_open = False
+
+
+def _identity(driver: Driver) -> InputIdentity:
+    return InputIdentity(f"board:{driver.name}", f"Joystick of {driver.name}", "board")
+
+
+def _latest(driver: AnalogInputs) -> Told:
+    """Return the latest readings of a sound driver; raise :class:`InputLostError` otherwise."""
+    try:
+        status = driver.status()
+        readings, buttons = driver.analog_inputs()
+    except Exception as error:  # its worker may be closing it at this very moment
+        raise InputLostError(f"{driver.name}: its joystick tells nothing: {error}") from error
+    if status.state is DeviceState.CLOSED:
+        raise InputLostError(f"{driver.name}: it is not connected; connect it for its joystick")
+    if status.state is DeviceState.FAULT:
+        raise InputLostError(f"{driver.name}: its joystick is not trusted in a fault; clear it")
+    if status.silent_s > 0.0:
+        raise InputLostError(f"{driver.name}: nothing was heard of it and its joystick for a while")
+    if not readings and not buttons:
+        raise InputLostError(f"{driver.name}: no joystick has told anything; is one plugged in?")
+    return readings, buttons

@@ -1,0 +1,130 @@
+"""What the bits of a report are for the operator: deflections, hats, and buttons held."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import cos, pi, sin
+
+from rotemina.drivers.inputs.hid.descriptor import Field
+
+_MOST_DIRECTIONS = 360  # some hats count degrees; one that counts more is damaged
+
+
+@dataclass(frozen=True, slots=True)
+class Bits:
+    """Where a number stands in a report, seen as one long number itself."""
+
+    shift: int
+    mask: int
+    sign: int  # the bit that makes it negative; 0 where it never is
+
+    @classmethod
+    def of(cls, field: Field) -> "Bits":
+        """Return where the value of a field stands."""
+        sign = 1 << field.size - 1 if field.low < 0 else 0
+        return cls(field.offset, (1 << field.size) - 1, sign)
+
+    @property
+    def end(self) -> int:
+        """The first bit behind."""
+        return self.shift + self.mask.bit_length()
+
+    def read(self, report: int) -> int:
+        """Return the number."""
+        value = report >> self.shift & self.mask
+        return value - self.mask - 1 if value & self.sign else value
+
+
+@dataclass(frozen=True, slots=True)
+class Deflection:
+    """An axis from −1 at ``low`` to 1 at ``high``; with ``has_null``, beyond is no news."""
+
+    bits: Bits
+    axis: int
+    low: int
+    high: int
+    has_null: bool
+
+    def take(self, report: int, axes: list[float], buttons: list[bool]) -> None:
+        """Note where the axis stands."""
+        value = self.bits.read(report)
+        if self.low <= value <= self.high:
+            axes[self.axis] = 2.0 * (value - self.low) / (self.high - self.low) - 1.0
+        elif not self.has_null:
+            axes[self.axis] = 1.0 if value > self.high else -1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Hat:
+    """A hat whose value counts its directions clockwise from "away"; any other: at rest."""
+
+    bits: Bits
+    axis: int  # its first axis, to the right; the second, towards the operator, follows
+    low: int
+    directions: tuple[tuple[float, float], ...]
+
+    @classmethod
+    def of(cls, field: Field, axis: int) -> "Hat":
+        """Return the hat of a field; as on a stick, away is −1."""
+        count = max(0, min(field.high - field.low + 1, _MOST_DIRECTIONS))
+        angles = [2.0 * pi * index / count for index in range(count)]
+        directions = tuple(
+            (float(round(sin(angle))), float(round(-cos(angle)))) for angle in angles
+        )
+        return cls(Bits.of(field), axis, field.low, directions)
+
+    def take(self, report: int, axes: list[float], buttons: list[bool]) -> None:
+        """Note where the hat points."""
+        index = self.bits.read(report) - self.low
+        right, towards = self.directions[index] if 0 <= index < len(self.directions) else (0.0, 0.0)
+        axes[self.axis], axes[self.axis + 1] = right, towards
+
+
+@dataclass(frozen=True, slots=True)
+class Button:
+    """A button with a bit, or a pressure, of its own: held from ``least`` on."""
+
+    bits: Bits
+    button: int
+    least: int
+
+    @classmethod
+    def of(cls, field: Field, button: int) -> "Button":
+        """Return the button of a field; one that tells a pressure is held from the middle on."""
+        least = (field.low + field.high) // 2 + 1 if field.high > field.low else 1
+        return cls(Bits.of(field), button, least)
+
+    def take(self, report: int, axes: list[float], buttons: list[bool]) -> None:
+        """Note whether it is held."""
+        buttons[self.button] = self.bits.read(report) >= self.least
+
+
+@dataclass(frozen=True, slots=True)
+class Buttons:
+    """Buttons that a report lists by number: places with the number of one that is held each."""
+
+    places: tuple[Bits, ...]
+    low: int
+    chosen: tuple[int | None, ...]  # which button a value means, from ``low`` on
+
+    @property
+    def bits(self) -> Bits:
+        """The last place."""
+        return self.places[-1]
+
+    def take(self, report: int, axes: list[float], buttons: list[bool]) -> None:
+        """Note which are held: those that are listed, and no other."""
+        for button in self.chosen:
+            if button is not None:
+                buttons[button] = False
+        for place in self.places:
+            index = place.read(report) - self.low
+            if 0 <= index < len(self.chosen) and (button := self.chosen[index]) is not None:
+                buttons[button] = True
+
+
+Control = Deflection | Hat | Button | Buttons
+
+
+def array(fields: Sequence[Field], chosen: tuple[int | None, ...]) -> Buttons:
+    """Return the buttons that the places of an array list."""
+    return Buttons(tuple(Bits.of(field) for field in fields), fields[0].low, chosen)

@@ -1,0 +1,188 @@
+"""From the bytes of a report to axes and buttons, by what the report descriptor says."""
+
+from collections import Counter
+from dataclasses import dataclass
+from itertools import groupby
+from math import nan
+
+from rotemina.drivers.inputs.hid.controls import Bits, Button, Control, Deflection, Hat, array
+from rotemina.drivers.inputs.hid.descriptor import Field, ReportDescriptor
+from rotemina.drivers.inputs.hid.items import DescriptorError
+from rotemina.drivers.inputs.hid.usages import APPLICATIONS, HAT, axis_name, button_name
+
+
+@dataclass(frozen=True, slots=True)
+class Ignored:
+    """How much of what came in was not as the descriptor says.
+
+    Attributes
+    ----------
+    unknown : int
+        Reports of a number without axes and buttons: nothing of them was used.
+    short : int
+        Reports that ended too early: the controls that they lack were left as they were.
+    long : int
+        Reports with more bytes than described; the rest was not looked at.
+    """
+
+    unknown: int = 0
+    short: int = 0
+    long: int = 0
+
+
+class Decoder:
+    """Keeps the latest state of a device's axes and buttons.
+
+    Axes are in the order of the descriptor. The same usage in several reports of one collection is
+    one axis or button; twice in the same report, it is two.
+
+    Raises
+    ------
+    DescriptorError
+        If the descriptor has no axis and no button to steer with.
+    """
+
+    def __init__(self, descriptor: ReportDescriptor) -> None:
+        plan = _Plan(descriptor)
+        if not plan.axes and not plan.buttons:
+            raise DescriptorError(
+                "its report descriptor has no axis and no button of a joystick, gamepad or "
+                "multi-axis controller"
+            )
+        self.axes = tuple(plan.axes)
+        self.buttons = tuple(plan.buttons)
+        self._numbered = descriptor.numbered
+        self._reports = {
+            number: _Report(
+                tuple(sorted(controls, key=lambda control: control.bits.end)),
+                -(-descriptor.bits[number] // 8),
+            )
+            for number, controls in plan.reports.items()
+        }
+        self._axes = [nan] * len(self.axes)
+        self._buttons = [False] * len(self.buttons)
+        self._ignored: Counter[str] = Counter()
+
+    @property
+    def ignored(self) -> Ignored:
+        """What was not as described, so far."""
+        return Ignored(**self._ignored)
+
+    def decode(self, report: bytes) -> tuple[tuple[float, ...], tuple[bool, ...]] | None:
+        """Return all axes and buttons after a report; None if it tells nothing of them.
+
+        Never raises, whatever the bytes are. An axis that no report has told yet is NaN.
+        """
+        number, payload = (report[0], report[1:]) if report and self._numbered else (0, report)
+        known = self._reports.get(number)
+        if known is None:
+            self._ignored["unknown"] += 1
+            return None
+        if len(payload) > known.size:
+            self._ignored["long"] += 1
+        controls = known.controls
+        if len(payload) < known.size:
+            self._ignored["short"] += 1
+            have = 8 * len(payload)
+            controls = tuple(control for control in controls if control.bits.end <= have)
+            if not controls:
+                return None
+        whole = int.from_bytes(payload, "little")
+        for control in controls:
+            control.take(whole, self._axes, self._buttons)
+        return tuple(self._axes), tuple(self._buttons)
+
+
+@dataclass(frozen=True, slots=True)
+class _Report:
+    """What is in a report of one number, by where it ends, and how many bytes it should have."""
+
+    controls: tuple[Control, ...]
+    size: int
+
+
+class _Plan:
+    """Which field of which report is which axis or button."""
+
+    def __init__(self, descriptor: ReportDescriptor) -> None:
+        self.axes: list[str] = []
+        self.buttons: list[str] = []
+        self.reports: dict[int, list[Control]] = {}
+        # (application, usage, how many of that usage came before in the same report) → index
+        self._axis_of: dict[tuple[int, int, int], int] = {}
+        self._button_of: dict[tuple[int, int, int], int] = {}
+        self._seen: Counter[tuple[int, int, int]] = Counter()
+        wanted = [
+            field
+            for field in descriptor.fields
+            if field.application >= 0 and descriptor.applications[field.application] in APPLICATIONS
+        ]
+        for (is_array, _), fields in groupby(wanted, key=_piece):
+            if is_array:
+                self._list(list(fields))
+            else:
+                for field in fields:
+                    self._single(field)
+
+    def _single(self, field: Field) -> None:
+        usage = field.usages[0]
+        if usage == HAT:
+            axis = self._axis(field, ("Hat right", "Hat towards"))
+            self._add(field, Hat.of(field, axis))
+        elif (name := axis_name(usage, field.is_relative)) is not None:
+            if field.high > field.low:
+                axis = self._axis(field, (name,))
+                self._add(
+                    field,
+                    Deflection(Bits.of(field), axis, field.low, field.high, field.has_null),
+                )
+        elif (name := button_name(usage)) is not None:
+            self._add(field, Button.of(field, self._button(field, usage, name)))
+
+    def _list(self, fields: list[Field]) -> None:
+        """Add the places of an array, which list the same buttons."""
+        first = fields[0]
+        chosen = tuple(
+            None if (name := button_name(usage)) is None else self._button(first, usage, name)
+            for usage in first.usages
+        )
+        if any(button is not None for button in chosen):
+            self._add(first, array(fields, chosen))
+
+    def _add(self, field: Field, control: Control) -> None:
+        self.reports.setdefault(field.report_id, []).append(control)
+
+    def _axis(self, field: Field, names: tuple[str, ...]) -> int:
+        key = self._key(field, field.usages[0])
+        if key not in self._axis_of:
+            self._axis_of[key] = len(self.axes)
+            suffix = _suffix(names[0], self.axes)
+            self.axes += [name + suffix for name in names]
+        return self._axis_of[key]
+
+    def _button(self, field: Field, usage: int, name: str) -> int:
+        key = self._key(field, usage)
+        if key not in self._button_of:
+            self._button_of[key] = len(self.buttons)
+            self.buttons.append(name + _suffix(name, self.buttons))
+        return self._button_of[key]
+
+    def _key(self, field: Field, usage: int) -> tuple[int, int, int]:
+        """Return what tells a control from others: also from the same usage before it."""
+        place = (field.application, field.report_id, usage)
+        before = self._seen[place]
+        self._seen[place] += 1
+        return field.application, usage, before
+
+
+def _piece(field: Field) -> tuple[bool, object]:
+    """Return what consecutive places of one array have in common."""
+    if not field.is_array:
+        return False, None
+    return True, (field.application, field.report_id, field.low, field.high, field.usages)
+
+
+def _suffix(name: str, names: list[str]) -> str:
+    """Return what makes a name one that is not there yet: " 2" for the second."""
+    count = sum(1 for one in names if one == name or one.startswith(f"{name} "))
+    return f" {count + 1}" if count else ""

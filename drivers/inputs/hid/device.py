@@ -1,0 +1,84 @@
+"""An open joystick or gamepad."""
+
+import logging
+
+from rotemina.drivers.clock import Clock
+from rotemina.drivers.errors import StateError
+from rotemina.drivers.inputs.device import (
+    InputDevice,
+    InputIdentity,
+    InputLostError,
+    InputReading,
+)
+from rotemina.drivers.inputs.hid.decoder import Decoder, Ignored
+from rotemina.drivers.inputs.hid.hidapi import Handle
+
+_LOG = logging.getLogger(__name__)
+_REPORT_BYTES = 4096
+# The system holds 64 reports at most; a device that never stops must not keep us here.
+_MOST_WAITING = 256
+
+
+class HidDevice(InputDevice):
+    """A joystick or gamepad.
+
+    Parameters
+    ----------
+    identity : InputIdentity
+    handle : Handle
+        Open, and set not to wait.
+    decoder : Decoder
+        Of its report descriptor.
+    clock : callable
+        The host's time, s.
+    """
+
+    def __init__(
+        self, identity: InputIdentity, handle: Handle, decoder: Decoder, clock: Clock
+    ) -> None:
+        self.identity = identity
+        self.axes = decoder.axes
+        self.buttons = decoder.buttons
+        self._handle: Handle | None = handle
+        self._decoder = decoder
+        self._clock = clock
+
+    @property
+    def ignored(self) -> Ignored:
+        """How much of what came in was not as its descriptor says."""
+        return self._decoder.ignored
+
+    def read(self) -> tuple[InputReading, ...]:
+        """Return a reading for each report that has come in; see :class:`InputDevice`."""
+        if self._handle is None:
+            raise StateError(f"{self.identity.name}: it was closed; open it again")
+        readings = []
+        for _ in range(_MOST_WAITING):
+            report = self._receive(self._handle)
+            if not report:
+                break
+            state = self._decoder.decode(report)
+            if state is not None:
+                readings.append(InputReading(self._clock(), *state))
+        return tuple(readings)
+
+    def close(self) -> None:
+        """Let go of it; see :class:`InputDevice`."""
+        handle, self._handle = self._handle, None
+        if handle is not None:
+            try:
+                handle.close()
+            except OSError as error:  # one that was pulled out cannot be closed either
+                _LOG.info("%s: closing it: %s", self.identity.name, error)
+            if self.ignored != Ignored():
+                _LOG.info("%s: %s", self.identity.name, self.ignored)
+
+    def _receive(self, handle: Handle) -> bytes:
+        """Return the next report that waits; nothing if there is none."""
+        try:
+            return bytes(handle.read(_REPORT_BYTES))
+        except (OSError, ValueError) as error:
+            raise InputLostError(
+                f"{self.identity.name}: it was unplugged, or has lost its power or radio link "
+                f"({error})"
+            ) from error

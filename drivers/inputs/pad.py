@@ -1,0 +1,182 @@
+"""Keys and an on-screen pad: a device whose axes and buttons the program itself sets."""
+
+import time
+from collections import deque
+from collections.abc import Sequence
+from threading import Lock
+
+from rotemina.drivers.clock import Clock
+from rotemina.drivers.errors import LimitError, StateError
+from rotemina.drivers.inputs.device import (
+    InputDevice,
+    InputIdentity,
+    InputLostError,
+    InputReading,
+    InputSource,
+)
+
+_MOST_WAITING = 1024  # readings that nobody has read; the newest are kept
+
+
+class Pad(InputSource):
+    """One device, set by one thread and read by another.
+
+    What is held stays held until it is released: whoever sets it calls :meth:`release_all` when its
+    window loses the focus, is left or is covered, so that no key stays down that nobody holds.
+
+    Parameters
+    ----------
+    label : str
+        Tells several pads apart, for example "keyboard".
+    axes, buttons : sequence of str
+        What they are called.
+    clock : callable
+        The host's time, s.
+    """
+
+    name = "Keys and on-screen pad"
+
+    def __init__(
+        self,
+        label: str = "pad",
+        axes: Sequence[str] = ("x", "y", "z"),
+        buttons: Sequence[str] = (),
+        *,
+        clock: Clock = time.monotonic,
+    ) -> None:
+        super().__init__(clock=clock)
+        self.identity = InputIdentity(f"keys:{label}", label, "keys")
+        self.axes = tuple(axes)
+        self.buttons = tuple(buttons)
+        # Guards what follows, and the readings that wait in the devices.
+        self._lock = Lock()
+        self._there = True
+        self._deflections = dict.fromkeys(self.axes, 0.0)
+        self._held = dict.fromkeys(self.buttons, False)
+        self._devices: list[PadDevice] = []
+
+    def deflect(self, axis: str, deflection: float) -> None:
+        """Set an axis, −1 to 1; any thread.
+
+        Raises
+        ------
+        LimitError
+            If there is no such axis, or the deflection is beyond; then nothing changes.
+        """
+        self._require(axis, self.axes, "axis")
+        if not -1.0 <= deflection <= 1.0:
+            raise LimitError(f"{self.identity.name}: {axis} at {deflection:g}: must be -1 to 1")
+        with self._lock:
+            self._deflections[axis] = float(deflection)
+            self._tell()
+
+    def hold(self, button: str, held: bool = True) -> None:
+        """Hold a button, or release it; any thread.
+
+        Raises
+        ------
+        LimitError
+            If there is no such button.
+        """
+        self._require(button, self.buttons, "button")
+        with self._lock:
+            self._held[button] = held
+            self._tell()
+
+    def release_all(self) -> None:
+        """Bring all axes to 0 and release all buttons; any thread."""
+        with self._lock:
+            self._release()
+
+    def withdraw(self) -> None:
+        """Take the device away, as unplugging does; what was held is released. Any thread."""
+        with self._lock:
+            self._there = False
+            self._release()
+            for device in self._devices:
+                device.lost = True
+            self._devices.clear()
+
+    def offer(self) -> None:
+        """Let the device be there again; any thread."""
+        with self._lock:
+            self._there = True
+
+    def devices(self) -> Sequence[InputIdentity]:
+        """Return the one device, unless it was withdrawn."""
+        return (self.identity,) if self._there else ()
+
+    def open(self, identity: InputIdentity) -> "PadDevice":
+        """Open the device, which first tells how it stands; see :class:`InputSource`."""
+        with self._lock:
+            if not self._there or identity != self.identity:
+                raise InputLostError(f"{identity.name} ({identity.key}): it is not there")
+            device = PadDevice(self, self._lock)
+            self._devices.append(device)
+            device.waiting.append(self._reading())
+        return device
+
+    def forget(self, device: "PadDevice") -> None:
+        """Tell a device nothing any more: it was closed."""
+        with self._lock:
+            if device in self._devices:
+                self._devices.remove(device)
+
+    def _require(self, name: str, names: tuple[str, ...], kind: str) -> None:
+        if name not in names:
+            raise LimitError(
+                f"{self.identity.name}: no {kind} {name!r}; it has {', '.join(names) or 'none'}"
+            )
+
+    def _release(self) -> None:
+        self._deflections = dict.fromkeys(self.axes, 0.0)
+        self._held = dict.fromkeys(self.buttons, False)
+        self._tell()
+
+    def _reading(self) -> InputReading:
+        return InputReading(
+            self.clock(), tuple(self._deflections.values()), tuple(self._held.values())
+        )
+
+    def _tell(self) -> None:
+        if self._devices:
+            reading = self._reading()
+            for device in self._devices:
+                device.waiting.append(reading)
+
+
+class PadDevice(InputDevice):
+    """An open pad.
+
+    Parameters
+    ----------
+    pad : Pad
+    lock : Lock
+        Held while ``waiting`` and ``lost`` are touched.
+    """
+
+    def __init__(self, pad: Pad, lock: Lock) -> None:
+        self.identity = pad.identity
+        self.axes = pad.axes
+        self.buttons = pad.buttons
+        self.waiting: deque[InputReading] = deque(maxlen=_MOST_WAITING)
+        self.lost = False
+        self._pad = pad
+        self._lock = lock
+        self._is_open = True
+
+    def read(self) -> tuple[InputReading, ...]:
+        """Return what was set since the last call; see :class:`InputDevice`."""
+        if not self._is_open:
+            raise StateError(f"{self.identity.name}: it was closed; open it again")
+        with self._lock:
+            if self.lost:
+                raise InputLostError(f"{self.identity.name}: it was taken away")
+            readings = tuple(self.waiting)
+            self.waiting.clear()
+        return readings
+
+    def close(self) -> None:
+        """Let go of it; see :class:`InputDevice`."""
+        self._is_open = False
+        self._pad.forget(self)

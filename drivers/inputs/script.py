@@ -1,0 +1,127 @@
+"""A script: what an input device does over time, written down or read from a CSV file."""
+
+import csv
+from dataclasses import dataclass
+from math import isfinite
+from pathlib import Path
+from typing import Self
+
+from rotemina.sim.errors import InputError
+
+_TIME, _PLUGGED, _AXIS, _BUTTON = "time_s", "plugged", "axis ", "button "
+
+
+class ScriptError(InputError):
+    """A script of an input device that cannot be played."""
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """How the device stands from ``time_s`` on; while it is not ``plugged`` nobody can read it."""
+
+    time_s: float
+    axes: tuple[float, ...]
+    buttons: tuple[bool, ...] = ()
+    plugged: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Script:
+    """What a device does: names of axes and buttons, and moments in the order of time.
+
+    Raises
+    ------
+    ScriptError
+        If times do not increase, or a moment has other axes and buttons than the script, or a
+        deflection beyond −1 to 1.
+    """
+
+    axes: tuple[str, ...]
+    buttons: tuple[str, ...]
+    moments: tuple[Moment, ...]
+
+    def __post_init__(self) -> None:
+        before = float("-inf")
+        for number, moment in enumerate(self.moments, 1):
+            where = f"moment {number}"
+            if not isfinite(moment.time_s) or moment.time_s <= before:
+                raise ScriptError(
+                    f"{where}: time {moment.time_s:g} s: must be later than the one before "
+                    f"({before:g} s)"
+                )
+            before = moment.time_s
+            if (len(moment.axes), len(moment.buttons)) != (len(self.axes), len(self.buttons)):
+                raise ScriptError(
+                    f"{where}: {len(moment.axes)} axes and {len(moment.buttons)} buttons: must be "
+                    f"{len(self.axes)} and {len(self.buttons)}"
+                )
+            for name, deflection in zip(self.axes, moment.axes, strict=True):
+                if not -1.0 <= deflection <= 1.0:
+                    raise ScriptError(f"{where}: {name} at {deflection:g}: must be -1 to 1")
+
+    @classmethod
+    def load(cls, path: Path) -> Self:
+        """Read a CSV file: ``time_s``, ``axis NAME``…, ``button NAME``…, ``plugged`` (0 or 1).
+
+        Raises
+        ------
+        ScriptError
+            With file, line and column.
+        """
+        try:
+            with path.open(encoding="utf-8-sig", newline="") as file:
+                reader = csv.reader(file)
+                columns = [name.strip() for name in next(reader, [])]
+                _check(path, columns)
+                moments = tuple(
+                    _moment(f"{path}, line {reader.line_num}", columns, row)
+                    for row in reader
+                    if row
+                )
+        except (OSError, UnicodeDecodeError, csv.Error) as error:
+            raise ScriptError(f"{path}: cannot be read: {error}") from error
+        try:
+            return cls(_named(columns, _AXIS), _named(columns, _BUTTON), moments)
+        except ScriptError as error:
+            raise ScriptError(f"{path}: {error}") from error
+
+
+def _named(columns: list[str], kind: str) -> tuple[str, ...]:
+    return tuple(name.removeprefix(kind) for name in columns if name.startswith(kind))
+
+
+def _check(path: Path, columns: list[str]) -> None:
+    """Refuse columns that mean nothing, or the same twice."""
+    if _TIME not in columns:
+        raise ScriptError(f"{path}, line 1: there must be a column {_TIME!r}")
+    for name in columns:
+        if name not in (_TIME, _PLUGGED) and not name.startswith((_AXIS, _BUTTON)):
+            raise ScriptError(
+                f"{path}, line 1: unknown column {name!r}; there can be {_TIME!r}, {_PLUGGED!r}, "
+                "'axis NAME' and 'button NAME'"
+            )
+        if columns.count(name) > 1:
+            raise ScriptError(f"{path}, line 1: column {name!r} is there twice")
+
+
+def _moment(where: str, columns: list[str], row: list[str]) -> Moment:
+    """Return what a line says, in the order of the columns."""
+    if len(row) != len(columns):
+        raise ScriptError(f"{where}: {len(row)} values: must be {len(columns)}, as in line 1")
+    values = {name: _number(where, name, text) for name, text in zip(columns, row, strict=True)}
+    return Moment(
+        values[_TIME],
+        tuple(value for name, value in values.items() if name.startswith(_AXIS)),
+        tuple(value == 1.0 for name, value in values.items() if name.startswith(_BUTTON)),
+        values.get(_PLUGGED, 1.0) == 1.0,
+    )
+
+
+def _number(where: str, column: str, text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError as error:
+        raise ScriptError(f"{where}, column {column!r}: {text.strip()!r} is no number") from error
+    if (column == _PLUGGED or column.startswith(_BUTTON)) and value not in (0.0, 1.0):
+        raise ScriptError(f"{where}, column {column!r}: {value:g}: must be 0 or 1")
+    return value
