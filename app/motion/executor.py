@@ -11,13 +11,23 @@ from rotemina.app.motion.mailbox import (
     Command,
     Drive,
     Home,
+    LoadProfile,
     Mailbox,
     Move,
     Play,
+    RunProfile,
     SetEffects,
+    SetVoltage,
 )
 from rotemina.app.motion.recorder import PlaybackRecorder
-from rotemina.drivers.abilities import EffectCarrier, Homer, TrajectoryPlayer, VelocityMover
+from rotemina.drivers.abilities import (
+    EffectCarrier,
+    Homer,
+    ProfileRunner,
+    TrajectoryPlayer,
+    VelocityMover,
+    VoltageOutput,
+)
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.samples import DeviceState
@@ -111,6 +121,8 @@ class Executor:
             self._drive(command)
         elif isinstance(command, Play):
             self._play(command)
+        elif isinstance(command, LoadProfile | RunProfile | SetVoltage):
+            self._shortly(command)
         elif isinstance(command, Home):
             assert isinstance(driver, Homer), "the session refuses on any other"
             driver.home(command.axes)
@@ -123,6 +135,22 @@ class Executor:
             self.forget()
         elif isinstance(command, Ask):
             command.action(driver)
+
+    def _shortly(self, command: LoadProfile | RunProfile | SetVoltage) -> None:
+        """Carry out what an axis does by itself, beside moves."""
+        driver = self._driver
+        if isinstance(command, SetVoltage):
+            assert isinstance(driver, VoltageOutput), "the session refuses on any other"
+            driver.set_voltage(command.axis, command.voltage)
+            self.targets = MappingProxyType({**self.targets, **command.targets})
+            return
+        assert isinstance(driver, ProfileRunner), "the session refuses on any other"
+        if isinstance(command, LoadProfile):
+            driver.upload(command.profile)
+            return
+        driver.trigger()
+        self.forget()
+        self.targets = command.targets
 
     def _next_leg(self) -> None:
         leg = self._route.popleft()

@@ -11,7 +11,9 @@ from rotemina.sim.kinematics.keep_out import SLOW_HEIGHT, SLOW_SPEED, KeepOutZon
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.checked import CheckedTrajectory
 from rotemina.sim.trajectory.limits import OutOfLimitsError, check_target, commands_of
+from rotemina.sim.trajectory.wording import readable
 
+MOST_THRUST = 1e-4  # m: what is beyond a piezo is no thrust into a cell
 _REACTION_S = 0.05  # between a lease's end and the axis' first braking, at most
 _SCALES = tuple(0.5**halvings for halvings in range(8))
 _LIFTING = ("z", "zn")  # axes that move the tip up and down
@@ -37,6 +39,12 @@ class Leg:
 
     targets: Mapping[str, float]
     speeds: Mapping[str, float]
+
+    def no_faster(self, speeds: Mapping[str, float]) -> "Leg":
+        """Return the leg with its axes bounded by these speeds too."""
+        bounds = {axis: most for axis, most in speeds.items() if axis in self.targets}
+        slower = {axis: min(most, self.speeds.get(axis, most)) for axis, most in bounds.items()}
+        return Leg(self.targets, {**self.speeds, **slower})
 
 
 class Guard:
@@ -132,6 +140,41 @@ class Guard:
         if "z" not in lowering or raised >= place.low[column]:
             return (Leg(targets, slowly),)
         return (Leg({**targets, "z": raised}, {}), Leg({"z": targets["z"]}, slowly))
+
+    def profile(
+        self, place: Place, axis: str, ends: tuple[float, float], speed: float, *, thrust: bool
+    ) -> None:
+        """Refuse a profile of one axis, between ``ends``, m or rad, that the tip must not make.
+
+        A ``thrust`` may be faster than the slow zone allows, but is :data:`MOST_THRUST` long at
+        most; nothing lets the tip out of its bounds.
+
+        Raises
+        ------
+        OutOfLimitsError
+            With what is left, or the speed and the bound.
+        """
+        for end in ends:
+            check_target(self._robot, axis, end)
+        zone = self._zone
+        if zone is None or not zone.bounded:
+            return
+        column = self._axes.index(axis)
+        swept = place.widened({column: ends[0]}).widened({column: ends[1]})
+        lowest = float(zone.check_sweep(*swept, zone.swept(*place)).low[2])
+        if axis not in _LIFTING or lowest >= zone.low + SLOW_HEIGHT or speed <= SLOW_SPEED:
+            return
+        if not thrust:
+            raise OutOfLimitsError(
+                f"tip: a profile at {readable(speed, 'm')}/s within {readable(SLOW_HEIGHT, 'm')} "
+                f"of its floor: {readable(SLOW_SPEED, 'm')}/s at most; only an armed penetration "
+                "may be faster there"
+            )
+        if ends[1] - ends[0] > MOST_THRUST * (1.0 + 1e-9):
+            raise OutOfLimitsError(
+                f"tip: a thrust of {readable(ends[1] - ends[0], 'm')} within "
+                f"{readable(SLOW_HEIGHT, 'm')} of its floor: {readable(MOST_THRUST, 'm')} at most"
+            )
 
     def velocity(
         self, place: Place, velocities: Mapping[str, float], lease_s: float

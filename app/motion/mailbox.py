@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from rotemina.app.motion.guard import Leg
 from rotemina.drivers.driver import Driver
+from rotemina.drivers.profile import Profile
 from rotemina.sim.errors import InputError
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.trajectory.checked import CheckedTrajectory
@@ -67,6 +68,29 @@ class Play:
 
 
 @dataclass(frozen=True, slots=True)
+class LoadProfile:
+    """Hand over a profile, which does not run yet."""
+
+    profile: Profile
+
+
+@dataclass(frozen=True, slots=True)
+class RunProfile:
+    """Let the profile run that was handed over; its axis ends at ``targets``, m or rad."""
+
+    targets: Mapping[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class SetVoltage:
+    """Put out a voltage, V, which sends its axis to ``targets``, m or rad."""
+
+    axis: str
+    voltage: float
+    targets: Mapping[str, float]
+
+
+@dataclass(frozen=True, slots=True)
 class ClearFault:
     """Acknowledge the device's fault."""
 
@@ -78,7 +102,18 @@ class SetEffects:
     effects: tuple[AxisEffect, ...]
 
 
-Command = Move | Drive | Play | Home | ClearFault | SetEffects | Ask
+Command = (
+    Move
+    | Drive
+    | Play
+    | Home
+    | LoadProfile
+    | RunProfile
+    | SetVoltage
+    | ClearFault
+    | SetEffects
+    | Ask
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,9 +188,9 @@ class Mailbox:
             self._generation += 1
 
     def holds_play(self) -> bool:
-        """Whether a trajectory waits to be played."""
+        """Whether a trajectory waits to be played, or a profile to be run."""
         with self._lock:
-            return any(isinstance(command, Play) for command in self._commands)
+            return any(isinstance(command, Play | RunProfile) for command in self._commands)
 
     def target_of(self, axis: str) -> float | None:
         """Return where the latest move that waits, or is being handed over, sends an axis."""
@@ -165,8 +200,13 @@ class Mailbox:
         """Return where all moves that wait, or are being handed over, send axes, oldest first."""
         with self._lock:
             commands = [self._in_hand, *self._commands]
-        moves = [command for command in commands if isinstance(command, Move)]
-        return [leg.targets for move in moves for leg in move.legs]
+        found: list[Mapping[str, float]] = []
+        for command in commands:
+            if isinstance(command, Move):
+                found += [leg.targets for leg in command.legs]
+            elif isinstance(command, RunProfile | SetVoltage):
+                found.append(command.targets)
+        return found
 
     def drives(self) -> list[Drive]:
         """Return the speeds that wait, or are being handed over, oldest first."""

@@ -15,11 +15,13 @@ HOMING = "homing"
 class Ownership:
     """Owners of axes, by name; every method may be called from any thread.
 
-    An axis at rest is free: whoever moves it owns it until the machine is at rest again.
+    An axis at rest is free: whoever moves it owns it until the machine is at rest again. Only an
+    axis that is *reserved* stays its owner's at rest too, until it is set free or taken over.
     """
 
     def __init__(self) -> None:
         self._owners: dict[str, str] = {}
+        self._reserved: dict[str, str] = {}
         self._lock = threading.RLock()
 
     @property
@@ -57,11 +59,37 @@ class Ownership:
 
     def take_over(self, axes: Iterable[str], owner: str) -> None:
         """Make axes an owner's, whoever had them."""
+        wanted = tuple(axes)
         with self._lock:
-            self._owners.update(dict.fromkeys(axes, owner))
+            self._owners.update(dict.fromkeys(wanted, owner))
+            for axis in wanted:
+                if self._reserved.get(axis, owner) != owner:
+                    del self._reserved[axis]
+
+    def reserve(self, axes: Iterable[str], owner: str) -> None:
+        """Make axes an owner's, also while they rest.
+
+        Raises
+        ------
+        RefusedError
+            As :meth:`claimed`.
+        """
+        wanted = tuple(axes)
+        with self.claimed(wanted, owner):
+            self._reserved.update(dict.fromkeys(wanted, owner))
+
+    def has_reserved(self, axes: Iterable[str], owner: str) -> bool:
+        """Tell whether all these axes are reserved for an owner."""
+        with self._lock:
+            return all(self._reserved.get(axis) == owner for axis in axes)
+
+    def set_free(self, owner: str) -> None:
+        """End an owner's reservations; what still moves is its own until the machine rests."""
+        with self._lock:
+            self._reserved = {a: name for a, name in self._reserved.items() if name != owner}
 
     def release(self, waits: Callable[[], bool] = lambda: False) -> None:
-        """Free every axis: the machine is at rest, unless somebody's request still waits."""
+        """Free every axis that is not reserved: the machine rests, unless a request waits."""
         with self._lock:
             if not waits():
-                self._owners.clear()
+                self._owners = dict(self._reserved)

@@ -2,12 +2,13 @@
 
 from collections.abc import Container, Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
-from rotemina.app.motion.device_session import DeviceSession
-from rotemina.app.motion.guard import Guard, Leg, Place
+from rotemina.app.motion.device_requests import DeviceRequests
+from rotemina.app.motion.guard import Leg, Place
 from rotemina.app.motion.mailbox import (
     Drive,
     Home,
@@ -35,25 +36,30 @@ from rotemina.sim.trajectory.limits import OutOfLimitsError, check_target
 LEASE_S = 0.15  # of a speed that nobody renews
 
 
-class MotionSession(DeviceSession):
+class MotionSession(DeviceRequests):
     """Every motion passes through here: ranges, the tip's bounds and owners hold on every path.
 
     A request is checked on the caller's thread and refused at once with the reason
     (:class:`rotemina.sim.errors.InputError`), or queued for the worker.
 
-    Parameters are those of :class:`DeviceSession`.
+    Parameters are those of :class:`rotemina.app.motion.device_session.DeviceSession`.
     """
 
     def __init__(self, driver: Driver, **options: Any) -> None:
         super().__init__(driver, **options)
-        self._guard = Guard(self.robot)
         self._undo = Undo(self.robot)
 
     # --- motion -----------------------------------------------------------------------------------
 
-    def go_to(self, targets: Mapping[str, float], owner: str = OPERATOR) -> None:
+    def go_to(
+        self,
+        targets: Mapping[str, float],
+        owner: str = OPERATOR,
+        speeds: Mapping[str, float] = MappingProxyType({}),
+    ) -> None:
         """Send axes to positions, m or rad; also in mid-move.
 
+        Each goes as fast as it may, or as ``speeds`` (m/s or rad/s) says, where that is slower.
         Close above the tip's floor the move slows down by itself.
 
         Raises
@@ -65,7 +71,7 @@ class MotionSession(DeviceSession):
             that another owner drives.
         """
         with self._lock:
-            self._post_move(dict(targets), owner)
+            self._post_move(dict(targets), owner, speeds)
 
     def move_velocity(
         self, velocities: Mapping[str, float], lease_s: float = LEASE_S, owner: str = OPERATOR
@@ -151,7 +157,7 @@ class MotionSession(DeviceSession):
         Raises
         ------
         RefusedError
-            As :meth:`DeviceSession.use`.
+            If the other driver is for another robot.
         """
         super().use(driver)
         with self._lock:
@@ -235,9 +241,14 @@ class MotionSession(DeviceSession):
         state = super().snapshot()
         return replace(state, tip=self._tip(state))
 
-    def _post_move(self, targets: dict[str, float], owner: str) -> None:
+    def _post_move(
+        self,
+        targets: dict[str, float],
+        owner: str,
+        speeds: Mapping[str, float] = MappingProxyType({}),
+    ) -> None:
         self._refuse_if_locked()
-        legs = self._guard.move(self._place(), targets)
+        legs = tuple(leg.no_faster(speeds) for leg in self._guard.move(self._place(), targets))
         with self._worker.ownership.claimed(targets, owner):
             self._note_rest()
             self._mailbox.post(Move(legs))

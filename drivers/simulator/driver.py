@@ -30,6 +30,7 @@ from rotemina.drivers.simulator.front_panel import FrontPanel
 from rotemina.drivers.simulator.homing import Homing
 from rotemina.drivers.simulator.profile_motion import ProfileMotion
 from rotemina.drivers.simulator.setpoints import SetpointLimits
+from rotemina.drivers.simulator.tool import SimulatedTool
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.plant.errors import PlantError
@@ -51,6 +52,7 @@ class Simulator(
     Capturer,
     ProfileRunner,
     FrontPanel,
+    SimulatedTool,
     EffectCarrier,
 ):
     """A machine that behaves as its robot file says.
@@ -157,6 +159,7 @@ class Simulator(
         self._capturing = None
         self._profile = None
         self._fault = None
+        self._tool_on = False
         self._device = self._made(self._position, 0.0)
 
     def _made(self, position: FloatArray, time_s: float) -> SimulatedDevice:
@@ -272,6 +275,7 @@ class Simulator(
         self._running.play(trajectory)
 
     def _stop(self) -> None:
+        self._tool_on = False
         self._stops_s.append(self.clock() - self._opened_at_s)
 
     def _clear_fault(self) -> None:

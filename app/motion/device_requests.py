@@ -1,0 +1,271 @@
+"""What a session asks of a device's special abilities: profiles, captures, voltage, tool."""
+
+import threading
+from abc import ABC, abstractmethod
+from collections import deque
+from collections.abc import Container, Sequence
+from typing import Any
+
+from rotemina.app.motion.device_session import DeviceSession
+from rotemina.app.motion.guard import Guard, Place
+from rotemina.app.motion.mailbox import LoadProfile, RefusedError, RunProfile, SetVoltage
+from rotemina.app.motion.ownership import OPERATOR
+from rotemina.drivers.abilities import Capturer, ProfileRunner, VoltageOutput
+from rotemina.drivers.capture import Captured
+from rotemina.drivers.driver import Driver
+from rotemina.drivers.profile import Profile
+from rotemina.drivers.samples import DeviceState
+from rotemina.drivers.tool import ToolOutput
+from rotemina.sim.robot.model import PiezoAxis
+from rotemina.sim.trajectory.limits import OutOfLimitsError
+
+
+class DeviceRequests(DeviceSession, ABC):
+    """Requests beside moves; whatever moves an axis is checked and owned as a move is.
+
+    Parameters are those of :class:`DeviceSession`.
+    """
+
+    def __init__(self, driver: Driver, **options: Any) -> None:
+        super().__init__(driver, **options)
+        self._guard = Guard(self.robot)
+        self._loaded: tuple[Profile, float] | None = None  # and where its axis was
+        self._captured: deque[Captured] = deque()
+        self._collecting = threading.Event()
+        self._collected_at = -1  # generation of the mailbox
+
+    # --- reservations ---------------------------------------------------------------------------
+
+    def reserve(self, owner: str) -> None:
+        """Keep every axis for an owner, at rest too, until it sets them free.
+
+        Nobody else moves the machine meanwhile, unless by taking over; a stop is always possible.
+        Who has reserved every axis may thrust through the slow zone (:meth:`upload_profile`).
+
+        Raises
+        ------
+        RefusedError
+            If motion is locked, the machine moves, or an axis is another owner's.
+        """
+        with self._lock:
+            self._refuse_unless_at_rest("reserving the axes")
+            self._worker.ownership.reserve(self.driver.axes, owner)
+
+    def has_reserved(self, owner: str) -> bool:
+        """Tell whether every axis is reserved for an owner: nobody has taken one over."""
+        return self._worker.ownership.has_reserved(self.driver.axes, owner)
+
+    def set_free(self, owner: str) -> None:
+        """End an owner's reservations."""
+        self._worker.ownership.set_free(owner)
+
+    # --- profiles -------------------------------------------------------------------------------
+
+    def upload_profile(self, profile: Profile, owner: str = OPERATOR) -> None:
+        """Hand a profile to the device, from where its axis is commanded now; nothing moves yet.
+
+        Its extremes are held against range and keep-out. Within the slow zone it is refused where
+        it is faster than that allows, except for an owner who has reserved every axis: a
+        deliberate thrust. The floor itself holds for everybody.
+
+        Raises
+        ------
+        OutOfLimitsError
+            If an extreme is beyond a limit, or the tip might leave its bounds.
+        InputError
+            If a segment is beyond what the axis can.
+        RefusedError
+            If the device runs no profiles, is not at rest, or as for any move.
+        """
+        self._profile_runner()
+        with self._lock:
+            self._refuse_unless_at_rest("a profile")
+            start = self._commanded(profile.axis)
+            profile.check(self.robot, start)
+            self._check_profile(profile, start, owner)
+            with self._worker.ownership.claimed((profile.axis,), owner):
+                self._mailbox.post(LoadProfile(profile))
+            self._loaded = (profile, start)
+
+    def trigger_profile(self, owner: str = OPERATOR) -> None:
+        """Let the profile that was uploaded run; stop and :meth:`abort_profile` end it.
+
+        Raises
+        ------
+        OutOfLimitsError
+            If the tip might leave its bounds by now.
+        RefusedError
+            If none was uploaded, its axis has moved since, or as :meth:`upload_profile`.
+        """
+        self._profile_runner()
+        with self._lock:
+            self._refuse_unless_at_rest("a profile")
+            if self._loaded is None:
+                raise RefusedError("no profile was uploaded; upload one first")
+            profile, start = self._loaded
+            if self._commanded(profile.axis) != start:
+                raise RefusedError(
+                    f"axis {profile.axis} has moved since its profile was uploaded; upload it again"
+                )
+            self._check_profile(profile, start, owner)
+            end = start + sum(segment.length for segment in profile.segments)
+            with self._worker.ownership.claimed((profile.axis,), owner):
+                self._note_rest()
+                self._mailbox.post(RunProfile({profile.axis: end}))
+            self._loaded = None
+
+    def abort_profile(self) -> None:
+        """Halt the profile that runs, without a fault, or forget the one that waits.
+
+        Raises
+        ------
+        RefusedError
+            If the device runs none, or is not connected.
+        """
+        self._profile_runner()
+        self._loaded = None
+        self._ask(_abort)
+
+    # --- captures -------------------------------------------------------------------------------
+
+    def capture(self, axes: Sequence[str], rate_hz: float, count: int) -> None:
+        """Begin to sample axes at a high rate; :meth:`captured` hands the samples out.
+
+        Raises
+        ------
+        RefusedError
+            If the device cannot, or is not connected.
+        """
+        if not isinstance(self.driver, Capturer):
+            raise RefusedError(f"driver {self.driver.name!r} cannot capture")
+        wanted = tuple(axes)
+
+        def begin(driver: Driver) -> None:
+            assert isinstance(driver, Capturer), "the session refuses on any other"
+            driver.capture(wanted, rate_hz, count)
+            self._captured.clear()
+
+        self._ask(begin)
+
+    def captured(self) -> tuple[Captured, ...]:
+        """Return what has come of the latest capture since the last call, and ask for more.
+
+        It never waits: what the device has by now is among the answer to the next call.
+        """
+        found = []
+        while self._captured:
+            found.append(self._captured.popleft())
+        generation = self._mailbox.generation
+        if self._collecting.is_set() and self._collected_at == generation:
+            return tuple(found)
+        self._collected_at = generation  # a stop drops what was asked for before
+
+        def collect(driver: Driver) -> None:
+            self._collecting.clear()
+            if isinstance(driver, Capturer) and (part := driver.captured()) is not None:
+                self._captured.append(part)
+
+        self._collecting.set()
+        self._ask(collect)
+        return tuple(found)
+
+    # --- voltage and tool -----------------------------------------------------------------------
+
+    def set_voltage(self, axis: str, voltage: float, owner: str = OPERATOR) -> None:
+        """Put out a piezo's voltage, V; where that sends the axis is held against all limits.
+
+        Raises
+        ------
+        OutOfLimitsError
+            If the voltage or its position is beyond a limit, or the tip might leave its bounds.
+        RefusedError
+            If the device cannot, the tip is so low that it must go slowly, or as for any move.
+        """
+        if not isinstance(self.driver, VoltageOutput):
+            raise RefusedError(f"driver {self.driver.name!r} cannot put out a voltage")
+        model = self.robot.axes.get(axis)
+        if not isinstance(model, PiezoAxis) or model.controller is not None:
+            raise OutOfLimitsError(f"axis {axis!r} has no amplifier that could be given a voltage")
+        bounds = model.voltage_range
+        if bounds is not None and not bounds[0] <= voltage <= bounds[1]:
+            raise OutOfLimitsError(
+                f"axis {axis}: {voltage:g} V: must be {bounds[0]:g} to {bounds[1]:g} V"
+            )
+        targets = {axis: voltage * model.gain}
+        with self._lock:
+            self._refuse_if_locked()
+            legs = self._guard.move(self._place(), targets)
+            if len(legs) > 1 or legs[0].speeds:
+                raise RefusedError(
+                    f"axis {axis}: a voltage acts at once, too fast so close above the tip's "
+                    "floor; move it instead"
+                )
+            with self._worker.ownership.claimed((axis,), owner):
+                self._note_rest()
+                self._mailbox.post(SetVoltage(axis, voltage, targets))
+
+    @property
+    def tool_on(self) -> bool | None:
+        """Whether the tool is on; None where the device has none."""
+        return self.driver.tool_on if isinstance(self.driver, ToolOutput) else None
+
+    def switch_tool(self, on: bool) -> None:
+        """Switch the tool; off is possible in a fault too.
+
+        Raises
+        ------
+        RefusedError
+            If the device has none or is not connected; to switch on, if motion is locked.
+        """
+        if not isinstance(self.driver, ToolOutput):
+            raise RefusedError(f"driver {self.driver.name!r} has no tool that could be switched")
+        if on:
+            self._refuse_if_locked()
+
+        def switch(driver: Driver) -> None:
+            assert isinstance(driver, ToolOutput), "the session refuses on any other"
+            driver.switch_tool(on)
+
+        self._ask(switch)
+
+    # --- what a motion session adds -------------------------------------------------------------
+
+    @abstractmethod
+    def _refuse_if_locked(self) -> None:
+        """Refuse motion while it is locked."""
+
+    @abstractmethod
+    def _place(self, driven: Container[str] = ()) -> Place:
+        """Return where the axes may be."""
+
+    @abstractmethod
+    def _note_rest(self) -> None:
+        """Keep where the machine rests before it begins to move."""
+
+    def _profile_runner(self) -> None:
+        if not isinstance(self.driver, ProfileRunner):
+            raise RefusedError(f"driver {self.driver.name!r} cannot run profiles by itself")
+
+    def _refuse_unless_at_rest(self, what: str) -> None:
+        self._refuse_if_locked()
+        if self._worker.state.activity is not DeviceState.IDLE or len(self._mailbox):
+            raise RefusedError(f"the machine is still moving; stop it or wait before {what}")
+
+    def _commanded(self, axis: str) -> float:
+        return float(self._worker.state.command.get(axis, float("nan")))
+
+    def _check_profile(self, profile: Profile, start: float, owner: str) -> None:
+        low = high = at = start
+        for segment in profile.segments:
+            places = [at + extreme for extreme in segment.extremes()]
+            low, high = min(low, *places), max(high, *places)
+            at += segment.length
+        fastest = max(segment.greatest_speed() for segment in profile.segments)
+        self._guard.profile(
+            self._place(), profile.axis, (low, high), fastest, thrust=self.has_reserved(owner)
+        )
+
+
+def _abort(driver: Driver) -> None:
+    assert isinstance(driver, ProfileRunner), "the session refuses on any other"
+    driver.abort()

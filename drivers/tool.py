@@ -1,0 +1,39 @@
+"""A device with a tool on it that is on or off: a pump that injects, a valve, a light."""
+
+from abc import ABC, abstractmethod
+from typing import final
+
+from rotemina.drivers.driver import Driver
+
+
+class ToolOutput(Driver, ABC):
+    """A device with one output that switches a tool.
+
+    The tool is off when the device is opened, and after a stop: what nobody watches any more does
+    not go on flowing into a cell.
+    """
+
+    @property
+    @abstractmethod
+    def tool_on(self) -> bool:
+        """Whether the tool is on; any thread may ask."""
+
+    @final
+    def switch_tool(self, on: bool) -> None:
+        """Switch the tool. Off is possible whenever the device is open, in a fault too.
+
+        Raises
+        ------
+        StateError
+            If the device is closed; to switch on, also in a fault, while the position is unknown
+            or the device does not answer.
+        """
+        if on:
+            self._require_sound("switch the tool on")
+        else:
+            self._require_open("switch the tool off")
+        self._switch_tool(on)
+
+    @abstractmethod
+    def _switch_tool(self, on: bool) -> None:
+        """Switch the output."""
