@@ -1,6 +1,7 @@
 """How numbers and names of axes are shown to people: units, digits, labels. Free of Qt."""
 
 import math
+import re
 from dataclasses import dataclass
 
 from rotemina.sim.records.record import Record
@@ -9,6 +10,9 @@ from rotemina.sim.robot.model import Axis, Robot
 from rotemina.sim.units import symbol, to_unit
 
 LABELS = {"x": "X", "y": "Y", "z": "Z", "thx": "θx", "thy": "θy", "zn": "Z nano"}
+# What float() takes beside this (1_0, digits of other scripts, a comma in some locales) is likelier
+# a slip than a number.
+PLAIN_NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 _COARSE_M = 1e-3  # a range from here on reads better in mm
 
 

@@ -10,6 +10,8 @@ from typing import TypeVar
 
 from PySide6.QtCore import QTimer, Signal
 
+from rotemina.app.motion.deviation import Excess
+from rotemina.app.motion.playback import Playback, PlaybackPhase
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import CommandRefused, Event, Faulted, PlaybackFinished
 from rotemina.app.settings import Settings
@@ -69,7 +71,9 @@ class Workbench(Requests):
 
     ``plan`` is the trajectory in hand, ``run`` the last comparison, ``record`` what would be
     saved, and ``unsaved`` a played record that no file holds yet: each is written into
-    ``played_folder`` by itself as soon as it ends.
+    ``played_folder`` by itself as soon as it ends. ``pace`` (times as fast as the trajectory says)
+    and ``bounds`` (of the deviation of readings from the model, m or rad by axis) are what the next
+    playback is begun with.
 
     Signals
     -------
@@ -90,6 +94,7 @@ class Workbench(Requests):
     theme_changed = Signal(object)
     closing = Signal()
     _happened = Signal(object)
+    _exceeded = Signal(object)
 
     def __init__(
         self, session: MotionSession, settings: Settings, theme: Theme, played_folder: Path
@@ -102,7 +107,12 @@ class Workbench(Requests):
         self.run: Run | None = None
         self.record: Record | None = None
         self.unsaved: Record | None = None
+        self.pace = 1.0
+        self.bounds: dict[str, float] = {}
         self._background = Background(self)
+        self._exceeded.connect(self._tell_excess)
+        # Before this subscribes itself: when it hears of an end, the playback knows it already.
+        self.playback = Playback(session, self._exceeded.emit)
         self._happened.connect(self._on_event)
         self.refused.connect(lambda reason: self.notify(Level.ERROR, reason))
         self._unsubscribe = session.subscribe(self._happened.emit)
@@ -119,6 +129,7 @@ class Workbench(Requests):
         self._frames.stop()
         self.closing.emit()
         self._unsubscribe()
+        self.playback.close()
         self.session.close()
         self._background.wait()
 
@@ -145,7 +156,35 @@ class Workbench(Requests):
         if plan is None:
             self.notify(Level.WARNING, "There is no trajectory to play: load one first.")
         else:
-            self.ask(lambda: self.session.play(plan.dry_run.require()))
+            self.ask(
+                lambda: self.playback.play(
+                    plan.dry_run.require(), speed=self.pace, bounds=self.bounds
+                )
+            )
+
+    def toggle_playback(self) -> None:
+        """Play, pause, or go on, whichever comes next."""
+        phase = self.playback.state.phase
+        if phase is PlaybackPhase.PLAYING:
+            self.ask(self.playback.pause)
+        elif phase is PlaybackPhase.PAUSED:
+            self.ask(lambda: self.playback.resume(speed=self.pace))
+        else:
+            self.play()
+
+    def step_playback(self, rows: int) -> None:
+        """Go some rows on, or back, and rest there."""
+
+        def step() -> None:
+            if self.playback.state.phase is PlaybackPhase.IDLE and self.plan is not None:
+                self.playback.load_paused(self.plan.dry_run.require())
+            self.playback.step(rows)
+
+        self.ask(step)
+
+    def end_playback(self) -> None:
+        """Stop, and begin anew the next time."""
+        self.playback.end()
 
     # --- files ------------------------------------------------------------------------------------
 
@@ -216,6 +255,8 @@ class Workbench(Requests):
         return Plan(name, trajectory, dry_run(self.robot, trajectory, setpoint_period_s=period_s))
 
     def _set_plan(self, plan: Plan) -> None:
+        if self.playback.state.phase is PlaybackPhase.PAUSED:
+            self.playback.end()  # what was paused is not what is in hand
         self.plan = plan
         self.plan_changed.emit(plan)
         if not plan.dry_run.allowed:
@@ -231,6 +272,12 @@ class Workbench(Requests):
             self.notify(Level.ERROR, event.message)
         elif isinstance(event, PlaybackFinished):
             self._compare_played(event.record, event.completed)
+
+    def _tell_excess(self, excess: Excess) -> None:
+        self.notify(
+            Level.ERROR,
+            f"Playback paused: {excess.text}. Look at the machine; then go on, or end it.",
+        )
 
     def _keep(self, record: Record, name: str) -> None:
         """Write a played record into the folder of played records."""
@@ -259,6 +306,8 @@ class Workbench(Requests):
         # Kept before anything else: no comparison that fails, nor the next run, may lose it.
         self.record = self.unsaved = record
         self._keep(record, name)
+        if self.playback.state.phase is PlaybackPhase.PAUSED:
+            return  # compared when it has ended
         if not completed:
             self.notify(Level.WARNING, f"{name}: stopped after {record.duration_s:.2f} s.")
         self.work(

@@ -1,6 +1,5 @@
 """One axis of the control menu: readout, place in the range, jog, go-to."""
 
-import re
 from html import escape
 
 from PySide6.QtCore import QRectF, Qt
@@ -16,17 +15,13 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.display import Scale, axis_scale, label
+from rotemina.app.display import PLAIN_NUMBER, Scale, axis_scale, label
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.control.step_choice import StepChoice
 from rotemina.sim.units import from_unit
-
-# What float() takes beside this (1_0, digits of other scripts, a comma in some locales) is likelier
-# a slip than a position.
-PLAIN_NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 
 
 class RangeBar(QWidget):

@@ -1,15 +1,13 @@
 """How the parameters of effects are shown: units, digits, and places on a slider. Free of Qt."""
 
 import math
-import re
 from dataclasses import dataclass
 
+from rotemina.app.display import PLAIN_NUMBER
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import Parameter
 from rotemina.sim.units import drawing_unit, per_si, symbol
 
-# What float() takes beside this (1_0, digits of other scripts) is likelier a slip than a number.
-PLAIN_NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 SLIDER_STEPS = 1000
 
 _RATES = ("", "/s", "/s²", "/√s")  # behind a unit of position, these leave it free to be chosen

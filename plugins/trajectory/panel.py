@@ -1,12 +1,11 @@
 """Trajectories: load one, see what it asks of each axis, play it."""
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QSignalBlocker, Qt
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QHBoxLayout,
     QHeaderView,
     QLabel,
-    QProgressBar,
     QPushButton,
     QTableWidget,
     QTableWidgetItem,
@@ -16,12 +15,24 @@ from PySide6.QtWidgets import (
 from rotemina.app.display import axis_scale, label
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
-from rotemina.app.shell.workbench import Plan, Workbench
-from rotemina.drivers.samples import DeviceState
+from rotemina.app.shell.workbench import Level, Plan, Workbench
 from rotemina.plugins.trajectory.resampling import ResamplingDialog
-from rotemina.plugins.trajectory.table import COLUMNS, cells
+from rotemina.plugins.trajectory.table import (
+    BOUND,
+    COLUMNS,
+    bound_text,
+    cells,
+    preset_bound,
+    read_bound,
+)
+from rotemina.plugins.trajectory.transport import Transport
+from rotemina.sim.errors import InputError
 
 EMPTY = "No trajectory is loaded. Load one to see what it asks of each axis before it is played."
+BOUND_TIP = (
+    "The playback pauses when readings are farther from the model than this for 20 ms; "
+    "double-click to change it, empty it for no bound"
+)
 
 
 class TrajectoryPanel(Panel):
@@ -38,37 +49,37 @@ class TrajectoryPanel(Panel):
         self.resample = QPushButton("Resample …")
         self.resample.setEnabled(False)
         self.resample.clicked.connect(self._resample)
-        self.play = QPushButton("Play")
-        self.play.setProperty("primary", True)
-        self.play.clicked.connect(workbench.play)
-        self.progress = QProgressBar()
-        self.progress.setRange(0, 1000)
-        self.progress.setFormat("")
+        self.transport = Transport(workbench)
         self.name = QLabel("")
         self.name.setProperty("heading", True)
         self.verdict = QLabel(EMPTY)
         self.verdict.setWordWrap(True)
         self.name.setTextFormat(Qt.TextFormat.PlainText)
         self.verdict.setTextFormat(Qt.TextFormat.PlainText)
+        self.gaps = QLabel("")
+        self.gaps.setProperty("quiet", True)
+        self.gaps.setTextFormat(Qt.TextFormat.PlainText)
+        self.gaps.setWordWrap(True)
         self.table = _table()
+        self.table.itemChanged.connect(self._bound_typed)
         self._lay_out()
         workbench.plan_changed.connect(self._show_plan)
         workbench.refreshed.connect(self._refresh)
-        self.play.setEnabled(False)
 
     def _lay_out(self) -> None:
         buttons = QHBoxLayout()
         buttons.addWidget(self.load)
         buttons.addWidget(self.resample)
-        buttons.addWidget(self.play)
-        buttons.addWidget(self.progress, 1)
+        buttons.addWidget(self.transport, 1)
         column = QVBoxLayout(self)
         column.setContentsMargins(10, 8, 10, 8)
         column.addLayout(buttons)
         column.addWidget(self.name)
         column.addWidget(self.verdict)
+        column.addWidget(self.gaps)
         column.addWidget(self.table, 1)
         self.name.hide()
+        self.gaps.hide()
 
     def _show_plan(self, plan: Plan) -> None:
         run = plan.dry_run
@@ -85,6 +96,7 @@ class TrajectoryPanel(Panel):
             self.verdict.setText(f"Not playable: {run.objections[0]}{more}")
         self.verdict.setProperty("bad", not run.allowed)
         self.verdict.style().polish(self.verdict)
+        self.transport.show_plan()
         self._fill(plan)
 
     def _resample(self) -> None:
@@ -102,32 +114,63 @@ class TrajectoryPanel(Panel):
 
     def _fill(self, plan: Plan) -> None:
         figures = plan.dry_run.axes
-        self.table.setRowCount(len(figures))
-        for row, (name, axis) in enumerate(figures.items()):
-            scale = axis_scale(self.workbench.robot.axes[name])
-            self.table.setVerticalHeaderItem(row, QTableWidgetItem(label(name)))
-            for column, cell in enumerate(cells(axis, scale)):
-                item = QTableWidgetItem(cell.text)
-                item.setToolTip(cell.tip)
-                self.table.setItem(row, column, item)
+        bounds = {name: preset_bound(axis) for name, axis in figures.items()}
+        self.workbench.bounds = bounds
+        with QSignalBlocker(self.table):
+            self.table.setRowCount(len(figures))
+            for row, (name, axis) in enumerate(figures.items()):
+                scale = axis_scale(self.workbench.robot.axes[name])
+                self.table.setVerticalHeaderItem(row, QTableWidgetItem(label(name)))
+                for column, cell in enumerate(cells(axis, scale)):
+                    item = QTableWidgetItem(cell.text)
+                    item.setToolTip(cell.tip)
+                    item.setFlags(item.flags() & ~Qt.ItemFlag.ItemIsEditable)
+                    self.table.setItem(row, column, item)
+                item = QTableWidgetItem(bound_text(bounds[name], axis.unit))
+                item.setToolTip(BOUND_TIP)
+                self.table.setItem(row, BOUND, item)
+
+    def _bound_typed(self, item: QTableWidgetItem) -> None:
+        """Use the bounds as they are in the table now, or put back what was no bound."""
+        plan = self.workbench.plan
+        if plan is None or item.column() != BOUND:
+            return
+        name = list(plan.dry_run.axes)[item.row()]
+        unit = plan.dry_run.axes[name].unit
+        bounds = dict(self.workbench.bounds)
+        try:
+            bound = read_bound(item.text(), unit)
+        except InputError as error:
+            self.workbench.notify(Level.WARNING, f"{label(name)}: {error}")
+            bound = bounds.get(name)
+        if bound is None:
+            bounds.pop(name, None)
+        else:
+            bounds[name] = bound
+        self.workbench.bounds = bounds
+        with QSignalBlocker(self.table):
+            item.setText(bound_text(bound, unit))
 
     def _refresh(self, state: SessionState) -> None:
+        self.transport.refresh(state)
+        gaps = self.workbench.playback.state.gaps
+        self.gaps.setVisible(bool(gaps))
         plan = self.workbench.plan
-        playing = state.activity is DeviceState.PLAYING
-        ready = plan is not None and plan.dry_run.allowed
-        self.play.setEnabled(ready and state.locked is None and not playing)
-        self.progress.setValue(round(1000 * state.progress) if playing else 0)
-        if playing and plan is not None:
-            left = (1.0 - state.progress) * plan.dry_run.duration_s
-            self.progress.setFormat(f"{left:.1f} s left")
-        else:
-            self.progress.setFormat("")
+        if gaps and plan is not None:
+            parts = [
+                f"{label(name)} {bound_text(gaps[name].rms, axis.unit)} rms, "
+                f"{bound_text(gaps[name].peak, axis.unit)} peak"
+                for name, axis in plan.dry_run.axes.items()
+                if name in gaps
+            ]
+            self.gaps.setText(f"Model and real apart: {' · '.join(parts)}")
 
 
 def _table() -> QTableWidget:
     table = QTableWidget(0, len(COLUMNS))
     table.setHorizontalHeaderLabels(list(COLUMNS))
-    table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+    triggers = QAbstractItemView.EditTrigger
+    table.setEditTriggers(triggers.DoubleClicked | triggers.EditKeyPressed)
     table.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
     table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Stretch)
     table.verticalHeader().setDefaultSectionSize(24)

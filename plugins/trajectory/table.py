@@ -2,11 +2,14 @@
 
 from typing import NamedTuple
 
-from rotemina.app.display import Scale
+from rotemina.app.display import PLAIN_NUMBER, Scale
+from rotemina.sim.errors import InputError
 from rotemina.sim.trajectory.dry_run import AxisFigures
-from rotemina.sim.units import symbol, to_unit
+from rotemina.sim.units import from_unit, symbol, to_unit
 
-COLUMNS = ("lowest", "highest", "speed", "acceleration", "predicted error")
+COLUMNS = ("lowest", "highest", "speed", "acceleration", "predicted error", "stop beyond")
+BOUND = len(COLUMNS) - 1  # the column that may be edited
+_OF_STROKE, _OF_RANGE = 0.25, 0.005  # what is taken for excessive until somebody says otherwise
 
 
 class Cell(NamedTuple):
@@ -17,7 +20,7 @@ class Cell(NamedTuple):
 
 
 def cells(axis: AxisFigures, scale: Scale) -> tuple[Cell, ...]:
-    """Return one cell for each of :data:`COLUMNS`."""
+    """Return one cell for each of :data:`COLUMNS` but the last one, which is the operator's."""
     low, high = axis.bounds.range
     bounds = f"range {scale.text(low)} … {scale.text(high)}"
     return (
@@ -27,6 +30,38 @@ def cells(axis: AxisFigures, scale: Scale) -> tuple[Cell, ...]:
         _rate(axis.peak_acceleration, axis.bounds.max_acceleration, axis.unit, "/s²"),
         _error(axis),
     )
+
+
+def preset_bound(axis: AxisFigures) -> float:
+    """Return a deviation of readings from the model, m or rad, that is excessive anywhere."""
+    low, high = axis.bounds.range
+    return max(_OF_STROKE * (axis.highest - axis.lowest), _OF_RANGE * (high - low))
+
+
+def bound_text(bound: float | None, si_unit: str) -> str:
+    """Return a bound as the table writes it; nothing for none."""
+    unit = "urad" if si_unit == "rad" else "um"
+    return "" if bound is None else f"{float(to_unit(bound, unit)):.4g} {symbol(unit)}"
+
+
+def read_bound(text: str, si_unit: str) -> float | None:
+    """Return what somebody typed as a bound, m or rad; None for nothing.
+
+    Raises
+    ------
+    InputError
+        If it is no number above 0.
+    """
+    unit = "urad" if si_unit == "rad" else "um"
+    number = text.replace(symbol(unit), "").strip()
+    if not number:
+        return None
+    if PLAIN_NUMBER.fullmatch(number) is None or float(number) <= 0.0:
+        raise InputError(
+            f"{text!r} is no bound: type a number above 0 in {symbol(unit)}, with a decimal "
+            "point, or nothing"
+        )
+    return float(from_unit(float(number), unit))
 
 
 def _rate(value: float, bound: float | None, si_unit: str, per: str) -> Cell:

@@ -78,9 +78,9 @@ def test_a_trajectory_is_loaded_played_and_compared(qtbot, window, tmp_path):
     path = short_trajectory(tmp_path / "move.csv")
     load(qtbot, window, path)
     panel = window.panels["trajectory"]
-    qtbot.waitUntil(panel.play.isEnabled, timeout=LONG_MS)
+    qtbot.waitUntil(panel.transport.play.isEnabled, timeout=LONG_MS)
     with qtbot.waitSignal(window.workbench.run_changed, timeout=LONG_MS):
-        qtbot.mouseClick(panel.play, Qt.MouseButton.LeftButton)
+        qtbot.mouseClick(panel.transport.play, Qt.MouseButton.LeftButton)
     run = window.workbench.run
     assert run.completed
     tap = next(tap for tap in run.comparison.taps if tap.tap == "meas")
@@ -119,7 +119,7 @@ def test_a_trajectory_beyond_a_limit_is_shown_but_cannot_be_played(qtbot, window
     assert "Violation(" not in said
     with qtbot.waitSignal(window.workbench.refreshed):
         pass
-    assert not panel.play.isEnabled()
+    assert not panel.transport.play.isEnabled()
     window.workbench.play()
     assert "99" in notices(window)[0]
     assert window.workbench.session.snapshot().activity is DeviceState.IDLE

@@ -1,0 +1,108 @@
+"""The controls of a playback: play, pause, go on, step through it, and at which pace."""
+
+from PySide6.QtWidgets import (
+    QComboBox,
+    QDoubleSpinBox,
+    QHBoxLayout,
+    QProgressBar,
+    QPushButton,
+    QWidget,
+)
+
+from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
+from rotemina.app.motion.retiming import FASTEST, SLOWEST
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.controls import allow
+from rotemina.app.shell.workbench import Workbench
+from rotemina.drivers.samples import DeviceState
+
+STEPS = (1, 10, 100, 1000)  # rows
+_EMPTY = "no trajectory is loaded"
+_FORBIDDEN = "the dry run does not allow it"
+
+
+class Transport(QWidget):
+    """Buttons and progress; what they ask for goes through the workbench."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__()
+        self._workbench = workbench
+        self.play = QPushButton("Play")
+        self.play.setProperty("primary", True)
+        self.play.clicked.connect(workbench.toggle_playback)
+        self.end = QPushButton("End")
+        self.end.clicked.connect(workbench.end_playback)
+        self.back, self.forward = QPushButton("◂ Step"), QPushButton("Step ▸")
+        self.back.clicked.connect(lambda: self._step(-1))
+        self.forward.clicked.connect(lambda: self._step(1))
+        self.rows = QComboBox()
+        self.rows.setAccessibleName("Rows of a step")
+        for rows in STEPS:
+            self.rows.addItem("1 row" if rows == 1 else f"{rows} rows", rows)
+        self.speed = QDoubleSpinBox()
+        self.speed.setRange(SLOWEST, FASTEST)
+        self.speed.setDecimals(2)
+        self.speed.setSingleStep(0.05)
+        self.speed.setValue(1.0)
+        self.speed.setSuffix(" ×")
+        self.speed.setAccessibleName("Speed factor")
+        self.speed.valueChanged.connect(self._set_pace)
+        self.speed.setToolTip(
+            f"Pace of the playback, {SLOWEST:g} to {FASTEST:g} times that of the trajectory; "
+            "a faster one is checked against all limits first. Changed in a pause, it holds "
+            "from there on"
+        )
+        self.progress = QProgressBar()
+        self.progress.setRange(0, 1000)
+        self.progress.setFormat("")
+        self._lay_out()
+
+    def refresh(self, session: SessionState) -> None:
+        """Show what may be done now, and how far the playback is."""
+        state = self._workbench.playback.state
+        plan = self._workbench.plan
+        missing = _EMPTY if plan is None else None if plan.dry_run.allowed else _FORBIDDEN
+        playing = state.phase is PlaybackPhase.PLAYING
+        paused = state.phase is PlaybackPhase.PAUSED
+        words = {PlaybackPhase.PLAYING: "Pause", PlaybackPhase.PAUSED: "Go on"}
+        self.play.setText(words.get(state.phase, "Play"))
+        busy = None if session.activity is DeviceState.IDLE else "the axes still move"
+        why = None if playing else (None if paused else missing) or session.locked or busy
+        allow(self.play, why, "Play, pause, go on (Ctrl+P)")
+        allow(self.end, None if playing or paused else "nothing plays", "Stop, and begin anew next")
+        still = "a trajectory is playing" if playing else missing or session.locked
+        if paused and session.locked is None:
+            still = None
+        tip = "Go to the next rows at the axes' own speed, and rest there"
+        allow(self.forward, still, tip)
+        allow(self.back, still or (None if paused else "nothing is paused"), tip)
+        self._show_progress(state)
+
+    def show_plan(self) -> None:
+        """Begin anew with another trajectory, at its own pace."""
+        self.speed.setValue(1.0)
+
+    def _lay_out(self) -> None:
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        for widget in (self.play, self.end, self.speed, self.back, self.forward, self.rows):
+            row.addWidget(widget)
+        row.addWidget(self.progress, 1)
+
+    def _set_pace(self, pace: float) -> None:
+        self._workbench.pace = pace
+
+    def _step(self, sign: int) -> None:
+        self._workbench.step_playback(sign * int(self.rows.currentData()))
+
+    def _show_progress(self, state: PlaybackState) -> None:
+        if state.phase is PlaybackPhase.IDLE:
+            self.progress.setValue(0)
+            self.progress.setFormat("")
+            return
+        share = state.path_s / state.duration_s if state.duration_s else 0.0
+        self.progress.setValue(round(1000 * share))
+        left_s = (state.duration_s - state.path_s) / state.speed
+        row = f"row {state.row + 1} of {state.rows}" if state.row >= 0 else "before its first row"
+        paused = "paused, " if state.phase is PlaybackPhase.PAUSED else ""
+        self.progress.setFormat(f"{paused}{row}, {left_s:.1f} s left")

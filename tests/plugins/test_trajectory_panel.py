@@ -1,0 +1,118 @@
+"""The trajectory panel: playing by hand, and the bounds beyond which it stops."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+
+from rotemina.app.motion.playback import PlaybackPhase
+from rotemina.drivers.samples import DeviceState
+from rotemina.plugins.trajectory.table import BOUND, bound_text, read_bound
+from rotemina.sim.errors import InputError
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.model import AxisEffect
+
+LONG_MS = 30_000
+
+
+def swing(seconds=3.0, height=20e-6):
+    time_s = np.arange(round(seconds * 500) + 1) / 500
+    path = 30e-6 + height * np.sin(np.pi * time_s / time_s[-1]) ** 4
+    return Record.from_signals(time_s, {("zn", Tap.CMD): path}, {"zn": "m"})
+
+
+@pytest.fixture
+def panel(qtbot, window):
+    with qtbot.waitSignal(window.workbench.plan_changed, timeout=LONG_MS):
+        window.workbench.plan_trajectory("swing", swing())
+    panel = window.panels["trajectory"]
+    qtbot.waitUntil(panel.transport.play.isEnabled, timeout=LONG_MS)
+    return panel
+
+
+def phase(panel):
+    return panel.workbench.playback.state.phase
+
+
+def click(qtbot, button):
+    qtbot.waitUntil(button.isEnabled, timeout=LONG_MS)
+    qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+
+
+def at_rest(panel):
+    return panel.workbench.session.snapshot().activity is DeviceState.IDLE
+
+
+def notices(window):
+    return [notice.text for notice in window.notices.notices()]
+
+
+def test_played_paused_stepped_and_gone_on_with(qtbot, window, panel):
+    bench, transport = window.workbench, panel.transport
+    click(qtbot, transport.play)
+    qtbot.waitUntil(lambda: bench.playback.state.row > 200, timeout=LONG_MS)
+    click(qtbot, transport.play)
+    qtbot.waitUntil(lambda: phase(panel) is PlaybackPhase.PAUSED and at_rest(panel))
+    qtbot.waitUntil(lambda: transport.play.text() == "Go on", timeout=LONG_MS)
+    row = bench.playback.state.row
+    assert f"paused, row {row + 1} of 1501" in transport.progress.format()
+    assert bench.run is None  # compared when it has ended, not in between
+    click(qtbot, transport.forward)
+    assert bench.playback.state.row == row + 1
+    qtbot.waitUntil(lambda: at_rest(panel), timeout=LONG_MS)
+    transport.speed.setValue(2.0)
+    with qtbot.waitSignal(bench.run_changed, timeout=LONG_MS):
+        click(qtbot, transport.play)
+    assert phase(panel) is PlaybackPhase.IDLE
+    assert len(list(bench.played_folder.glob("*_swing.csv.gz"))) == 2
+    assert "Model and real apart: Z nano" in panel.gaps.text()
+    assert notices(window) == []
+
+
+def test_a_step_from_the_beginning_goes_to_the_first_row(qtbot, window, panel):
+    click(qtbot, panel.transport.forward)
+    assert window.workbench.playback.state.row == 0
+    session = window.workbench.session
+    qtbot.waitUntil(lambda: session.snapshot().command["zn"] == 30e-6, timeout=LONG_MS)
+    click(qtbot, panel.transport.end)
+    assert phase(panel) is PlaybackPhase.IDLE
+
+
+def test_excess_pauses_and_says_so(qtbot, window, panel):
+    window.workbench.session.set_effects(
+        (AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.2}),)
+    )
+    panel.table.item(0, BOUND).setText("8")
+    assert window.workbench.bounds == {"zn": pytest.approx(8e-6)}
+    click(qtbot, panel.transport.play)
+    qtbot.waitUntil(lambda: len(notices(window)) > 0, timeout=LONG_MS)
+    assert "Playback paused: axis zn is" in notices(window)[0]
+    assert "at most 8 µm" in notices(window)[0]
+    assert phase(panel) is PlaybackPhase.PAUSED
+
+
+def test_a_bound_may_be_changed_or_taken_away(window, panel):
+    item = panel.table.item(0, BOUND)
+    assert window.workbench.bounds == {"zn": pytest.approx(5e-6)}  # a quarter of the stroke
+    item.setText("2,5 µm")
+    assert "decimal" in notices(window)[0]
+    assert item.text() == "5 µm"
+    item.setText("")
+    assert window.workbench.bounds == {}
+
+
+def test_another_trajectory_ends_a_pause(qtbot, window, panel):
+    click(qtbot, panel.transport.forward)
+    with qtbot.waitSignal(window.workbench.plan_changed, timeout=LONG_MS):
+        window.workbench.plan_trajectory("other", swing(1.0))
+    assert phase(panel) is PlaybackPhase.IDLE
+
+
+@pytest.mark.parametrize("text", ["0", "-1", "1_0", "five", "1 mm"])
+def test_what_is_no_bound_is_refused(text):
+    with pytest.raises(InputError, match="is no bound"):
+        read_bound(text, "m")
+
+
+def test_a_bound_is_read_as_it_was_written():
+    assert read_bound(bound_text(12.5e-6, "rad"), "rad") == pytest.approx(12.5e-6)
+    assert read_bound("", "m") is None
