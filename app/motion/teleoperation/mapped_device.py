@@ -1,0 +1,191 @@
+"""One plugged input device: readings become deflections and actions, as far as they are trusted."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from rotemina.app.motion.teleoperation.button import Button, Threshold
+from rotemina.app.motion.teleoperation.calibration import Calibration
+from rotemina.app.motion.teleoperation.intent import Action
+from rotemina.app.motion.teleoperation.mapping import PluggedDevice
+from rotemina.app.motion.teleoperation.profile import ActionMapping, DeviceMapping
+from rotemina.app.motion.teleoperation.trust import AxisTrust
+from rotemina.drivers.inputs.device import InputReading
+
+SILENCE_S = 0.25  # of a device that streams
+
+#: Actions that work from every device, whoever drives, and while mappings are made.
+STOPS = frozenset({Action.STOP, Action.EMERGENCY_STOP})
+#: Actions that last as long as they are held, and are never *pressed*.
+WHILE_HELD = frozenset({Action.CLUTCH, Action.DEAD_MAN, Action.FINE, Action.COARSE})
+
+
+@dataclass(frozen=True, slots=True)
+class AxisView:
+    """One axis for a live bar.
+
+    Attributes
+    ----------
+    control : str
+    raw : float or None
+        What the device says; None as long as it has said nothing.
+    deflection : float
+        Calibrated, −1 to 1, whether trusted or not.
+    drives : str or None
+    reason : str or None
+        Why it is not trusted, in words; None if it is.
+    """
+
+    control: str
+    raw: float | None
+    deflection: float
+    drives: str | None
+    reason: str | None
+
+
+class MappedDevice:
+    """Reads one device by its calibration and its mapping.
+
+    Parameters
+    ----------
+    device : PluggedDevice
+    calibration : Calibration
+    mapping : DeviceMapping or None
+        Its controls are those of the device; None if the profile has nothing for it.
+    """
+
+    def __init__(
+        self, device: PluggedDevice, calibration: Calibration, mapping: DeviceMapping | None
+    ) -> None:
+        self.device = device
+        self.mapping = mapping
+        #: When its newest reading came in; None as long as there was none.
+        self.newest_s: float | None = None
+        #: Whether it streams and has stopped doing so.
+        self.silent = False
+        #: Actions pressed in the last step, and those held.
+        self.pressed: frozenset[Action] = frozenset()
+        self.held: frozenset[Action] = frozenset()
+        self._calibrations = {axis: calibration.axis(axis) for axis in device.axes}
+        self._trust = {axis: AxisTrust(self._calibrations[axis]) for axis in device.axes}
+        self._raw: dict[str, float] = {}
+        self._garbled: str | None = None
+        self._listening_since_s: float | None = None
+        self._actors = [] if mapping is None else [_Actor(each) for each in mapping.actions]
+
+    def step(self, readings: Sequence[InputReading], now_s: float) -> None:
+        """Take in the readings since the last step, oldest first, and let time pass."""
+        if self._listening_since_s is None:
+            self._listening_since_s = now_s
+        pressed: set[Action] = set()
+        for reading in readings:
+            pressed |= self._feed(reading)
+        for axis in self._trust.values():
+            axis.step(now_s)
+        for actor in self._actors:
+            if actor.button.step(now_s):
+                pressed.add(actor.action)
+        self._listen(now_s)
+        self.pressed = frozenset(pressed - WHILE_HELD)
+        self.held = frozenset(actor.action for actor in self._actors if actor.button.held)
+
+    def distrust(self, why: str) -> None:
+        """Let no axis act until it is at rest."""
+        for axis in self._trust.values():
+            axis.reset(why)
+
+    @property
+    def wants_to_drive(self) -> bool:
+        """Whether an axis of it is mapped to something that moves."""
+        return self.mapping is not None and bool(self.mapping.axes)
+
+    @property
+    def deflections(self) -> Mapping[str, float]:
+        """What its trusted axes ask for, by what they drive."""
+        found: dict[str, float] = {}
+        for mapping in self.mapping.axes if self.mapping is not None else ():
+            if self._trust[mapping.control].reason is None and mapping.control in self._raw:
+                deflection = self._deflection(mapping.control)
+                found[mapping.drives] = -deflection if mapping.inverted else deflection
+        return found
+
+    def travel_m(self, drives: str) -> float | None:
+        """Return the way of the grip that is a deflection of 1, m; None if nobody measured it."""
+        for mapping in self.mapping.axes if self.mapping is not None else ():
+            if mapping.drives == drives:
+                return self._calibrations[mapping.control].travel_m
+        return None
+
+    @property
+    def axes(self) -> tuple[AxisView, ...]:
+        """All its axes, mapped or not, for live bars."""
+        mappings = self.mapping.axes if self.mapping is not None else ()
+        drives = {mapping.control: mapping.drives for mapping in mappings}
+        return tuple(
+            AxisView(
+                axis,
+                self._raw.get(axis),
+                self._deflection(axis) if axis in self._raw else 0.0,
+                drives.get(axis),
+                self._garbled or trust.reason,
+            )
+            for axis, trust in self._trust.items()
+        )
+
+    def _deflection(self, axis: str) -> float:
+        return self._calibrations[axis].deflection(self._raw[axis])
+
+    def _feed(self, reading: InputReading) -> set[Action]:
+        device = self.device
+        if (len(reading.axes), len(reading.buttons)) != (len(device.axes), len(device.buttons)):
+            self._garbled = (
+                f"a reading of {len(reading.axes)} axes and {len(reading.buttons)} buttons came "
+                f"from a device with {len(device.axes)} and {len(device.buttons)}: replug it"
+            )
+            self._forget(self._garbled)
+            return set()
+        self._garbled = None
+        self.newest_s = reading.host_time_s
+        for axis, raw in zip(device.axes, reading.axes, strict=True):
+            self._raw[axis] = raw
+            self._trust[axis].feed(reading.host_time_s, raw)
+        buttons = dict(zip(device.buttons, reading.buttons, strict=True))
+        return {
+            actor.action
+            for actor in self._actors
+            if actor.button.feed(reading.host_time_s, self._down(actor, buttons))
+        }
+
+    def _down(self, actor: "_Actor", buttons: Mapping[str, bool]) -> bool:
+        if actor.threshold is None:
+            return buttons[actor.control]
+        # It need not be seen at rest, a trigger that nobody calibrated is not; but no noise.
+        if not self._trust[actor.control].plausible:
+            return False
+        return actor.threshold.feed(self._deflection(actor.control))
+
+    def _listen(self, now_s: float) -> None:
+        heard_s = self.newest_s if self.newest_s is not None else self._listening_since_s
+        assert heard_s is not None
+        silent = self.device.streams and now_s - heard_s > SILENCE_S
+        if silent:
+            self._forget("silent: nothing has come from it; replug it, or look at its cable")
+        self.silent = silent
+
+    def _forget(self, why: str) -> None:
+        """Take back everything that it said, a held dead-man too."""
+        for axis in self._trust.values():
+            axis.forget(why)
+        if self.mapping is not None:
+            self._actors = [_Actor(each) for each in self.mapping.actions]
+
+
+class _Actor:
+    """A control that does something."""
+
+    def __init__(self, mapping: ActionMapping) -> None:
+        self.control = mapping.control
+        self.action = mapping.action
+        self.button = Button(at_once=mapping.action in STOPS)
+        self.threshold: Threshold | None = None
+        if mapping.at is not None:
+            self.threshold = Threshold(mapping.at, mapping.hysteresis)

@@ -1,0 +1,58 @@
+"""Which of two seats drives: the trainer takes over at once, the trainee only when asked to."""
+
+from dataclasses import dataclass
+
+from rotemina.app.motion.teleoperation.profile import Seat
+
+#: Deflection by which the trainer takes over: clearly beyond the dead zone, well below an end.
+MOVED = 0.25
+
+
+@dataclass(frozen=True, slots=True)
+class SeatState:
+    """What a seat's devices do now.
+
+    Attributes
+    ----------
+    present : bool
+        Whether one of them that can drive is plugged in.
+    asks : bool
+        Whether TAKE_OVER was pressed there.
+    most : float
+        The greatest deflection of their trusted axes, 0 to 1.
+    """
+
+    present: bool
+    asks: bool
+    most: float
+
+
+class Takeover:
+    """Begins with the trainer.
+
+    TAKE_OVER means *this one drives now*, at each seat, and nothing where that is so already: a
+    trainer who presses it in alarm never gives the drive away. The trainee gets it only while the
+    trainer is there and keeps still.
+    """
+
+    def __init__(self) -> None:
+        self.driving = Seat.TRAINER
+
+    def decide(self, trainer: SeatState, trainee: SeatState) -> str | None:
+        """Let the seats have their say; return why the one that drove does so no more, or None."""
+        reason = None
+        if self.driving is Seat.TRAINEE:
+            if not trainer.present:
+                reason = "the trainer's device is not there: the trainee does not drive alone"
+            elif trainer.asks or trainer.most >= MOVED:
+                reason = "the trainer has taken over"
+        elif trainee.asks and self._granted(trainer, trainee):
+            reason = "the trainee has taken over"
+        if reason is not None:
+            self.driving = Seat.TRAINER if self.driving is Seat.TRAINEE else Seat.TRAINEE
+        return reason
+
+    @staticmethod
+    def _granted(trainer: SeatState, trainee: SeatState) -> bool:
+        still = trainer.present and not trainer.asks and trainer.most < MOVED
+        return still and trainee.present
