@@ -58,6 +58,9 @@ def test_played_paused_stepped_and_gone_on_with(qtbot, window, panel):
     assert bench.run is None  # compared when it has ended, not in between
     click(qtbot, transport.forward)
     assert bench.playback.state.row == row + 1
+    there = pytest.approx(swing().values[row + 1, 0], abs=1e-12)
+    session = bench.session
+    qtbot.waitUntil(lambda: session.snapshot().command["zn"] == there, timeout=LONG_MS)
     qtbot.waitUntil(lambda: at_rest(panel), timeout=LONG_MS)
     transport.speed.setValue(2.0)
     with qtbot.waitSignal(bench.run_changed, timeout=LONG_MS):
