@@ -19,6 +19,7 @@ from rotemina.app.cli import (
     excite,
     gap,
     play,
+    recording,
     simulate,
     window,
 )
@@ -54,7 +55,7 @@ def build_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"rotemina {version('rotemina')}")
     window.add_options(parser)
     commands = parser.add_subparsers(title="subcommands", metavar="")
-    for module in (play, simulate, compare, gap, convert, excite, effect, driver, board):
+    for module in (play, simulate, compare, gap, convert, excite, effect, driver, board, recording):
         module.add_parser(commands)
     return parser
 

@@ -1,1 +1,1 @@
-"""The recorder of a session: everything on one clock, safe against crashes."""
+"""Recording of sessions: written safely while they run, read back, exported and replayed."""

@@ -1,0 +1,114 @@
+"""``rotemina recording``: look at recordings of sessions, recover and export them."""
+
+import argparse
+from pathlib import Path
+
+from rotemina.sim.errors import InputError
+from rotemina.sim.records.writing import write_record
+from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
+
+
+def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Add the subcommand and what it does."""
+    parser = commands.add_parser(
+        "recording",
+        help="look at recordings of sessions, recover and export them",
+        description="Look at recordings of sessions, recover what a crash has left, and export "
+        "stretches of them as records or as trajectories to be played again.",
+    )
+    does = parser.add_subparsers(metavar="", required=True)
+
+    one = does.add_parser("info", help="what a recording holds")
+    one.add_argument("recording", type=Path, metavar="FILE")
+    one.add_argument("--events", action="store_true", help="list what happened, too")
+    one.set_defaults(run=info)
+
+    one = does.add_parser("recover", help="finish recordings that a crash has left")
+    one.add_argument("source", type=Path, metavar="FILE_OR_FOLDER")
+    one.set_defaults(run=recover)
+
+    one = does.add_parser("export", help="write a stretch as a record, or as a trajectory")
+    one.add_argument("recording", type=Path, metavar="FILE")
+    one.add_argument("-o", "--output", type=Path, required=True, metavar="OUT")
+    one.add_argument(
+        "--from", type=float, default=0.0, dest="begin", metavar="S",
+        help="where it begins, in seconds from the begin of the recording",
+    )  # fmt: skip
+    one.add_argument(
+        "--to", type=float, default=float("inf"), dest="end", metavar="S",
+        help="where it ends, likewise",
+    )  # fmt: skip
+    one.add_argument(
+        "--trajectory", action="store_true",
+        help="write the commands of the axes that moved, checked, to be played again",
+    )  # fmt: skip
+    one.add_argument(
+        "--period", type=float, default=SETPOINT_PERIOD_S, metavar="S",
+        help="of the rows of a trajectory (default: %(default)g s)",
+    )  # fmt: skip
+    one.set_defaults(run=export)
+
+
+def info(options: argparse.Namespace) -> int:
+    """Print what a recording holds."""
+    from rotemina.app.motion.recording.reading import Recording  # Arrow takes its time to import
+
+    recording = Recording.open(options.recording)
+    about = recording.metadata
+    print(f"{options.recording}: {recording.ended_s - recording.began_s:.3f} s")
+    for key in ("began", "program", "robot", "robot_sha256", "driver", "driver_settings"):
+        print(f"  {key:16s}{about.get(key, '')}")
+    print(f"  {'samples':16s}{recording.count} of {', '.join(recording.axes)}")
+    for name in recording.channels:
+        columns = recording.channel(name)
+        rows = len(columns.pop("host_time_s"))
+        print(f"  {'channel':16s}{name}: {rows} rows of {', '.join(columns)}")
+    events = recording.events()
+    print(f"  {'events':16s}{len(events)}")
+    for event in events if options.events else ():
+        print(f"  {event.host_time_s - recording.began_s:12.6f} {event.kind:14s} {event.text}")
+    return 0
+
+
+def recover(options: argparse.Namespace) -> int:
+    """Finish one recording, or all in a folder."""
+    from rotemina.app.motion.recording import merging
+
+    source = options.source
+    found = merging.unfinished(source) if source.is_dir() else (source,)
+    if not found:
+        print(f"{source}: nothing to recover")
+    refused = []
+    for path in found:
+        try:
+            print(merging.recover(path))
+        except InputError as error:  # one that is being recorded keeps nobody from the others
+            refused.append(str(error))
+    if refused:
+        raise InputError("\n".join(refused))
+    return 0
+
+
+def export(options: argparse.Namespace) -> int:
+    """Write a stretch of a recording."""
+    from rotemina.app.motion.recording import exporting
+    from rotemina.app.motion.recording.reading import Recording
+
+    if not 0.0 <= options.begin < options.end:
+        raise InputError(
+            f"--from {options.begin:g} --to {options.end:g}: must be 0 or more, and in order"
+        )
+    if not options.period > 0.0:
+        raise InputError(f"--period {options.period:g}: must be more than 0 s")
+    if options.output.exists() and options.output.samefile(options.recording):
+        raise InputError(f"{options.output}: it is the file that is read; name another by -o")
+    recording = Recording.open(options.recording)
+    begin_s, end_s = (recording.began_s + each for each in (options.begin, options.end))
+    if options.trajectory:
+        commands = exporting.trajectory(recording, begin_s, end_s, options.period).commands
+        write_record(commands, options.output)
+        rows = len(commands.time_s)
+    else:
+        rows = exporting.export(recording, options.output, begin_s, end_s)
+    print(f"{options.output}: {rows} rows")
+    return 0

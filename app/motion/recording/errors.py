@@ -1,0 +1,7 @@
+"""What can be wrong with a recording."""
+
+from rotemina.sim.errors import InputError
+
+
+class RecordingError(InputError):
+    """A recording that cannot be made, recovered, read or used."""

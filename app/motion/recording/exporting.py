@@ -1,0 +1,212 @@
+"""Recordings made into records: of what a machine did, and of what it can be told to do again."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from rotemina.app.motion.recording.errors import RecordingError
+from rotemina.app.motion.recording.reading import RecordedSamples, Recording
+from rotemina.sim.arrays import BoolArray, FloatArray
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records.writing import write_pieces
+from rotemina.sim.robot.model import Robot
+from rotemina.sim.trajectory.checked import CheckedTrajectory
+from rotemina.sim.trajectory.dry_run import dry_run, mode_of
+
+# Device times are told apart to this many parts of a second: the rounding of a late device time
+# must not make every interval a different one.
+_PER_SECOND = 1e9
+_REST_S = 0.02  # for so long an axis must stand to count as at rest
+
+
+def export(
+    recording: Recording, path: Path, begin_s: float = -np.inf, end_s: float = np.inf
+) -> int:
+    """Write the samples between two host times as an ASCII record; return how many.
+
+    Raises
+    ------
+    RecordError
+        If the file cannot be written.
+    RecordingError
+        If there are no samples, or the device was connected anew in between.
+    """
+    count = 0
+
+    def counted() -> Iterator[Record]:
+        nonlocal count
+        for piece in record_pieces(recording, begin_s, end_s):
+            count += len(piece.time_s)
+            yield piece
+
+    write_pieces(counted(), path)
+    return count
+
+
+def record_of(recording: Recording, begin_s: float = -np.inf, end_s: float = np.inf) -> Record:
+    """Return the samples between two host times as a record.
+
+    It has ``cmd``, ``u`` (where the device told it throughout) and ``meas`` of all axes, on the
+    device's time from 0.
+
+    Raises
+    ------
+    RecordingError
+        As :func:`export`.
+    """
+    span = _span(recording, begin_s, end_s)
+    return _record(recording, span, recording.samples(begin_s, end_s))
+
+
+def record_pieces(
+    recording: Recording, begin_s: float = -np.inf, end_s: float = np.inf
+) -> Iterator[Record]:
+    """Give the record of :func:`record_of` in pieces, one behind the other.
+
+    Raises
+    ------
+    RecordingError
+        As :func:`export`.
+    """
+    span = _span(recording, begin_s, end_s)
+    for piece in recording.pieces(begin_s, end_s):
+        yield _record(recording, span, piece)
+
+
+def trajectory(
+    recording: Recording,
+    begin_s: float,
+    end_s: float,
+    period_s: float,
+    robot: Robot | None = None,
+) -> CheckedTrajectory:
+    """Return the commands between two host times, to be played again.
+
+    They are those of the axes that moved, on lines between samples, every ``period_s``, at which
+    the device that shall play them applies set-points; checked by a dry run.
+
+    Parameters
+    ----------
+    recording : Recording
+    begin_s, end_s : float
+        Between two moments at which every axis stood.
+    period_s : float
+    robot : Robot, optional
+        Whose limits are asked; the recorded one by default.
+
+    Raises
+    ------
+    RecordingError
+        If nothing moved, an axis moves at the begin or end, samples are missing in between, or as
+        :func:`export`.
+    OutOfLimitsError, TrajectoryError
+        If the robot must not play it.
+    """
+    _span(recording, begin_s, end_s)
+    samples = recording.samples(begin_s, end_s)
+    moving = np.flatnonzero(np.ptp(samples.command, axis=0) > 0.0)
+    if not len(moving):
+        raise RecordingError(f"{recording.path}: no axis was sent anywhere from there to there")
+    _check_gaps(recording, samples)
+    _check_rest(recording, samples)
+    time_s = samples.device_time_s - samples.device_time_s[0]
+    rows = int(np.floor(time_s[-1] / period_s + 1e-6)) + 1
+    grid_s = period_s * np.arange(rows, dtype=np.float64)
+    signals = {
+        (recording.axes[axis], Tap.CMD): _on_lines(grid_s, time_s, samples.command[:, axis])
+        for axis in moving
+    }
+    metadata = {"trajectory": f"{recording.path.stem} again", "recording": recording.path.name}
+    record = Record.from_signals(grid_s, signals, dict(recording.units), metadata)
+    return dry_run(robot or recording.robot, record, setpoint_period_s=period_s).require()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Span:
+    """What the pieces of a record share: where it begins, and which axes tell their ``u``."""
+
+    first_s: float
+    told: BoolArray
+    metadata: dict[str, str]
+
+
+def _span(recording: Recording, begin_s: float, end_s: float) -> _Span:
+    first: RecordedSamples | None = None
+    told = np.ones(len(recording.axes), dtype=np.bool_)
+    for piece in recording.pieces(begin_s, end_s):
+        first = piece if first is None else first
+        changed = np.flatnonzero(piece.connection != first.connection[0])
+        if len(changed):
+            at_s = piece.host_time_s[changed[0]] - recording.began_s
+            raise RecordingError(
+                f"{recording.path}: the device was connected anew {at_s:.3f} s after the begin, "
+                "with a time of its own; choose what is before or after that"
+            )
+        told &= np.isfinite(piece.inputs).all(axis=0)
+    if first is None:
+        whole_s = recording.ended_s - recording.began_s
+        raise RecordingError(
+            f"{recording.path}: no samples from there to there; it lasts {whole_s:.3f} s"
+        )
+    return _Span(float(first.device_time_s[0]), told, _metadata(recording, first))
+
+
+def _metadata(recording: Recording, first: RecordedSamples) -> dict[str, str]:
+    return {
+        "mode": mode_of(recording.robot, recording.axes),
+        # What the machine remembers from before the first row is not in the record.
+        "history": "unknown",
+        "robot": recording.metadata["robot"],
+        "driver": recording.metadata["driver"],
+        "recording": recording.path.name,
+        "recording_id": recording.metadata["id"],
+        "recording_from_s": f"{first.host_time_s[0] - recording.began_s:.6f}",
+    }
+
+
+def _record(recording: Recording, span: _Span, samples: RecordedSamples) -> Record:
+    time_s = np.rint((samples.device_time_s - span.first_s) * _PER_SECOND) / _PER_SECOND
+    signals: dict[tuple[str, Tap], FloatArray] = {}
+    for column, axis in enumerate(recording.axes):
+        signals[axis, Tap.CMD] = samples.command[:, column]
+        if span.told[column]:
+            signals[axis, Tap.U] = samples.inputs[:, column]
+        signals[axis, Tap.MEAS] = samples.measured[:, column]
+    return Record.from_signals(time_s, signals, dict(recording.units), span.metadata)
+
+
+def _check_rest(recording: Recording, samples: RecordedSamples) -> None:
+    time_s = samples.device_time_s
+    ends = {
+        "begin": (time_s <= time_s[0] + _REST_S, "earlier"),
+        "end": (time_s >= time_s[-1] - _REST_S, "later"),
+    }
+    for end, (rows, advice) in ends.items():
+        moves = np.flatnonzero(np.ptp(samples.command[rows], axis=0) > 0.0)
+        if len(moves):
+            raise RecordingError(
+                f"{recording.path}: axis {recording.axes[moves[0]]} moves at the {end}; every axis "
+                f"must stand there for {_REST_S:g} s: choose an {end} that is {advice}"
+            )
+
+
+def _check_gaps(recording: Recording, samples: RecordedSamples) -> None:
+    steps_s = np.diff(samples.device_time_s)
+    moved = (np.diff(samples.command, axis=0) != 0.0).any(axis=1)
+    wide = np.flatnonzero(moved & (steps_s > _REST_S))
+    if len(wide):
+        at_s = samples.host_time_s[wide[0]] - recording.began_s
+        raise RecordingError(
+            f"{recording.path}: {1e3 * steps_s[wide[0]]:.0f} ms of samples are missing in mid-move "
+            f"{at_s:.3f} s after the begin: at most {1e3 * _REST_S:.0f} ms; choose what is before "
+            "or after that"
+        )
+
+
+def _on_lines(grid_s: FloatArray, time_s: FloatArray, command: FloatArray) -> FloatArray:
+    # A grid point that is next to a sample is meant to be on it.
+    near = np.minimum(np.searchsorted(time_s, grid_s - 1e-9), len(time_s) - 1)
+    exact = np.abs(time_s[near] - grid_s) <= 1e-9
+    return np.where(exact, command[near], np.interp(grid_s, time_s, command))

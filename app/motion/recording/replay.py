@@ -1,0 +1,153 @@
+"""A recording shown again: history and states as the session had them, at any pace."""
+
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from itertools import pairwise
+from types import MappingProxyType
+
+import numpy as np
+
+from rotemina.app.motion.history import LiveHistory
+from rotemina.app.motion.recording.backlog import RecordedEvent
+from rotemina.app.motion.recording.reading import RecordedSamples, Recording
+from rotemina.app.motion.state import (
+    Callback,
+    CommandRefused,
+    Connection,
+    Event,
+    Faulted,
+    SessionState,
+    StateChanged,
+)
+from rotemina.drivers.samples import DeviceState, Samples
+from rotemina.sim.arrays import FloatArray
+
+_SEEN_S = 60.0  # of history that a jump fills
+
+
+class Replay:
+    """Feeds a history, states and events from a recording; what shows a session can show it.
+
+    Nothing moves and nobody is asked for the time: :meth:`advance` is told how much of it goes by.
+    It has what panels read of a session: ``robot``, ``history``, :meth:`snapshot`,
+    :meth:`subscribe`.
+
+    Parameters
+    ----------
+    recording : Recording
+    history : LiveHistory, optional
+        Where samples go; a minute's worth by default.
+
+    Raises
+    ------
+    RobotFileError
+        If the robot file in the recording is none for this program.
+    """
+
+    def __init__(self, recording: Recording, history: LiveHistory | None = None) -> None:
+        self.recording = recording
+        self.robot = recording.robot
+        self.history = history if history is not None else LiveHistory(recording.axes)
+        self.host_time_s = recording.began_s
+        self._events = recording.events()
+        self._at = 0  # of the events, those told
+        self._connection = -1
+        self._state = SessionState()
+        self._callbacks: list[Callback] = []
+
+    @property
+    def ended(self) -> bool:
+        """Whether everything was shown."""
+        return self.host_time_s >= self.recording.ended_s
+
+    def snapshot(self) -> SessionState:
+        """Return the state as it was; motion is locked."""
+        received_s = self._state.sample_host_time_s
+        age_s = None if received_s is None else self.host_time_s - received_s
+        return replace(self._state, age_s=age_s, locked="this is a replay; nothing moves")
+
+    def subscribe(self, callback: Callback) -> Callable[[], None]:
+        """Have events told to ``callback`` as they come up; return how to end that."""
+        self._callbacks.append(callback)
+
+        def unsubscribe() -> None:
+            if callback in self._callbacks:
+                self._callbacks.remove(callback)
+
+        return unsubscribe
+
+    def advance(self, seconds: float) -> None:
+        """Go on by some time of the recording, at least 0."""
+        if not seconds >= 0.0:
+            raise ValueError(f"a replay goes on, not by {seconds} s; seek instead")
+        begin_s = self.host_time_s
+        self.host_time_s = min(begin_s + seconds, self.recording.ended_s)
+        # Past the sample that was shown last, up to the one that is due.
+        self._show(np.nextafter(begin_s, np.inf), self.host_time_s, tell=True)
+
+    def seek(self, host_time_s: float) -> None:
+        """Jump to a time of the recording; the minute before it is in the history then.
+
+        Events in between are not told, but the last one of all: the state that holds there.
+        """
+        low, high = self.recording.began_s, self.recording.ended_s
+        self.host_time_s = min(max(host_time_s, low), high)
+        self._at, self._connection, self._state = 0, -1, SessionState()
+        self.history.clear()
+        self._show(self.host_time_s - _SEEN_S, self.host_time_s, tell=False)
+        self._emit(StateChanged(self.snapshot()))
+
+    def _show(self, begin_s: float, end_s: float, *, tell: bool) -> None:
+        for piece in self.recording.pieces(begin_s, end_s):
+            for part in _by_connection(piece):
+                self._append(part)
+        while self._at < len(self._events) and self._events[self._at].host_time_s <= end_s:
+            event = self._again(self._events[self._at])
+            self._at += 1
+            if tell and event is not None:
+                self._emit(event)
+
+    def _append(self, part: RecordedSamples) -> None:
+        if part.connection[0] != self._connection:
+            self.history.clear()  # a time of its own
+            self._connection = int(part.connection[0])
+        samples = Samples(
+            part.device_time_s, part.command, part.measured, part.inputs, part.playback_row
+        )
+        self.history.append(samples, part.model)
+        self._state = replace(
+            self._state,
+            command=self._by_axis(part.command),
+            measured=self._by_axis(part.measured),
+            model=self._by_axis(part.model),
+            device_time_s=float(part.device_time_s[-1]),
+            sample_host_time_s=float(part.host_time_s[-1]),
+        )
+
+    def _again(self, recorded: RecordedEvent) -> Event | None:
+        """Return the session's event that was recorded; None for what it has none for."""
+        if recorded.kind == "state":
+            details = json.loads(recorded.details)
+            details["connection"] = Connection(details["connection"])
+            details["activity"] = DeviceState(details["activity"])
+            for name in ("unhomed", "differences"):
+                details[name] = tuple(details[name])
+            self._state = replace(self._state, **details)
+            return StateChanged(self.snapshot())
+        if recorded.kind == "fault":
+            return Faulted(recorded.text)
+        return CommandRefused(recorded.text) if recorded.kind == "refused" else None
+
+    def _by_axis(self, values: FloatArray) -> MappingProxyType[str, float]:
+        return MappingProxyType(dict(zip(self.recording.axes, values[-1].tolist(), strict=True)))
+
+    def _emit(self, event: Event) -> None:
+        for callback in tuple(self._callbacks):
+            callback(event)
+
+
+def _by_connection(piece: RecordedSamples) -> list[RecordedSamples]:
+    """Split samples where the device was connected anew."""
+    cuts = [0, *(np.flatnonzero(np.diff(piece.connection)) + 1), len(piece)]
+    return [piece.part(slice(int(low), int(high))) for low, high in pairwise(cuts)]

@@ -1,0 +1,257 @@
+"""The writer of a recording: what is handed over goes to the disk, on a thread of its own."""
+
+import json
+import threading
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from uuid import uuid4
+
+import numpy as np
+
+from rotemina.app.motion.recording.backlog import Backlog, Block, Lost, RecordedEvent, Row
+from rotemina.app.motion.recording.device_clock import DeviceClock
+from rotemina.app.motion.recording.errors import RecordingError
+from rotemina.app.motion.recording.merging import UNFINISHED, merged
+from rotemina.app.motion.recording.segments import Opener, SegmentFile, new_file
+from rotemina.app.motion.recording.tables import CLOCK, header, samples_schema, streams
+from rotemina.app.motion.ticker import Ticker
+from rotemina.drivers.clock import Clock
+from rotemina.drivers.samples import Samples
+from rotemina.sim.arrays import FloatArray
+
+SEGMENT_S = 0.4  # what a crash can lose, with the time that it takes to write so much
+SLOW_S = 0.5  # a disk that takes longer for a segment endangers the promise of one second
+CAPACITY_BYTES = 64_000_000  # of what waits: 14 s at 20 kHz and 24 channels, 5 min at 1 kHz
+_LONGEST_S = 60.0  # that a close waits for a disk that hangs
+
+
+@dataclass(frozen=True, slots=True)
+class RecorderNotice:
+    """Something to tell the operator about the recording; motion is not concerned."""
+
+    message: str
+    problem: bool
+
+
+class RecordingWriter:
+    """Keeps what it is given in ``PATH.part``, a segment at a time, and merges it on close.
+
+    ``add`` and ``record`` may be called from any thread and return at once. :meth:`run_once`
+    writes what waits; :meth:`start` has a thread do that.
+
+    Where the disk is full, or fails, the operator is told once and the segment is tried again with
+    each turn: what comes meanwhile waits in memory as far as there is room, then it is counted as
+    lost. When writing succeeds again, an event in the recording says what is missing.
+
+    Parameters
+    ----------
+    path : Path
+        Of the finished recording.
+    units : mapping axis -> "m" or "rad"
+        The axes, in the order of the samples' columns.
+    metadata : mapping str -> str
+        What holds for the whole recording.
+    clock : callable
+        The host's monotonic time, s.
+    tell : callable
+        Gets notices, on the thread that writes.
+    capacity_bytes : int
+        Of what may wait to be written.
+    opener : callable
+        How the file is made.
+
+    Raises
+    ------
+    RecordingError
+        If there is a file already, or none can be made.
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        units: Mapping[str, str],
+        metadata: Mapping[str, str],
+        *,
+        clock: Clock = time.monotonic,
+        tell: Callable[[RecorderNotice], None] = lambda _: None,
+        capacity_bytes: int = CAPACITY_BYTES,
+        opener: Opener = new_file,
+    ) -> None:
+        if path.exists():
+            raise RecordingError(f"{path}: it is there already; record to another name")
+        self.path = path
+        self._schema = samples_schema(units)
+        self._clock = clock
+        self._tell = tell
+        self._backlog = Backlog(capacity_bytes)
+        self._waiting: list[bytes] = []  # a segment that the disk has not taken yet
+        self._failure: str | None = None
+        self._slow = False
+        self._closed = False
+        self._connection = 0
+        self._device_clock = DeviceClock()
+        self._device_time_s = self._host_time_s = float("-inf")
+        self._writing = threading.Lock()
+        self._ticker = Ticker("recorder", SEGMENT_S, self.run_once)
+        about = {
+            "id": uuid4().hex,
+            "began_s": repr(clock()),
+            "units": json.dumps(dict(units)),
+            **metadata,
+        }
+        self._file = SegmentFile(path.with_name(path.name + UNFINISHED), opener)
+        try:
+            self._file.append(header(about))
+        except OSError as error:
+            self._file.close()
+            self._file.path.unlink(missing_ok=True)
+            raise RecordingError(
+                f"{path}: cannot be written ({error.strerror or error}); make room, or choose "
+                "another folder"
+            ) from error
+
+    @property
+    def failure(self) -> str | None:
+        """Why nothing can be written at present."""
+        return self._failure
+
+    @property
+    def bytes_written(self) -> int:
+        """How much the disk holds."""
+        return self._file.size
+
+    def start(self) -> None:
+        """Write on a thread of its own from now on."""
+        self._ticker.start()
+
+    def connected(self) -> None:
+        """Note that the device's time begins anew."""
+        self._connection += 1
+        self._device_clock = DeviceClock()
+        self._device_time_s = float("-inf")
+
+    def add(self, samples: Samples, model: FloatArray, received_s: float) -> None:
+        """Take samples of a machine and the model's answers (n, axes); by one thread at a time.
+
+        ``received_s`` is the host time at which the last of them came in.
+        """
+        if not len(samples) or self._closed:
+            return
+        if samples.device_time_s[0] <= self._device_time_s:  # nobody said that it begins anew
+            self.connected()
+        self._device_time_s = float(samples.device_time_s[-1])
+        fit = self._device_clock.heard(received_s, self._device_time_s)
+        # A better estimate must not make what is later earlier.
+        host_time_s = np.maximum(samples.device_time_s + fit.offset_s, self._host_time_s)
+        self._host_time_s = float(host_time_s[-1])
+        self._backlog.add(Block(self._connection, host_time_s, samples, model))
+        values = {
+            "connection": float(self._connection),
+            "device_time_s": self._device_time_s,
+            "offset_s": fit.offset_s,
+            "uncertainty_s": fit.uncertainty_s,
+        }
+        self._backlog.add(Row(CLOCK, received_s, values))
+
+    def record(self, channel: str, host_time_s: float, values: Mapping[str, float]) -> None:
+        """Take named numbers of a channel at a host time.
+
+        Other names than before add columns; a value that a row lacks is read back as NaN.
+        """
+        if not self._closed:
+            self._backlog.add(Row(channel, host_time_s, dict(values)))
+
+    def event(
+        self,
+        kind: str,
+        text: str,
+        details: Mapping[str, object] | None = None,
+        host_time_s: float | None = None,
+    ) -> None:
+        """Take an event, of now or of a host time; ``details`` must be what JSON can hold."""
+        if not self._closed:
+            at_s = self._clock() if host_time_s is None else host_time_s
+            self._backlog.add(RecordedEvent(at_s, kind, text, json.dumps(details or {})))
+
+    def run_once(self) -> None:
+        """Write what waits; does nothing after :meth:`close`."""
+        with self._writing:
+            if not self._closed:
+                self._write()
+
+    def close(self) -> Path:
+        """Write what is left, merge, and return the finished file; safe to call twice.
+
+        Raises
+        ------
+        RecordingError
+            If that cannot be done; what was recorded stays in ``PATH.part`` to be recovered.
+        """
+        self._ticker.close(timeout_s=_LONGEST_S)
+        with self._writing:
+            if self._closed:
+                return self.path
+            self._write()
+            self._write()  # what the first wrote may have had something to tell
+            self._closed = True
+            self._file.close()
+        if self._waiting:
+            self._tell(
+                RecorderNotice(
+                    f"{self.path.name}: its end could not be written ({self._failure})",
+                    problem=True,
+                )
+            )
+        return merged(self._file.path, self.path)
+
+    def _write(self) -> None:
+        waiting = self._waiting or streams(self._backlog.take(), self._schema)
+        if not waiting:
+            return
+        self._waiting = waiting
+        began_s = self._clock()
+        try:
+            self._file.append(*waiting)
+        except OSError as error:
+            self._note_failure(error.strerror or str(error))
+            return
+        self._waiting = []
+        self._note_success()
+        self._note_speed(self._clock() - began_s)
+
+    def _note_failure(self, reason: str) -> None:
+        if self._failure is None:
+            self._notice(
+                f"{self.path.name}: nothing more can be recorded ({reason}): motion goes on, what "
+                f"was recorded until now is safe in {self._file.path}; make room",
+                problem=True,
+            )
+        self._failure = reason
+
+    def _note_success(self) -> None:
+        lost = self._backlog.take_lost()
+        if self._failure is not None or lost != Lost():
+            self._failure = None
+            gap = "nothing is missing"
+            if lost != Lost():
+                gap = f"{lost.samples} samples and {lost.others} other entries are missing"
+            details = {"samples": lost.samples, "others": lost.others}
+            if lost != Lost():
+                self.event("recorder", gap, details, lost.since_s)
+            self._notice(f"{self.path.name}: recording goes on; {gap}", problem=lost != Lost())
+
+    def _note_speed(self, took_s: float) -> None:
+        slow = took_s > SLOW_S
+        if slow and not self._slow:
+            self._notice(
+                f"{self.path.name}: the disk took {took_s:.1f} s for one segment: a crash now "
+                "would lose more than a second; record to a faster one",
+                problem=True,
+            )
+        self._slow = slow
+
+    def _notice(self, message: str, *, problem: bool) -> None:
+        self.event("recorder", message)
+        self._tell(RecorderNotice(message, problem))
