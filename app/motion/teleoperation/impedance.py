@@ -1,0 +1,99 @@
+"""Impedance: the stick's deflection is a force on a virtual mechanism that the robot follows.
+
+    F = z φ,      M ẍ + D ẋ + K (x − x0) = F + R
+
+(the paper's Eq. 5.3, F_i = z_i φ_j,i), with R what a contact is felt by
+(:mod:`rotemina.app.motion.teleoperation.contact`).
+
+**Passivity.** With E = M v²/2 + K (x − x0)²/2, exactly E' − E + losses = (F + R)(x' − x) in each
+step. Bounds of speed and range only take energy. A bound of acceleration could give some: it makes
+the mechanism brake later than it would by itself. So M must be great enough that no alternation of
+forces reaches it; coarser scales are cut to the force at which that holds.
+"""
+
+from rotemina.app.motion.teleoperation.contact import Contact
+from rotemina.app.motion.teleoperation.reference import Bounds, Motion, ScalingError
+from rotemina.app.motion.teleoperation.scaling import ScalingLaw
+from rotemina.app.motion.teleoperation.virtual_impedance import VirtualImpedance
+
+
+class Impedance(ScalingLaw):
+    """Push a virtual mechanism, and follow it.
+
+    Parameters
+    ----------
+    bounds : Bounds
+    impedance : VirtualImpedance
+    contact : Contact, optional
+        How a reaction is felt: that of :meth:`step` is then what tells of the contact, a deviation
+        (real less model) or a force on the tip. Without, reactions are not heeded.
+
+    Raises
+    ------
+    ScalingError
+        If the mechanism could accelerate faster than the coordinate may, or the contact could make
+        it give energy; with the bound and what to change.
+    """
+
+    def __init__(
+        self, bounds: Bounds, impedance: VirtualImpedance, contact: Contact | None = None
+    ) -> None:
+        super().__init__(bounds)
+        self.impedance = impedance
+        self.contact = contact
+        most = bounds.max_acceleration / impedance.acceleration_per_force
+        reserved = 0.0
+        if contact is not None:
+            contact.check(impedance)
+            reserved = contact.most
+        self._most_force = most - reserved
+        if impedance.force > self._most_force * (1.0 + 1e-9):
+            reached = (impedance.force + reserved) * impedance.acceleration_per_force
+            mass = impedance.mass * reached / bounds.max_acceleration
+            raise ScalingError(
+                f"impedance: forces of up to {impedance.force + reserved:.6g} could accelerate the "
+                f"mass of {impedance.mass:.6g} by {reached:.6g} per s², the axis allows "
+                f"{bounds.max_acceleration:.6g}; lower the force, or use a mass of about "
+                f"{mass:.6g} with the same damping ratio or time constant"
+            )
+        self._rest = self._motion.position
+
+    @property
+    def rest(self) -> float:
+        """Where the spring pulls to, x0, m or rad."""
+        return self._rest
+
+    @property
+    def force(self) -> float:
+        """The force of the latest deflection."""
+        return self._force_per_deflection(self.factor) * self._deflection
+
+    def _force_per_deflection(self, factor: float) -> float:
+        return min(factor * self.impedance.force, self._most_force)
+
+    def _anchor(self) -> None:
+        # In balance with the stick where it is: what begins at rest stays at rest.
+        self._rest = self._motion.position
+        if self.impedance.stiffness:
+            self._rest -= self.force / self.impedance.stiffness
+
+    def _step(self, dt: float, reaction: float) -> Motion:
+        pushed = 0.0 if self.contact is None else self.contact.force(reaction)
+        after = self.impedance.response(dt)
+        force, (position, velocity) = self.force + pushed, self._motion
+        away = position - self._rest
+        free = Motion(
+            self._rest + after.x_of_x * away + after.x_of_v * velocity + after.x_of_force * force,
+            after.v_of_x * away + after.v_of_v * velocity + after.v_of_force * force,
+        )
+        speed = self.bounds.speed(self._motion, free.velocity, dt)
+        place = free.position
+        if speed != free.velocity and after.v_of_force:
+            # Bounds act as one more constant force would, which keeps the books of energy exact.
+            place += after.x_of_force / after.v_of_force * (speed - free.velocity)
+        return Motion(self.bounds.place(self._motion, speed, dt, place), speed)
+
+    def _rescale(self, factor: float) -> None:
+        if self.impedance.stiffness:
+            change = self._force_per_deflection(self.factor) - self._force_per_deflection(factor)
+            self._rest += change * self._deflection / self.impedance.stiffness
