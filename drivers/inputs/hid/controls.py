@@ -1,6 +1,5 @@
 """What the bits of a report are for the operator: deflections, hats, and buttons held."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from math import cos, pi, sin
 
@@ -18,10 +17,10 @@ class Bits:
     sign: int  # the bit that makes it negative; 0 where it never is
 
     @classmethod
-    def of(cls, field: Field) -> "Bits":
-        """Return where the value of a field stands."""
+    def of(cls, field: Field, place: int = 0) -> "Bits":
+        """Return where the value of a field, or of one place of a list, stands."""
         sign = 1 << field.size - 1 if field.low < 0 else 0
-        return cls(field.offset, (1 << field.size) - 1, sign)
+        return cls(field.offset + place * field.size, (1 << field.size) - 1, sign)
 
     @property
     def end(self) -> int:
@@ -106,6 +105,12 @@ class Buttons:
     low: int
     chosen: tuple[int | None, ...]  # which button a value means, from ``low`` on
 
+    @classmethod
+    def of(cls, field: Field, chosen: tuple[int | None, ...]) -> "Buttons":
+        """Return the buttons of a field."""
+        places = tuple(Bits.of(field, place) for place in range(field.count))
+        return cls(places, field.low, chosen)
+
     @property
     def bits(self) -> Bits:
         """The last place."""
@@ -123,8 +128,3 @@ class Buttons:
 
 
 Control = Deflection | Hat | Button | Buttons
-
-
-def array(fields: Sequence[Field], chosen: tuple[int | None, ...]) -> Buttons:
-    """Return the buttons that the places of an array list."""
-    return Buttons(tuple(Bits.of(field) for field in fields), fields[0].low, chosen)

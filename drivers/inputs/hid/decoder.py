@@ -2,10 +2,16 @@
 
 from collections import Counter
 from dataclasses import dataclass
-from itertools import groupby
 from math import nan
 
-from rotemina.drivers.inputs.hid.controls import Bits, Button, Control, Deflection, Hat, array
+from rotemina.drivers.inputs.hid.controls import (
+    Bits,
+    Button,
+    Buttons,
+    Control,
+    Deflection,
+    Hat,
+)
 from rotemina.drivers.inputs.hid.descriptor import Field, ReportDescriptor
 from rotemina.drivers.inputs.hid.items import DescriptorError
 from rotemina.drivers.inputs.hid.usages import APPLICATIONS, HAT, axis_name, button_name
@@ -112,17 +118,12 @@ class _Plan:
         self._axis_of: dict[tuple[int, int, int], int] = {}
         self._button_of: dict[tuple[int, int, int], int] = {}
         self._seen: Counter[tuple[int, int, int]] = Counter()
-        wanted = [
-            field
-            for field in descriptor.fields
-            if field.application >= 0 and descriptor.applications[field.application] in APPLICATIONS
-        ]
-        for (is_array, _), fields in groupby(wanted, key=_piece):
-            if is_array:
-                self._list(list(fields))
-            else:
-                for field in fields:
-                    self._single(field)
+        for field in descriptor.fields:
+            application = (
+                descriptor.applications[field.application] if field.application >= 0 else 0
+            )
+            if application in APPLICATIONS:
+                (self._list if field.is_list else self._single)(field)
 
     def _single(self, field: Field) -> None:
         usage = field.usages[0]
@@ -139,15 +140,13 @@ class _Plan:
         elif (name := button_name(usage)) is not None:
             self._add(field, Button.of(field, self._button(field, usage, name)))
 
-    def _list(self, fields: list[Field]) -> None:
-        """Add the places of an array, which list the same buttons."""
-        first = fields[0]
+    def _list(self, field: Field) -> None:
         chosen = tuple(
-            None if (name := button_name(usage)) is None else self._button(first, usage, name)
-            for usage in first.usages
+            None if (name := button_name(usage)) is None else self._button(field, usage, name)
+            for usage in field.usages
         )
         if any(button is not None for button in chosen):
-            self._add(first, array(fields, chosen))
+            self._add(field, Buttons.of(field, chosen))
 
     def _add(self, field: Field, control: Control) -> None:
         self.reports.setdefault(field.report_id, []).append(control)
@@ -173,13 +172,6 @@ class _Plan:
         before = self._seen[place]
         self._seen[place] += 1
         return field.application, usage, before
-
-
-def _piece(field: Field) -> tuple[bool, object]:
-    """Return what consecutive places of one array have in common."""
-    if not field.is_array:
-        return False, None
-    return True, (field.application, field.report_id, field.low, field.high, field.usages)
 
 
 def _suffix(name: str, names: list[str]) -> str:

@@ -29,7 +29,7 @@ _MOST_CHOICES = 256  # of an array
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """One value in a report that the device sends.
+    """One value in a report that the device sends, or the places of one list.
 
     Attributes
     ----------
@@ -38,11 +38,13 @@ class Field:
     report_id : int
         0 where reports have none.
     offset, size : int
-        Its first bit, counted behind the report's number, and how many it has.
+        Its first bit, counted behind the report's number, and how many it has, or each place.
+    count : int
+        How many places a list has; 1 otherwise.
     low, high : int
         The least and greatest value that it may have; two's complement where ``low`` is negative.
     usages : tuple of int
-        Page × 65536 + usage: what it is; of an array element, what its values from ``low`` on mean.
+        Page × 65536 + usage: what it is; of a list, what values from ``low`` on mean.
     flags : int
         As in the main item.
     """
@@ -51,14 +53,15 @@ class Field:
     report_id: int
     offset: int
     size: int
+    count: int
     low: int
     high: int
     usages: tuple[int, ...]
     flags: int
 
     @property
-    def is_array(self) -> bool:
-        """Whether its value is the number of what is on, instead of a state."""
+    def is_list(self) -> bool:
+        """Whether a place has the number of something that is on ("array"), not a state."""
         return not self.flags & _VARIABLE
 
     @property
@@ -198,17 +201,20 @@ class _Walk:
             now.report_id,
             offset,
             now.size,
+            now.count,
             low,
             high,
             usages,
             item.unsigned,
         )
+        if whole.is_list:
+            self.fields.append(whole)
+            return
         for index in range(now.count):
-            element = replace(whole, offset=offset + index * now.size)
-            if not whole.is_array:
-                # The last usage is that of all elements that are left.
-                element = replace(element, usages=(usages[min(index, len(usages) - 1)],))
-            self.fields.append(element)
+            # The last usage is that of all elements that are left.
+            own = usages[min(index, len(usages) - 1)]
+            at = offset + index * now.size
+            self.fields.append(replace(whole, offset=at, count=1, usages=(own,)))
 
     def _first_usages(self, item: Item) -> tuple[int, ...]:
         """Return the usages that an input item can make use of."""
