@@ -36,7 +36,6 @@ class Scripted(InputSource):
         super().__init__(clock=clock)
         self.identity = InputIdentity(f"scripted:{label}", label, "scripted")
         self.script = script
-        self._times_s = [moment.time_s for moment in script.moments]
         self.start()
 
     def start(self) -> None:
@@ -60,7 +59,8 @@ class Scripted(InputSource):
 
     def _past(self) -> int:
         """Return how many moments have begun."""
-        return bisect_right(self._times_s, self.clock() - self.begun_s)
+        past_s = self.clock() - self.begun_s
+        return bisect_right(self.script.moments, past_s, key=lambda moment: moment.time_s)
 
 
 class ScriptedDevice(Rumbler):

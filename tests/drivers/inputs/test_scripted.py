@@ -1,0 +1,132 @@
+"""A script plays on the clock, from a list or a file; a bad one says where."""
+
+import pytest
+
+from rotemina.drivers.errors import LimitError
+from rotemina.drivers.inputs.device import InputLostError, Rumbler
+from rotemina.drivers.inputs.script import Moment, Script, ScriptError
+from rotemina.drivers.inputs.scripted import Scripted
+
+TEXT = """\
+time_s, axis x, axis y, button start, plugged
+0, 0, 0, 0, 1
+0.5, 1, -0.25, 0, 1
+
+1.0, 1, 0, 1, 1
+2.0, 0, 0, 0, 0
+3.0, 0, 0.5, 0, 1
+"""
+
+
+@pytest.fixture
+def written(tmp_path):
+    path = tmp_path / "script.csv"
+
+    def write(text):
+        path.write_text(text, "utf-8")
+        return path
+
+    return write
+
+
+@pytest.fixture
+def source(written, clock):
+    return Scripted(Script.load(written(TEXT)), clock=clock)
+
+
+def test_a_file_is_read(written):
+    script = Script.load(written(TEXT))
+    assert (script.axes, script.buttons) == (("x", "y"), ("start",))
+    assert script.moments[1:3] == (
+        Moment(0.5, (1.0, -0.25), (False,)),
+        Moment(1.0, (1.0, 0.0), (True,)),
+    )
+    assert [moment.plugged for moment in script.moments] == [True, True, True, False, True]
+
+
+def test_it_plays_on_the_clock(source, clock):
+    begun_s = clock()
+    device = source.open(source.identity)
+    assert [reading.axes for reading in device.read()] == [(0.0, 0.0)]
+    clock.advance(0.4)
+    assert device.read() == ()
+    clock.advance(0.7)
+    readings = device.read()
+    assert [reading.host_time_s - begun_s for reading in readings] == [0.5, 1.0]
+    assert [reading.buttons for reading in readings] == [(False,), (True,)]
+
+
+def test_it_is_unplugged_and_plugged_in_at_its_times(source, clock):
+    device = source.open(source.identity)
+    clock.advance(2.5)
+    assert source.devices() == ()
+    with pytest.raises(InputLostError, match="as its script says"):
+        device.read()
+    with pytest.raises(InputLostError, match="not plugged in"):
+        source.open(source.identity)
+    clock.advance(1.5)
+    with pytest.raises(InputLostError):
+        device.read()  # the old one stays lost
+    (reading,) = source.open(source.identity).read()
+    assert reading.axes == (0.0, 0.5)
+    assert reading.host_time_s == clock()  # not from before it was opened
+
+
+def test_a_short_unplugging_is_not_missed(source, clock):
+    device = source.open(source.identity)
+    clock.advance(3.5)
+    with pytest.raises(InputLostError):
+        device.read()
+
+
+def test_it_can_begin_anew(source, clock):
+    clock.advance(2.5)
+    source.start()
+    assert source.open(source.identity).read()[0].axes == (0.0, 0.0)
+
+
+def test_it_remembers_how_it_shook(source, clock):
+    device = source.open(source.identity)
+    assert isinstance(device, Rumbler)
+    device.rumble(0.5)
+    clock.advance(1.0)
+    device.rumble(0)
+    assert device.rumbled == [(clock() - 1.0, 0.5), (clock(), 0)]
+    for strength in (-0.1, 1.5, float("nan")):
+        with pytest.raises(LimitError, match="must be 0 to 1"):
+            device.rumble(strength)
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("", "line 1: there must be a column 'time_s'"),
+        ("axis x\n1\n", "line 1: there must be a column 'time_s'"),
+        ("time_s,x\n0,1\n", "line 1: unknown column 'x'"),
+        ("time_s,axis x,axis x\n", "line 1: column 'axis x' is there twice"),
+        ("time_s,axis x\n0,1\n1\n", "line 3: 1 values: must be 2"),
+        ("time_s,axis x\n0,1\n1,far\n", "line 3, column 'axis x': 'far' is no number"),
+        ("time_s,button a\n0,0.5\n", "line 2, column 'button a': 0.5: must be 0 or 1"),
+        ("time_s,plugged\n0,2\n", "line 2, column 'plugged': 2: must be 0 or 1"),
+        ("time_s,axis x\n0,1\n0,1\n", "moment 2: time 0 s: must be later .* \\(0 s\\)"),
+        ("time_s,axis x\nnan,1\n", "moment 1: time nan s"),
+        ("time_s,axis x\n0,1.5\n", "moment 1: x at 1.5: must be -1 to 1"),
+        ("time_s,axis x\n0,nan\n", "moment 1: x at nan: must be -1 to 1"),
+    ],
+)
+def test_a_bad_file_says_where(written, text, reason):
+    with pytest.raises(ScriptError, match=f"script.csv.*{reason}"):
+        Script.load(written(text))
+
+
+def test_a_file_that_is_none_says_so(written, tmp_path):
+    with pytest.raises(ScriptError, match="cannot be read"):
+        Script.load(tmp_path / "nowhere.csv")
+    (tmp_path / "script.csv").write_bytes(b"time_s\n\xff\n")
+    with pytest.raises(ScriptError, match="cannot be read"):
+        Script.load(tmp_path / "script.csv")
+
+
+def test_moments_of_another_size_are_refused():
+    with pytest.raises(ScriptError, match="1 axes and 0 buttons: must be 2 and 0"):
+        Script(("x", "y"), (), (Moment(0.0, (1.0,)),))
