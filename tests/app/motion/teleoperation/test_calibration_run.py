@@ -79,7 +79,7 @@ def test_axes_that_are_not_wanted_may_stand_anywhere():
         one.feed(InputReading(0.0, (raw, -1.0), ()))
     assert list(one.result()) == ["X"]
     assert one.ranges == {"X": (-1.0, 1.0)}
-    with pytest.raises(CalibrationError, match="'Q'.*has X, Slider"):
+    with pytest.raises(CalibrationError, match=r"'Q'.*has X, Slider"):
         CalibrationRun(["X", "Slider"], wanted=["Q"])
 
 

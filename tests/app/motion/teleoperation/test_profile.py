@@ -1,0 +1,152 @@
+import re
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rotemina.app.motion.teleoperation.intent import Action
+from rotemina.app.motion.teleoperation.mapping import check_profile
+from rotemina.app.motion.teleoperation.profile import (
+    ActionMapping,
+    AxisMapping,
+    DeviceMapping,
+    Profile,
+    ProfileError,
+    Seat,
+    listed_profiles,
+    load_profile,
+    parse_profile,
+    save_profile,
+)
+from rotemina.sim.whole_files import FileWriteError
+
+TEXT = st.text(st.characters(codec="utf-8", exclude_categories=("Cs",)), min_size=1, max_size=20)
+PROFILES = st.builds(
+    Profile,
+    name=st.from_regex(r"[A-Za-z0-9][A-Za-z0-9 ().,+-]{0,20}[A-Za-z0-9]", fullmatch=True),
+    devices=st.lists(
+        st.builds(
+            DeviceMapping,
+            key=TEXT,
+            seat=st.sampled_from(Seat),
+            axes=st.lists(
+                st.builds(AxisMapping, control=TEXT, drives=TEXT, inverted=st.booleans())
+            ).map(tuple),
+            actions=st.lists(
+                st.builds(
+                    ActionMapping,
+                    control=TEXT,
+                    action=st.sampled_from(Action),
+                    at=st.none() | st.floats(0.1, 1) | st.floats(-1, -0.1),
+                    hysteresis=st.floats(0, 0.5),
+                )
+            ).map(tuple),
+        ),
+        min_size=1,
+        max_size=3,
+    ).map(tuple),
+)
+ONE = Profile(
+    name="Bench", devices=(DeviceMapping(key="a", axes=(AxisMapping(control="X", drives="x"),)),)
+)
+
+
+@given(PROFILES)
+def test_what_is_saved_comes_back(tmp_path_factory, profile):
+    folder = tmp_path_factory.mktemp("profiles")
+    assert load_profile(save_profile(folder / "new", profile)) == profile
+
+
+def test_a_folder_lists_good_and_bad_ones(tmp_path):
+    save_profile(tmp_path, ONE)
+    (tmp_path / "Odd.toml").write_text("name = 1")
+    (tmp_path / "notes.txt").write_text("")
+    (tmp_path / ".Bench.toml.1.part").write_text("")
+    good, bad = listed_profiles(tmp_path)
+    assert (good.path.name, good.profile, good.problem) == ("Bench.toml", ONE, None)
+    assert bad.profile is None
+    assert "Odd.toml: name = 1: must be text" in bad.problem
+    assert listed_profiles(tmp_path / "none") == ()
+
+
+def test_saving_replaces_one_of_the_same_name(tmp_path):
+    save_profile(tmp_path, ONE)
+    other = Profile(name="Bench", devices=(DeviceMapping(key="b"),))
+    assert load_profile(save_profile(tmp_path, other)) == other
+    assert len(listed_profiles(tmp_path)) == 1
+
+
+def test_a_file_that_cannot_be_written_leaves_the_one_before(tmp_path, monkeypatch):
+    path = save_profile(tmp_path, ONE)
+
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("os.fsync", full)
+    with pytest.raises(FileWriteError, match="No space left"):
+        save_profile(tmp_path, Profile(name="Bench", devices=(DeviceMapping(key="b"),)))
+    assert load_profile(path) == ONE
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", "name: missing; the file needs it (and 1 more)"),
+        ('name = "a"\ndevices = []', "devices = []: must have at least 1 entry"),
+        ('name = "a"\ndevices = {}', "devices: must be a list"),
+        ('name = "../a"\n[[devices]]\nkey = "k"', "name = '../a': it must begin with"),
+        ('name = "a."\n[[devices]]\nkey = "k"', "name = 'a.': it must begin with"),
+        ('name = "a"\n[[device]]\nkey = "k"', "unknown key; did you mean 'devices'?"),
+        ('name = "a"\n[[devices]]\nkey = ""', "devices[0].key = '': must not be empty"),
+        (
+            'name = "a"\n[[devices]]\nkey = "k"\nseat = "pilot"',
+            "devices[0].seat = 'pilot': must be 'trainer' or 'trainee'",
+        ),
+        (
+            'name = "a"\n[[devices]]\nkey = "k"\n[[devices.axes]]\ncontrol = "X"\ndrive = "x"',
+            "devices[0].axes[0].drive = 'x': unknown key; did you mean 'drives'?",
+        ),
+        (
+            'name = "a"\n[[devices]]\nkey = "k"\n[[devices.actions]]\ncontrol = "1"\n'
+            'action = "jump"',
+            "devices[0].actions[0].action = 'jump': must be 'stop', 'emergency_stop'",
+        ),
+        (
+            'name = "a"\n[[devices]]\nkey = "k"\n[[devices.actions]]\ncontrol = "1"\n'
+            'action = "stop"\nat = 0.05',
+            "devices[0].actions[0]: at = 0.05: must be at least 0.1, or at most -0.1",
+        ),
+        (
+            'name = "a"\n[[devices]]\nkey = "k"\n[[devices.actions]]\ncontrol = "1"\n'
+            'action = "stop"\nhysteresis = 1',
+            "devices[0].actions[0].hysteresis = 1: must be at most 0.5",
+        ),
+    ],
+)
+def test_bad_profiles_are_explained(text, said):
+    with pytest.raises(ProfileError) as caught:
+        parse_profile(text, "bench.toml")
+    assert str(caught.value).startswith("bench.toml: ")
+    assert said in str(caught.value)
+
+
+def test_a_missing_file_is_explained(tmp_path):
+    with pytest.raises(ProfileError, match=r"none\.toml: it cannot be read \(No such file"):
+        load_profile(tmp_path / "none.toml")
+
+
+def test_the_example_of_the_documentation_can_be_used():
+    page = Path(__file__).parents[4] / "docs" / "input-mapping.md"
+    examples = re.findall(r"```toml\n(.*?)```", page.read_text("utf-8"), re.S)
+    profiles = [parse_profile(text) for text in examples if "[[devices]]" in text]
+    assert len(profiles) == 1
+    check_profile(profiles[0], ("x", "y", "z", "thx", "thy", "zn"))
+
+
+def test_the_documentation_names_every_key_and_action():
+    page = (Path(__file__).parents[4] / "docs" / "input-mapping.md").read_text("utf-8")
+    keys = {"name", "devices", *DeviceMapping.__dataclass_fields__}
+    keys |= {*AxisMapping.__dataclass_fields__, *ActionMapping.__dataclass_fields__}
+    missing = [word for word in (*sorted(keys), *Action) if f"`{word}`" not in page]
+    assert missing == []
