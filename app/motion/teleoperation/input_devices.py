@@ -1,0 +1,290 @@
+"""The operator's input devices: found, opened, read, and made into one intent."""
+
+import logging
+import threading
+from collections import deque
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from types import MappingProxyType
+
+from rotemina.app.motion.teleoperation.calibration import Calibration, CalibrationFolder
+from rotemina.app.motion.teleoperation.default_profile import default_profile
+from rotemina.app.motion.teleoperation.intent import Intent
+from rotemina.app.motion.teleoperation.mapping import PluggedDevice, assigned
+from rotemina.app.motion.teleoperation.operator_desk import OperatorDesk
+from rotemina.app.motion.teleoperation.profile import (
+    ListedProfile,
+    Profile,
+    ProfileError,
+    Seat,
+    listed_profiles,
+    save_profile,
+)
+from rotemina.drivers.errors import DriverError
+from rotemina.drivers.inputs.device import InputDevice, InputReading, Rumbler
+from rotemina.drivers.inputs.hub import Changes, InputHub
+
+_LOG = logging.getLogger(__name__)
+_PAD = "keys"  # the source of the pad: a device that is always there comes after every other
+
+
+@dataclass(frozen=True, slots=True)
+class Heard:
+    """What came of one look at all devices.
+
+    Attributes
+    ----------
+    intent : Intent
+    readings : mapping of str to tuple of InputReading
+        By device key, what each said since the look before.
+    """
+
+    intent: Intent
+    readings: Mapping[str, tuple[InputReading, ...]]
+
+
+class InputDevices:
+    """Keeps every device that is plugged in open, and the operator's desk told of it.
+
+    :meth:`look` may take some ms and is for a thread of its own, about once a second;
+    :meth:`step` is for the thread that steers. Everything else may be called from any thread.
+
+    Parameters
+    ----------
+    hub : InputHub
+    robot_axes : sequence of str
+    folder : Path
+        Of the user's ``calibrations`` and ``profiles``.
+    """
+
+    def __init__(self, hub: InputHub, robot_axes: Sequence[str], folder: Path) -> None:
+        self.hub = hub
+        self.desk = OperatorDesk(robot_axes)
+        self.calibrations = CalibrationFolder(folder / "calibrations")
+        self._profiles = folder / "profiles"
+        self._chosen: Profile | None = None  # None: one is made for what is plugged in
+        self._used: Profile | None = None
+        self._open: dict[str, InputDevice] = {}
+        # What each device said last: a desk that begins anew must hear it of one that is silent.
+        self._latest: dict[str, InputReading] = {}
+        self._anew = False
+        self._changes: deque[Changes] = deque()
+        # Guards the desk and what is open; held for a step, and never while a device is opened.
+        self._lock = threading.RLock()
+
+    # --- profiles and calibrations ----------------------------------------------------------------
+
+    @property
+    def profile(self) -> Profile | None:
+        """What the devices do now; None while there is none."""
+        return self._used
+
+    @property
+    def automatic(self) -> bool:
+        """Whether the profile was made for what is plugged in, and changes with that."""
+        return self._chosen is None
+
+    @property
+    def profiles(self) -> tuple[ListedProfile, ...]:
+        """The profiles that the user has kept, the bad ones with what is wrong."""
+        return listed_profiles(self._profiles)
+
+    def use(self, profile: Profile | None) -> None:
+        """Use a profile, or, with None, one made for what is plugged in.
+
+        Raises
+        ------
+        ProfileError
+            As :meth:`OperatorDesk.use`; then the one before stays.
+        """
+        with self._lock:
+            if profile is not None:
+                self._hand_to_desk(profile)
+            self._chosen = profile
+            if profile is None:
+                self._use_automatic()
+
+    def keep(self, profile: Profile) -> Path:
+        """Write a profile into the user's folder, and return where it is.
+
+        Raises
+        ------
+        FileWriteError
+            If it cannot be written.
+        """
+        return save_profile(self._profiles, profile)
+
+    def calibrate(self, key: str, calibration: Calibration) -> None:
+        """Use and keep another calibration of a device that is plugged in.
+
+        Raises
+        ------
+        CalibrationError, FileWriteError
+            If it is for another device, that is not there, or it cannot be kept.
+        """
+        with self._lock:
+            self.desk.calibrate(key, calibration)
+            self._anew = True
+            device = self._open.get(key)
+        if device is not None:
+            self.calibrations.save(device.identity, calibration)
+
+    # --- devices ----------------------------------------------------------------------------------
+
+    @property
+    def plugged(self) -> tuple[PluggedDevice, ...]:
+        """The devices that are open."""
+        with self._lock:
+            return tuple(_plugged(device) for device in self._open.values())
+
+    @property
+    def problems(self) -> tuple[str, ...]:
+        """What is wrong with sources, devices and the profile, in words."""
+        with self._lock:
+            return (*self.hub.problems.values(), *self.desk.problems)
+
+    def look(self) -> None:
+        """Look what has been plugged in or unplugged; the next step deals with it."""
+        changes = self.hub.poll()
+        if changes.arrived or changes.left:
+            self._changes.append(changes)
+
+    def step(self, now_s: float) -> Heard:
+        """Read every device and return what the operator wants; never waits for one."""
+        with self._lock:
+            while self._changes:
+                self._follow(self._changes.popleft())
+            readings: dict[str, tuple[InputReading, ...]] = {}
+            for key, device in tuple(self._open.items()):
+                try:
+                    readings[key] = device.read()
+                except Exception as error:  # a plugin may raise anything; the device is then gone
+                    self._drop(key, str(error))
+                    self.hub.lost(key)
+            told: dict[str, tuple[InputReading, ...]] = dict(readings)
+            if self._anew:
+                told = {
+                    key: (self._latest[key], *new) if key in self._latest else new
+                    for key, new in readings.items()
+                }
+                self._anew = False
+            self._latest.update({key: new[-1] for key, new in readings.items() if new})
+            return Heard(self.desk.step(told, now_s), MappingProxyType(readings))
+
+    def open_mapping(self) -> None:
+        """Send nothing but stops from now on: mappings are made, or sticks calibrated."""
+        with self._lock:
+            self.desk.open_mapping()
+
+    def close_mapping(self) -> None:
+        """Send again, after every stick was seen at rest."""
+        with self._lock:
+            self.desk.close_mapping()
+            self._anew = True
+
+    def rumble(self, strength: float) -> None:
+        """Let the devices that can shake with a strength of 0 to 1."""
+        with self._lock:
+            for key, device in tuple(self._open.items()):
+                if not isinstance(device, Rumbler):
+                    continue
+                try:
+                    device.rumble(strength)
+                except Exception as error:  # as in reading
+                    self._drop(key, str(error))
+                    self.hub.lost(key)
+
+    def device(self, key: str) -> InputDevice | None:
+        """Return an open device, to be told apart by its names; only ``step`` reads it."""
+        with self._lock:
+            return self._open.get(key)
+
+    def close(self) -> None:
+        """Let go of every device."""
+        with self._lock:
+            for key in tuple(self._open):
+                self._drop(key, "the program lets go of it")
+                self.hub.released(key)
+
+    # --- inside -----------------------------------------------------------------------------------
+
+    def _follow(self, changes: Changes) -> None:
+        for identity in changes.left:
+            self._drop(identity.key, "unplugged")
+        for identity in changes.arrived:
+            self._drop(identity.key, "replugged")
+            try:
+                device = self.hub.open(identity.key)
+            except DriverError as error:  # kept among the problems by the hub
+                _LOG.warning("%s", error)
+                continue
+            self._open[identity.key] = device
+            self.desk.plug(_plugged(device), self.calibrations.load(identity))
+        if self._chosen is None:
+            self._use_automatic()
+
+    def _drop(self, key: str, why: str) -> None:
+        device = self._open.pop(key, None)
+        self._latest.pop(key, None)
+        if device is None:
+            return
+        self.desk.unplug(key, why)
+        try:
+            device.close()
+        except Exception:  # it has gone, and closing is all that is left to do
+            _LOG.warning("%s cannot be closed", device.identity.name, exc_info=True)
+        if self._chosen is None:
+            self._use_automatic()
+
+    def _use_automatic(self) -> None:
+        """Use what the user has kept for these devices, or else what their controls suggest."""
+        plugged = tuple(_plugged(device) for device in self._open.values())
+        if self._used is not None and _fits(self._used, plugged):
+            return
+        kept = (listed.profile for listed in self.profiles if listed.profile is not None)
+        for profile in (*kept, automatic_profile(plugged)):
+            if profile is None or not _fits(profile, plugged):
+                continue
+            try:
+                self._hand_to_desk(profile)
+            except ProfileError as error:
+                _LOG.warning("%s", error)
+                continue
+            return
+
+    def _hand_to_desk(self, profile: Profile) -> None:
+        self.desk.use(profile)
+        self._used = profile
+        self._anew = True
+
+
+def automatic_profile(devices: Iterable[PluggedDevice]) -> Profile | None:
+    """Return a profile of what is plugged in: the first device drives, the pad may take over.
+
+    None where no device has anything that could be mapped.
+    """
+    mappings = []
+    ordered = sorted(devices, key=lambda device: device.identity.source == _PAD)
+    for device in ordered:
+        if mappings and device.identity.source != _PAD:
+            continue
+        try:
+            (mapping,) = default_profile(device).devices
+        except ProfileError:
+            continue
+        mappings.append(replace(mapping, seat=Seat.TRAINEE if mappings else Seat.TRAINER))
+    return Profile(name="Automatic", devices=tuple(mappings)) if mappings else None
+
+
+def _fits(profile: Profile, plugged: tuple[PluggedDevice, ...]) -> bool:
+    """Whether every device of a profile is there, and no better one is left out."""
+    used = assigned(profile, plugged)
+    others = [one for one in plugged if one.identity.key not in used]
+    left_out = any(one.identity.source != _PAD for one in others)
+    only_pad = all(one.identity.source == _PAD for one in plugged if one.identity.key in used)
+    return len(used) == len(profile.devices) > 0 and not (left_out and only_pad)
+
+
+def _plugged(device: InputDevice) -> PluggedDevice:
+    return PluggedDevice(device.identity, device.axes, device.buttons)
