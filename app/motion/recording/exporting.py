@@ -180,15 +180,15 @@ def _record(recording: Recording, span: _Span, samples: RecordedSamples) -> Reco
 def _check_rest(recording: Recording, samples: RecordedSamples) -> None:
     time_s = samples.device_time_s
     ends = {
-        "begin": (time_s <= time_s[0] + _REST_S, "earlier"),
-        "end": (time_s >= time_s[-1] - _REST_S, "later"),
+        "start": (time_s <= time_s[0] + _REST_S, "an earlier start"),
+        "end": (time_s >= time_s[-1] - _REST_S, "a later end"),
     }
     for end, (rows, advice) in ends.items():
         moves = np.flatnonzero(np.ptp(samples.command[rows], axis=0) > 0.0)
         if len(moves):
             raise RecordingError(
                 f"{recording.path}: axis {recording.axes[moves[0]]} moves at the {end}; every axis "
-                f"must stand there for {_REST_S:g} s: choose an {end} that is {advice}"
+                f"must stand there for {_REST_S:g} s: choose {advice}"
             )
 
 

@@ -18,7 +18,7 @@ from rotemina.app.motion.recording.locking import locked
 
 MAGIC = b"RTMSEG01"
 _PROGRAM = MAGIC[:6]
-_HEADER = struct.Struct("<8sQQI4x")
+_HEADER = struct.Struct("<8sQQI")
 _COUNTED = struct.Struct("<QQ")
 
 Opener = Callable[[Path], BinaryIO]

@@ -88,6 +88,7 @@ class RecordingWriter:
         self._backlog = Backlog(capacity_bytes)
         self._waiting: list[bytes] = []  # a segment that the disk has not taken yet
         self._failure: str | None = None
+        self._gap = ""  # what is missing and was not told yet
         self._slow = False
         self._closed = False
         self._connection = 0
@@ -207,19 +208,29 @@ class RecordingWriter:
         return merged(self._file.path, self.path)
 
     def _write(self) -> None:
-        waiting = self._waiting or streams(self._backlog.take(), self._schema)
-        if not waiting:
+        if self._waiting and not self._append():
             return
-        self._waiting = waiting
+        entries = self._backlog.take()
+        lost = self._backlog.take_lost()
+        if lost != Lost():
+            self._gap = f"{lost.samples} samples and {lost.others} other entries are missing"
+            details = json.dumps({"samples": lost.samples, "others": lost.others})
+            entries.append(RecordedEvent(lost.since_s, "recorder", self._gap, details))
+        self._waiting = streams(entries, self._schema)
+        if not self._waiting or self._append():
+            self._note_success()
+
+    def _append(self) -> bool:
+        """Write the segment that waits; return whether the disk has taken it."""
         began_s = self._clock()
         try:
-            self._file.append(*waiting)
+            self._file.append(*self._waiting)
         except OSError as error:
             self._note_failure(error.strerror or str(error))
-            return
+            return False
         self._waiting = []
-        self._note_success()
         self._note_speed(self._clock() - began_s)
+        return True
 
     def _note_failure(self, reason: str) -> None:
         if self._failure is None:
@@ -231,16 +242,11 @@ class RecordingWriter:
         self._failure = reason
 
     def _note_success(self) -> None:
-        lost = self._backlog.take_lost()
-        if self._failure is not None or lost != Lost():
+        gap, self._gap = self._gap, ""
+        if self._failure is not None or gap:
             self._failure = None
-            gap = "nothing is missing"
-            if lost != Lost():
-                gap = f"{lost.samples} samples and {lost.others} other entries are missing"
-            details = {"samples": lost.samples, "others": lost.others}
-            if lost != Lost():
-                self.event("recorder", gap, details, lost.since_s)
-            self._notice(f"{self.path.name}: recording goes on; {gap}", problem=lost != Lost())
+            message = f"{self.path.name}: recording goes on; {gap or 'nothing is missing'}"
+            self._notice(message, problem=bool(gap))
 
     def _note_speed(self, took_s: float) -> None:
         slow = took_s > SLOW_S
