@@ -87,11 +87,8 @@ class Impedance(ScalingLaw):
             after.v_of_x * away + after.v_of_v * velocity + after.v_of_force * force,
         )
         speed = self.bounds.speed(self._motion, free.velocity, dt)
-        place = free.position
-        if speed != free.velocity and after.v_of_force:
-            # Bounds act as one more constant force would, which keeps the books of energy exact.
-            place += after.x_of_force / after.v_of_force * (speed - free.velocity)
-        return Motion(self.bounds.place(self._motion, speed, dt, place), speed)
+        # Where it is slowed it still is where it would be: no work is done, and only speed is lost.
+        return Motion(self.bounds.place(self._motion, speed, dt, free.position), speed)
 
     def _rescale(self, factor: float) -> None:
         if self.impedance.stiffness:
