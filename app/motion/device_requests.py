@@ -114,6 +114,17 @@ class DeviceRequests(DeviceSession, ABC):
                 self._mailbox.post(RunProfile({profile.axis: end}))
             self._loaded = None
 
+    def check_thrust(self, axis: str, ends: tuple[float, float], speed: float, owner: str) -> None:
+        """Refuse a way of one axis, at this speed at most, that no profile of the owner's may make.
+
+        Raises
+        ------
+        OutOfLimitsError
+            As :meth:`upload_profile`.
+        """
+        thrust = self.has_reserved(owner)
+        self._guard.profile(self._place(), axis, ends, speed, thrust=thrust)
+
     def abort_profile(self) -> None:
         """Halt the profile that runs, without a fault, or forget the one that waits.
 

@@ -1,0 +1,7 @@
+"""What is wrong with a penetration that somebody asked for."""
+
+from rotemina.sim.errors import InputError
+
+
+class PenetrationError(InputError):
+    """Parameters, or a machine, with which no penetration is possible; says what and the bound."""

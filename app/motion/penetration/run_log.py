@@ -1,0 +1,156 @@
+"""What became of each penetration: a line of JSON a run, appended to a file."""
+
+import json
+import os
+from dataclasses import asdict, dataclass, fields
+from enum import StrEnum
+from os import PathLike, fspath
+from pathlib import Path
+from typing import Any, Self
+
+from rotemina.app.motion.penetration.errors import PenetrationError
+from rotemina.app.motion.penetration.thrust import ThrustMeasured
+from rotemina.sim.whole_files import FileWriteError
+
+
+class Verdict(StrEnum):
+    """How a run ended."""
+
+    DONE = "done"
+    ABORTED = "aborted"  # by the operator; the tip is back where it began
+    FAILED = "failed"  # no contact, too shallow, overload; the tip is back where it began
+    HELD = "held"  # by a stop, a fault or a lost link; the tip is where that left it
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PenetrationRun:
+    """One run; SI units, positions as commanded, None for what did not come to pass.
+
+    Attributes
+    ----------
+    started : str
+        When it was started, ISO 8601 with the zone.
+    robot, driver : str
+    parameters : dict
+        All of :class:`rotemina.app.motion.penetration.parameters.PenetrationParameters`.
+    verdict : Verdict
+    reason : str
+    phases : tuple of (str, float)
+        Each phase and when it began, s since the start.
+    start, contact, contact_measured, contact_height : float or None
+        Along the axis; the height is the tip's, where the robot has one.
+    contact_delay_s, contact_from_start, noise_rms, threshold : float, bool or None
+        Of the detection.
+    planned_average_speed, planned_peak_speed, fit_error : float or None
+    thrust : ThrustMeasured or None
+    peak_deviation, final_deviation : float or None
+        Change of ``meas − model`` since the contact, against the thrust: its peak on the way and
+        what was left at its end.
+    gave_way : bool or None
+        Whether it fell by a third of its peak, and by more than noise: a membrane that broke.
+    """
+
+    started: str
+    robot: str
+    driver: str
+    parameters: dict[str, Any]
+    verdict: Verdict
+    reason: str
+    phases: tuple[tuple[str, float], ...]
+    start: float | None = None
+    contact: float | None = None
+    contact_measured: float | None = None
+    contact_height: float | None = None
+    contact_delay_s: float | None = None
+    contact_from_start: bool | None = None
+    noise_rms: float | None = None
+    threshold: float | None = None
+    planned_average_speed: float | None = None
+    planned_peak_speed: float | None = None
+    fit_error: float | None = None
+    thrust: ThrustMeasured | None = None
+    peak_deviation: float | None = None
+    final_deviation: float | None = None
+    gave_way: bool | None = None
+
+    def line(self) -> str:
+        """Return the run as one line of JSON."""
+        return json.dumps(asdict(self), allow_nan=False, ensure_ascii=False)
+
+    @classmethod
+    def parsed(cls, line: str) -> Self:
+        """Return the run of a line.
+
+        Raises
+        ------
+        PenetrationError
+            If the line is none.
+        """
+        try:
+            table = json.loads(line)
+            table["verdict"] = Verdict(table["verdict"])
+            table["phases"] = tuple((str(name), float(at)) for name, at in table["phases"])
+            if table.get("thrust") is not None:
+                table["thrust"] = ThrustMeasured(**table["thrust"])
+            return cls(**table)
+        except (ValueError, TypeError, KeyError, RecursionError) as error:
+            raise PenetrationError(f"no penetration's run: {error}") from error
+
+
+class RunLog:
+    """A file of runs, the latest last. A crash while one is appended costs that one alone."""
+
+    def __init__(self, path: str | PathLike[str]) -> None:
+        self.path = fspath(path)
+
+    def append(self, run: PenetrationRun) -> None:
+        """Write a run behind the others, by a single write, and have it on the disk.
+
+        Raises
+        ------
+        FileWriteError
+            If it cannot be written.
+        """
+        data = (run.line() + "\n").encode()
+        try:
+            descriptor = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o644)
+            try:
+                if os.lseek(descriptor, 0, os.SEEK_END):
+                    os.lseek(descriptor, -1, os.SEEK_END)
+                    if os.read(descriptor, 1) != b"\n":
+                        data = b"\n" + data  # a line that was cut off stays alone
+                written = os.write(descriptor, data)
+                os.fsync(descriptor)
+            finally:
+                os.close(descriptor)
+        except OSError as error:
+            raise FileWriteError(f"{self.path}: cannot be written: {error.strerror}") from error
+        if written != len(data):
+            raise FileWriteError(f"{self.path}: the run is not whole there; the disk may be full")
+
+    def read(self) -> tuple[tuple[PenetrationRun, ...], tuple[str, ...]]:
+        """Return the runs, and what is wrong with lines that are none, each with its number.
+
+        Raises
+        ------
+        PenetrationError
+            If the file cannot be read.
+        """
+        try:
+            text = Path(self.path).read_text("utf-8", errors="replace")
+        except OSError as error:
+            raise PenetrationError(f"{self.path}: cannot be read: {error.strerror}") from error
+        runs, problems = [], []
+        for number, line in enumerate(text.split("\n"), 1):
+            if not line.strip():
+                continue
+            try:
+                runs.append(PenetrationRun.parsed(line))
+            except PenetrationError as error:
+                problems.append(f"{self.path}, line {number}: {error}")
+        return tuple(runs), tuple(problems)
+
+
+def as_table(parameters: Any) -> dict[str, Any]:
+    """Return a flat dataclass as JSON holds it."""
+    return {field.name: getattr(parameters, field.name) for field in fields(parameters)}
