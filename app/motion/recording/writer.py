@@ -21,7 +21,7 @@ from rotemina.drivers.clock import Clock
 from rotemina.drivers.samples import Samples
 from rotemina.sim.arrays import FloatArray
 
-SEGMENT_S = 0.4  # what a crash can lose, with the time that it takes to write so much
+SEGMENT_S = 0.25  # what a crash can lose, with the time that it takes to write so much
 SLOW_S = 0.5  # a disk that takes longer for a segment endangers the promise of one second
 CAPACITY_BYTES = 64_000_000  # of what waits: 14 s at 20 kHz and 24 channels, 5 min at 1 kHz
 _LONGEST_S = 60.0  # that a close waits for a disk that hangs

@@ -147,14 +147,10 @@ def test_other_files_are_refused(tmp_path, data, words):
 def test_a_finished_recording_that_is_cut_or_of_another_version_is_refused(crashed, tmp_path):
     path = recover(crashed)
     data = path.read_bytes()
-    for size in range(0, len(data), 701):
+    for size in (0, 5, 700, len(data) // 2, len(data) - 9):
         path.write_bytes(data[:size])
-        try:
-            recording = Recording.open(path)
-        except RecordingError as error:
-            assert str(path) in str(error)
-        else:  # cut between two tables
-            assert recording.count == 300
+        with pytest.raises(RecordingError, match=re.escape(str(path))):
+            Recording.open(path)
     path.write_bytes(data.replace(b"rotemina-recording", b"rotemina-recordinh"))
     with pytest.raises(RecordingError, match="no recording of this program"):
         Recording.open(path)

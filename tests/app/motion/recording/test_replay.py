@@ -1,0 +1,109 @@
+"""A replay shows what the session showed."""
+
+import numpy as np
+import pytest
+
+from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.replay import Replay
+from rotemina.app.motion.state import CommandRefused, Faulted, Phase, StateChanged
+from rotemina.drivers.errors import ConnectionLostError
+
+
+@pytest.fixture
+def session(stepped, record):
+    """A move, then a lost link; with the states that the session told on the way."""
+    recorded = record(stepped)
+    seen = []
+    stepped.session.subscribe(seen.append)
+    recorded.rest()
+    stepped.session.go_to({"x": 0.028})
+    recorded.step(0.02, 30)
+    window = stepped.session.history.tail()
+
+    def lose():
+        raise ConnectionLostError("cable pulled")
+
+    stepped.driver.before["read"] = lose
+    recorded.step()
+    recording = Recording.open(recorded.recorder.close())
+    return recording, seen, window
+
+
+def test_the_same_events_in_the_same_order(session):
+    recording, seen, _ = session
+    replay, told = Replay(recording), []
+    replay.subscribe(told.append)
+    while not replay.ended:
+        replay.advance(0.033)
+    # The first state is that at the begin of the recording.
+    shown = [one for one in told if isinstance(one, StateChanged)][1:]
+    asked = [one for one in seen if isinstance(one, StateChanged)]
+    assert [one.state.phase for one in shown] == [one.state.phase for one in asked]
+    assert [one.state.fault for one in shown] == [one.state.fault for one in asked]
+    (fault,) = [one for one in told if isinstance(one, Faulted)]
+    assert "cable pulled" in fault.message
+    assert not [one for one in told if isinstance(one, CommandRefused)]
+
+
+def test_the_history_is_that_of_the_session(session):
+    recording, _, window = session
+    replay = Replay(recording)
+    for _ in range(60):
+        replay.advance(0.0137)
+    shown = replay.history.tail()
+    begin = len(window) - len(shown)
+    assert 0 <= begin <= 1
+    np.testing.assert_array_equal(shown.device_time_s, window.device_time_s[begin:])
+    np.testing.assert_array_equal(shown.command, window.command[begin:])
+    np.testing.assert_array_equal(shown.model, window.model[begin:])
+    np.testing.assert_array_equal(shown.measured, window.measured[begin:])
+
+
+def test_a_snapshot_in_mid_move(session):
+    recording, _, window = session
+    replay = Replay(recording)
+    replay.advance(0.25)
+    state = replay.snapshot()
+    assert state.phase is Phase.MOVING
+    assert state.locked == "this is a replay; nothing moves"
+    assert 0.0275 < state.command["x"] < 0.028
+    assert 0.0 <= state.age_s < 0.002
+    row = int(np.flatnonzero(window.device_time_s == state.device_time_s)[0])
+    assert state.measured["x"] == window.measured[row, 0]
+
+
+def test_seeking_is_as_having_come_there(session):
+    recording, _, _ = session
+    walked, jumped = Replay(recording), Replay(recording)
+    told = []
+    jumped.subscribe(told.append)
+    walked.advance(0.3)
+    jumped.seek(recording.ended_s)
+    jumped.seek(recording.began_s + 0.3)
+    assert jumped.snapshot() == walked.snapshot()
+    np.testing.assert_array_equal(
+        jumped.history.tail().device_time_s, walked.history.tail().device_time_s
+    )
+    assert len(told) == 2
+    for each in (walked, jumped):
+        each.advance(100.0)
+        assert each.ended
+    assert jumped.snapshot() == walked.snapshot()
+
+
+def test_a_reconnection_begins_a_new_history(stepped, record):
+    recorded = record(stepped)
+    recorded.rest()
+    stepped.session.disconnect()
+    recorded.step()
+    stepped.session.connect()
+    recorded.rest(0.1)
+    recording = Recording.open(recorded.recorder.close())
+    replay = Replay(recording)
+    replay.advance(10.0)
+    assert len(replay.history.tail()) == len(stepped.session.history.tail())
+
+
+def test_time_does_not_go_back(session):
+    with pytest.raises(ValueError, match="seek instead"):
+        Replay(session[0]).advance(-1.0)

@@ -1,0 +1,168 @@
+"""What recording costs: 20 kHz × 24 channels in real time, beside naive ways to keep samples.
+
+``make bench`` runs it. The recorder is to take at most 10 % of a core, thread, disk and all.
+"""
+
+import csv
+import io
+import os
+import resource
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+
+from rotemina.app.motion.recording.merging import recover
+from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.writer import RecordingWriter
+from rotemina.drivers.samples import Samples
+
+RATE_HZ = 20_000
+AXES = 6  # of four channels each
+PORTION_S = 0.016
+SECONDS = 15.0
+MOST_LOAD = 0.10
+
+
+def made(first: int) -> tuple[Samples, np.ndarray]:
+    """Return a portion of readings with noise, rounded as sensors do."""
+    count = round(PORTION_S * RATE_HZ)
+    rng = np.random.default_rng(first)
+    command = np.repeat(0.02 + 1e-6 * np.sin(np.arange(first, first + count) / 1e3)[:, None], 6, 1)
+    measured = np.rint((command + 1e-8 * rng.standard_normal(command.shape)) / 1e-9) * 1e-9
+    times = np.arange(first, first + count) / RATE_HZ
+    samples = Samples(times, command, measured, command * 2e6, np.full(count, -1))
+    return samples, command * 0.999
+
+
+def load(keep: Callable[[Samples, np.ndarray], None], end: Callable[[], None]) -> float:
+    """Hand portions over in real time; return the share of a core that keeping them took."""
+    portions = [made(320 * number) for number in range(64)]  # made before, and used again
+    count = round(SECONDS / PORTION_S)
+    span_s = len(portions) * PORTION_S
+    began_s, before_s = time.perf_counter(), time.process_time()
+    for number in range(count):
+        samples, model = portions[number % len(portions)]
+        again = number // len(portions)
+        shifted = Samples(
+            samples.device_time_s + again * span_s,
+            samples.command,
+            samples.measured,
+            samples.inputs,
+            samples.playback_row,
+        )
+        keep(shifted, model)
+        time.sleep(max(0.0, began_s + (number + 1) * PORTION_S - time.perf_counter()))
+    end()
+    return (time.process_time() - before_s) / (time.perf_counter() - began_s)
+
+
+def test_the_recorder_takes_a_small_part_of_a_core(tmp_path: Path) -> None:
+    idle = load(lambda *_: None, lambda: None)
+    writer = RecordingWriter(tmp_path / "run.arrows", dict.fromkeys("abcdef", "m"), {})
+    writer.start()
+    recorder = load(
+        lambda samples, model: writer.add(samples, model, time.monotonic()), writer.run_once
+    )
+    part_bytes = writer.bytes_written
+    began_s = time.perf_counter()
+    path = writer.close()
+    merging_s = time.perf_counter() - began_s
+    rows = Recording.open(path).count
+    assert rows == round(SECONDS / PORTION_S) * 320
+    print(
+        f"recorder: {100 * (recorder - idle):.1f} % of a core at {RATE_HZ / 1e3:g} kHz × "
+        f"{4 * AXES} channels ({100 * idle:.1f} % for handing them over), "
+        f"{part_bytes / rows:.0f} bytes a sample; merging {merging_s:.2f} s for {SECONDS:g} s"
+    )
+    for name, keep, end in naive_ways(tmp_path):
+        other = load(keep, end)
+        print(f"{name}: {100 * (other - idle):.1f} %, {(other - idle) / (recorder - idle):.1f} ×")
+    assert recorder <= MOST_LOAD
+
+
+def naive_ways(folder: Path):
+    text = (folder / "run.csv").open("w", newline="")
+    rows = csv.writer(text)
+
+    def append_csv(samples: Samples, model: np.ndarray) -> None:
+        rows.writerows(table_of(samples, model).tolist())
+        text.flush()
+
+    def save_block(samples: Samples, model: np.ndarray) -> None:
+        path = folder / f"{samples.device_time_s[0]:.6f}.npy"
+        with path.open("wb") as file:
+            np.save(file, table_of(samples, model))
+            file.flush()
+            os.fsync(file.fileno())
+
+    yield "csv.writer, a block at a time, no fsync", append_csv, text.close
+    yield "numpy.save and fsync of each block", save_block, lambda: None
+
+
+def table_of(samples: Samples, model: np.ndarray) -> np.ndarray:
+    times = samples.device_time_s[:, None]
+    return np.hstack([times, samples.command, samples.inputs, model, samples.measured])
+
+
+def test_compression_is_not_worth_its_time() -> None:
+    parts = [made(320 * number) for number in range(32)]
+    table = np.concatenate([table_of(*part) for part in parts])
+    schema = pa.schema([(str(column), pa.float64()) for column in range(table.shape[1])])
+    batch = pa.record_batch(
+        [pa.array(np.ascontiguousarray(column)) for column in table.T], schema=schema
+    )
+    for codec in (None, "lz4", "zstd"):
+        options = pa.ipc.IpcWriteOptions(compression=codec, use_threads=False)
+        began_s = time.process_time()
+        for _ in range(50):
+            sink = io.BytesIO()
+            with pa.ipc.new_stream(sink, schema, options=options) as writer:
+                writer.write_batch(batch)
+        cpu_s = (time.process_time() - began_s) / 50 / (len(table) / RATE_HZ)
+        size = len(sink.getvalue()) / len(table)
+        print(f"compression {codec}: {size:.0f} bytes a sample, {100 * cpu_s:.2f} % of a core")
+
+
+def test_long_recordings(tmp_path: Path) -> None:
+    """Ten minutes at 20 kHz, as fast as they are taken: size, memory, merging, opening."""
+    writer = RecordingWriter(tmp_path / "run.arrows", dict.fromkeys("abcdef", "m"), {})
+    samples, model = made(0)
+    before = peak_mb()
+    for number in range(round(600 / PORTION_S)):
+        shifted = Samples(
+            samples.device_time_s + number * PORTION_S,
+            samples.command,
+            samples.measured,
+            samples.inputs,
+            samples.playback_row,
+        )
+        writer.add(shifted, model, number * PORTION_S)
+        if number % 25 == 24:
+            writer.run_once()
+    writer.run_once()
+    recorded = peak_mb() - before
+    size = writer.bytes_written
+    writer._file.close()
+    began_s = time.perf_counter()
+    path = recover(tmp_path / "run.arrows.part")
+    merging_s = time.perf_counter() - began_s
+    merged = peak_mb() - before
+    began_s = time.perf_counter()
+    recording = Recording.open(path)
+    opening_s = time.perf_counter() - began_s
+    began_s = time.perf_counter()
+    assert 19_999 <= len(recording.samples(300.0, 301.0)) <= 20_001
+    second_s = time.perf_counter() - began_s
+    print(
+        f"600 s at 20 kHz: {size / 1e9:.2f} GB; memory grows by {recorded:.0f} MB while recording "
+        f"and {merged:.0f} MB when merged, in {merging_s:.1f} s; opened in "
+        f"{1e3 * opening_s:.0f} ms, one second of it read in {1e3 * second_s:.1f} ms"
+    )
+
+
+def peak_mb() -> float:
+    """Return the most memory that this process has had, of its own."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3
