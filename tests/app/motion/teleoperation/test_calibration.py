@@ -1,5 +1,7 @@
 import logging
+import re
 from math import nan
+from pathlib import Path
 
 import pytest
 from hypothesis import assume, given
@@ -199,3 +201,14 @@ def test_where_nothing_can_be_written_it_is_said(tmp_path):
 def test_another_devices_calibration_is_not_kept(folder):
     with pytest.raises(CalibrationError, match="'other' cannot be kept for 'hid:046d"):
         folder.save(STICK, Calibration(device="other"))
+
+
+def test_the_example_of_the_documentation_can_be_used(folder):
+    page = (Path(__file__).parents[4] / "docs" / "input-mapping.md").read_text("utf-8")
+    (example,) = re.findall(r"```toml\n(device = .*?)```", page, re.S)
+    path = folder.path(STICK)
+    path.parent.mkdir(parents=True)
+    path.write_text(example, "utf-8")
+    assert folder.read(STICK).axis("X").travel_m == 0.02
+    keys = AxisCalibration.__dataclass_fields__
+    assert [key for key in ("device", *keys) if f"`{key}`" not in page] == []

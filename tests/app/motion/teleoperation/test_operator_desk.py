@@ -504,6 +504,16 @@ def test_without_the_trainer_the_trainee_does_not_drive(school):
     assert lost(school.say("b", held=("take",)).run(0.2)) == []
 
 
+def test_a_dead_man_guards_its_own_seat_only():
+    trainer, trainee = mapping("a"), mapping("b", Seat.TRAINEE, without=())
+    bench = Bench(trainer, trainee, devices=("a", "b"))
+    bench.run(0.2)
+    assert bench.step().deflections == {"x": 0.0, "y": 0.0}
+    give_to_the_trainee(bench)
+    assert bench.run(0.2)[-1].deflections == {}
+    assert bench.say("b", held=("dead",)).step().deflections == {"x": 0.0, "y": 0.0}
+
+
 def test_the_drive_does_not_change_while_mappings_are_made(school):
     school.desk.open_mapping()
     school.say("b", held=("take",)).run(0.1)
