@@ -152,7 +152,8 @@ class ContactDetector:
         self._side = -1.0 if sign > 0.0 else 1.0
         self._drift = drift
         self._wander = drift**2 / drift_length  # q, 1/m
-        self._level, self._slope = noise.level, 0.0
+        self._level = self._rested = noise.level
+        self._slope = 0.0
         self._p = (noise.rms**2 / _LEAST_SAMPLES, 0.0, drift**2)  # of level, both, slope
         self._sum = 0.0
         self._latest: tuple[float, float] | None = None  # time and command
@@ -170,14 +171,17 @@ class ContactDetector:
                 self._met = (at_s, commanded, reading)
             if self._sum > self.threshold:
                 return Contact(self._met[1], self._met[2], self._met[0], at_s, False)
-            if self._leans(commanded, value):
+            if self._leans(commanded):
                 return Contact(self._begin, reading, at_s, at_s, True)
         return None
 
-    def _leans(self, command: float, residual: float) -> bool:
-        """Tell whether the residual has grown as no drift makes it grow."""
-        most = _STIFF * self._drift * abs(command - self._begin) + _SURE * self._noise.rms
-        return self._side * (residual - self._noise.level) > max(most, _SURE * self._noise.rms)
+    def _leans(self, command: float) -> bool:
+        """Tell whether the level has risen as no drift makes it rise."""
+        way = abs(command - self._begin)
+        if way == 0.0:
+            self._rested = self._level  # creep goes on while it still rests
+        most = _STIFF * self._drift * way + _SURE * self._noise.rms
+        return self._side * (self._level - self._rested) > most
 
     def _innovation(self, time_s: float, command: float, residual: float) -> float:
         """Follow the residual; return the innovation in standard deviations."""

@@ -16,9 +16,7 @@ START = 64e-6
 
 def cell(place=58e-6, stiffness=0.1):
     """A membrane that is met on the way down; over the stiffness of the axis itself."""
-    return AxisEffect(
-        axis="zn", id="contact", parameters={"place": place, "stiffness": -stiffness}
-    )
+    return AxisEffect(axis="zn", id="contact", parameters={"place": place, "stiffness": -stiffness})
 
 
 HYSTERESIS = AxisEffect(axis="zn", id="hysteresis", parameters={"width": 0.12 * 65e-6})
