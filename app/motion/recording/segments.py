@@ -5,8 +5,10 @@ content. A file that was cut off anywhere, or whose last writing failed, ends wi
 segment.
 """
 
+import errno
 import os
 import struct
+import threading
 import zlib
 from collections.abc import Callable, Iterator
 from contextlib import suppress
@@ -20,6 +22,7 @@ MAGIC = b"RTMSEG01"
 _PROGRAM = MAGIC[:6]
 _HEADER = struct.Struct("<8sQQI")
 _COUNTED = struct.Struct("<QQ")
+_MOST_UNCONFIRMED = 64_000_000  # bytes
 
 Opener = Callable[[Path], BinaryIO]
 
@@ -37,7 +40,11 @@ class Place(NamedTuple):
 
 
 class SegmentFile:
-    """Appends segments; each is on the disk when :meth:`append` returns.
+    """Appends segments. They outlive the process once appended, and the machine once synced.
+
+    :meth:`append` and :meth:`sync` may be called by two threads: a disk that is slow to confirm
+    keeps nobody from appending. What is not confirmed is kept in memory, to be written again where
+    the disk says that it has failed.
 
     The file is locked, so that nobody recovers it while it is written; a process that ends, however
     it does, lets go of it.
@@ -52,6 +59,9 @@ class SegmentFile:
         self.path = path
         self._end = 0
         self._number = 0
+        self._unconfirmed: list[bytes] = []  # contents
+        self._again: list[bytes] = []  # contents that were lost when a sync failed
+        self._lock = threading.Lock()
         try:
             self._file = opener(path)
         except FileExistsError as error:
@@ -73,28 +83,57 @@ class SegmentFile:
         return self._end
 
     def append(self, *contents: bytes) -> None:
-        """Write segments, and wait until the disk has them.
+        """Write segments.
 
         Raises
         ------
         OSError
             If it cannot; nothing of them counts then, and they may be tried again.
         """
-        written = b"".join(
-            piece
-            for number, content in enumerate(contents, self._number)
-            for piece in (_header(number, content), content)
-        )
+        with self._lock:
+            if sum(map(len, self._unconfirmed)) > _MOST_UNCONFIRMED:
+                raise OSError(errno.ETIMEDOUT, "the disk does not confirm what was written")
+            due = [*self._again, *contents]
+            written = b"".join(
+                piece
+                for number, content in enumerate(due, self._number)
+                for piece in (_header(number, content), content)
+            )
+            try:
+                self._file.seek(self._end)
+                self._write(written)
+            except OSError:
+                with suppress(OSError):  # what is left is no whole segment, or will be written over
+                    self._file.truncate(self._end)
+                raise
+            self._end += len(written)
+            self._number += len(due)
+            self._again = []
+            self._unconfirmed += due
+
+    def sync(self) -> None:
+        """Wait until the disk has what was appended before.
+
+        Raises
+        ------
+        OSError
+            If it has failed; what it did not confirm is written again by the next `append`.
+        """
+        with self._lock:
+            count = len(self._unconfirmed)
+        if not count:
+            return
         try:
-            self._file.seek(self._end)
-            self._write(written)
             os.fsync(self._file.fileno())
         except OSError:
-            with suppress(OSError):  # what is left is no whole segment, or will be written over
-                self._file.truncate(self._end)
+            with self._lock:
+                lost, self._unconfirmed = self._unconfirmed, []
+                self._again = lost + self._again
+                self._number -= len(lost)
+                self._end -= sum(_HEADER.size + len(content) for content in lost)
             raise
-        self._end += len(written)
-        self._number += len(contents)
+        with self._lock:
+            del self._unconfirmed[:count]
 
     def close(self) -> None:
         """Let go of the file; safe to call twice."""

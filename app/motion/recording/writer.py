@@ -22,7 +22,7 @@ from rotemina.drivers.samples import Samples
 from rotemina.sim.arrays import FloatArray
 
 SEGMENT_S = 0.25  # what a crash can lose, with the time that it takes to write so much
-SLOW_S = 0.5  # a disk that takes longer for a segment endangers the promise of one second
+SLOW_S = 0.7  # a disk that takes longer for a segment endangers the promise of one second
 CAPACITY_BYTES = 64_000_000  # of what waits: 14 s at 20 kHz and 24 channels, 5 min at 1 kHz
 _LONGEST_S = 60.0  # that a close waits for a disk that hangs
 
@@ -39,7 +39,7 @@ class RecordingWriter:
     """Keeps what it is given in ``PATH.part``, a segment at a time, and merges it on close.
 
     ``add`` and ``record`` may be called from any thread and return at once. :meth:`run_once`
-    writes what waits; :meth:`start` has a thread do that.
+    writes what waits; :meth:`start` has two threads do that: one writes, one waits for the disk.
 
     Where the disk is full, or fails, the operator is told once and the segment is tried again with
     each turn: what comes meanwhile waits in memory as far as there is room, then it is counted as
@@ -95,7 +95,10 @@ class RecordingWriter:
         self._device_clock = DeviceClock()
         self._device_time_s = self._host_time_s = float("-inf")
         self._writing = threading.Lock()
-        self._ticker = Ticker("recorder", SEGMENT_S, self.run_once)
+        self._tickers = (
+            Ticker("recorder", SEGMENT_S, self._write),
+            Ticker("recorder sync", SEGMENT_S, self._sync),
+        )
         about = {
             "id": uuid4().hex,
             "began_s": repr(clock()),
@@ -124,8 +127,9 @@ class RecordingWriter:
         return self._file.size
 
     def start(self) -> None:
-        """Write on a thread of its own from now on."""
-        self._ticker.start()
+        """Write on threads of its own from now on."""
+        for ticker in self._tickers:
+            ticker.start()
 
     def connected(self) -> None:
         """Note that the device's time begins anew."""
@@ -177,10 +181,9 @@ class RecordingWriter:
             self._backlog.add(RecordedEvent(at_s, kind, text, json.dumps(details or {})))
 
     def run_once(self) -> None:
-        """Write what waits; does nothing after :meth:`close`."""
-        with self._writing:
-            if not self._closed:
-                self._write()
+        """Write what waits, and wait until the disk has it; nothing happens after `close`."""
+        self._write()
+        self._sync()
 
     def close(self) -> Path:
         """Write what is left, merge, and return the finished file; safe to call twice.
@@ -190,15 +193,15 @@ class RecordingWriter:
         RecordingError
             If that cannot be done; what was recorded stays in ``PATH.part`` to be recovered.
         """
-        self._ticker.close(timeout_s=_LONGEST_S)
-        with self._writing:
-            if self._closed:
-                return self.path
-            self._write()
-            self._write()  # what the first wrote may have had something to tell
-            self._closed = True
-            self._file.close()
-        if self._waiting:
+        if self._closed:
+            return self.path
+        for ticker in self._tickers:
+            ticker.close(_LONGEST_S)
+        for _ in range(2):  # what the first writes may have something to tell
+            self.run_once()
+        self._closed = True
+        self._file.close()
+        if self._failure is not None:
             self._tell(
                 RecorderNotice(
                     f"{self.path.name}: its end could not be written ({self._failure})",
@@ -208,8 +211,24 @@ class RecordingWriter:
         return merged(self._file.path, self.path)
 
     def _write(self) -> None:
-        if self._waiting and not self._append():
+        """Have what waits outlive this process."""
+        with self._writing:
+            if not self._closed and (not self._waiting or self._append()):
+                self._write_backlog()
+
+    def _sync(self) -> None:
+        """Have what was written outlive a power cut; the disk may take its time."""
+        if self._closed:
             return
+        began_s = self._clock()
+        try:
+            self._file.sync()
+        except OSError as error:
+            with self._writing:
+                self._note_failure(error.strerror or str(error))
+        self._note_speed(self._clock() - began_s)
+
+    def _write_backlog(self) -> None:
         entries = self._backlog.take()
         lost = self._backlog.take_lost()
         if lost != Lost():
@@ -249,14 +268,13 @@ class RecordingWriter:
             self._notice(message, problem=bool(gap))
 
     def _note_speed(self, took_s: float) -> None:
-        slow = took_s > SLOW_S
-        if slow and not self._slow:
+        if took_s > SLOW_S and not self._slow:
+            self._slow = True
             self._notice(
-                f"{self.path.name}: the disk took {took_s:.1f} s for one segment: a crash now "
-                "would lose more than a second; record to a faster one",
+                f"{self.path.name}: the disk took {took_s:.1f} s for a segment: a crash or a power "
+                "cut now could lose more than a second; record to a faster one",
                 problem=True,
             )
-        self._slow = slow
 
     def _notice(self, message: str, *, problem: bool) -> None:
         self.event("recorder", message)

@@ -82,16 +82,33 @@ def test_a_full_disk_keeps_what_there_is_and_is_tried_again(path, disk):
     assert found(path) == [b"a" * 100, b"b" * 100, b"c" * 100]
 
 
-def test_what_the_disk_does_not_confirm_does_not_count(path, monkeypatch):
+def test_what_the_disk_fails_to_confirm_is_written_again(path, monkeypatch):
     file = SegmentFile(path)
     file.append(b"kept")
+    file.sync()
     with monkeypatch.context() as patched:
         patched.setattr("os.fsync", lambda _: (_ for _ in ()).throw(OSError(errno.EIO, "bad")))
+        file.append(b"not confirmed")
+        file.append(b"nor this")
         with pytest.raises(OSError, match="bad"):
-            file.append(b"lost")
-    file.append(b"again")
+            file.sync()
+    assert file.size == 28 + 4
+    file.append(b"new")
+    file.sync()
     file.close()
-    assert found(path) == [b"kept", b"again"]
+    assert found(path) == [b"kept", b"not confirmed", b"nor this", b"new"]
+
+
+def test_a_disk_that_never_confirms_is_not_given_more_and_more(path, monkeypatch):
+    monkeypatch.setattr("rotemina.app.motion.recording.segments._MOST_UNCONFIRMED", 100)
+    file = SegmentFile(path)
+    file.append(b"a" * 101)
+    with pytest.raises(OSError, match="does not confirm"):
+        file.append(b"b")
+    file.sync()
+    file.append(b"b")
+    file.close()
+    assert found(path) == [b"a" * 101, b"b"]
 
 
 def test_a_file_that_is_being_written_is_left_alone(path):
