@@ -51,15 +51,21 @@ class MappedDevice:
     calibration : Calibration
     mapping : DeviceMapping or None
         Its controls are those of the device; None if the profile has nothing for it.
+    last : InputReading, optional
+        What the device said last, if it was read before: it may have nothing to add to that.
     """
 
     def __init__(
-        self, device: PluggedDevice, calibration: Calibration, mapping: DeviceMapping | None
+        self,
+        device: PluggedDevice,
+        calibration: Calibration,
+        mapping: DeviceMapping | None,
+        last: InputReading | None = None,
     ) -> None:
         self.device = device
         self.mapping = mapping
-        #: When its newest reading came in; None as long as there was none.
-        self.newest_s: float | None = None
+        #: What it said last; None as long as it has said nothing that still holds.
+        self.newest = last
         #: Whether it streams and has stopped doing so.
         self.silent = False
         #: Actions pressed in the last step, and those held.
@@ -70,6 +76,7 @@ class MappedDevice:
         self._raw: dict[str, float] = {}
         self._garbled: str | None = None
         self._listening_since_s: float | None = None
+        self._before = () if last is None else (last,)
         self._actors = [] if mapping is None else [_Actor(each) for each in mapping.actions]
 
     def step(self, readings: Sequence[InputReading], now_s: float) -> None:
@@ -77,8 +84,9 @@ class MappedDevice:
         if self._listening_since_s is None:
             self._listening_since_s = now_s
         pressed: set[Action] = set()
-        for reading in readings:
+        for reading in (*self._before, *readings):
             pressed |= self._feed(reading)
+        self._before = ()
         for axis in self._trust.values():
             axis.step(now_s)
         for actor in self._actors:
@@ -144,7 +152,7 @@ class MappedDevice:
             self._forget(self._garbled)
             return set()
         self._garbled = None
-        self.newest_s = reading.host_time_s
+        self.newest = reading
         for axis, raw in zip(device.axes, reading.axes, strict=True):
             self._raw[axis] = raw
             self._trust[axis].feed(reading.host_time_s, raw)
@@ -164,8 +172,9 @@ class MappedDevice:
         return actor.threshold.feed(self._deflection(actor.control))
 
     def _listen(self, now_s: float) -> None:
-        heard_s = self.newest_s if self.newest_s is not None else self._listening_since_s
-        assert heard_s is not None
+        assert self._listening_since_s is not None
+        newest = self.newest
+        heard_s = self._listening_since_s if newest is None else newest.host_time_s
         silent = self.device.streams and now_s - heard_s > SILENCE_S
         if silent:
             self._forget("silent: nothing has come from it; replug it, or look at its cable")

@@ -117,10 +117,12 @@ class OperatorDesk:
         Raises
         ------
         CalibrationError
-            If there is no such device.
+            If there is no such device, or the calibration is another's.
         """
         if key not in self._plugged:
             raise CalibrationError(f"device {key!r} is not plugged in; its calibration has no use")
+        if calibration.device != key:
+            raise CalibrationError(f"a calibration of {calibration.device!r} is not for {key!r}")
         self._calibrations[key] = calibration
         self._lose(key, "calibrated anew")
         self._arrange({key})
@@ -215,7 +217,8 @@ class OperatorDesk:
             mapping = mappings.get(key)
             kept = self._devices.get(key)
             if kept is None or key in anew or kept.mapping is not mapping:
-                kept = MappedDevice(device, self._calibrations[key], mapping)
+                last = None if kept is None or kept.silent else kept.newest
+                kept = MappedDevice(device, self._calibrations[key], mapping, last)
             devices[key] = kept
         self._devices = devices
 
@@ -294,5 +297,6 @@ class OperatorDesk:
         return keys[0] if keys else ""
 
     def _newest_s(self, now_s: float) -> float:
-        times = [d.newest_s for d in self._of(self.driving) if d.newest_s is not None]
+        newest = (device.newest for device in self._of(self.driving))
+        times = [reading.host_time_s for reading in newest if reading is not None]
         return max(times, default=now_s)

@@ -227,6 +227,8 @@ def test_a_calibration_acts_at_once_and_wants_the_centre():
     assert (bench.desk.travel_m("x"), bench.desk.travel_m("y")) == (0.02, None)
     with pytest.raises(CalibrationError, match="'b' is not plugged in"):
         bench.desk.calibrate("b", Calibration(device="b"))
+    with pytest.raises(CalibrationError, match="of 'b' is not for 'a'"):
+        bench.desk.calibrate("a", Calibration(device="b"))
 
 
 def test_a_mapping_may_turn_an_axis_round():
@@ -369,6 +371,30 @@ def test_afterwards_sticks_and_buttons_must_be_let_go_of():
     bench.say(axes=REST).run(0.2)
     assert pressed(bench.say(held=("stage",)).run(0.1)) == [Action.STAGE]
     assert bench.step().deflections == {"x": 0.0, "y": 0.0}
+
+
+@pytest.mark.parametrize(("raw", "acts"), [(0.02, True), (0.5, False)])
+def test_one_that_speaks_only_of_changes_is_remembered_when_all_begins_anew(raw, acts):
+    bench = Bench()
+    bench.say(axes=(raw, 0.0), held=("stage", "stop")).run(0.2)
+    bench.hush()
+    bench.desk.open_mapping()
+    bench.step()
+    bench.desk.close_mapping()
+    bench.desk.use(profile(mapping("a")))
+    intents = bench.run(0.5)
+    assert ("x" in intents[-1].deflections) is acts
+    assert intents[-1].held == {Action.STOP}
+    assert bench.desk.views[0].axes[0].raw == raw
+
+
+def test_what_a_silent_stream_said_is_not_remembered():
+    bench = Bench(streams=True)
+    bench.run(0.2)
+    bench.hush()
+    bench.run(0.5)
+    bench.desk.use(profile(mapping("a", drives=("thx", "thy"))))
+    assert bench.run(0.1)[-1].deflections == {}
 
 
 def test_another_profile_acts_after_the_centre_and_a_bad_one_not_at_all():
