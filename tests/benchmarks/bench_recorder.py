@@ -80,7 +80,7 @@ def test_the_recorder_takes_a_small_part_of_a_core(tmp_path: Path) -> None:
     for name, keep, end in naive_ways(tmp_path):
         other = load(keep, end)
         print(f"{name}: {100 * (other - idle):.1f} %, {(other - idle) / (recorder - idle):.1f} ×")
-    assert recorder <= MOST_LOAD
+    assert recorder - idle <= MOST_LOAD
 
 
 def naive_ways(folder: Path):

@@ -7,6 +7,7 @@ import numpy as np
 import pyarrow as pa  # type: ignore[import-untyped,unused-ignore] # it comes without types
 
 from rotemina.app.motion.recording.backlog import Block, Entry, RecordedEvent, Row
+from rotemina.drivers.samples import Samples
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.robot.model import Robot
 
@@ -58,6 +59,13 @@ def name_of(schema: pa.Schema) -> str:
 def header(metadata: Mapping[str, str]) -> bytes:
     """Return the content of the first segment: what holds for the whole recording."""
     return json.dumps({FORMAT: VERSION, **metadata}).encode()
+
+
+def prepare() -> None:
+    """Make tables once: what Arrow loads when it is first used, pandas among it, takes a while."""
+    none = Samples.none(1)
+    block = Block(0, np.empty(0), none, none.command)
+    streams([block, RecordedEvent(0.0, "", ""), Row("", 0.0, {})], samples_schema({"x": "m"}))
 
 
 def streams(entries: Iterable[Entry], schema: pa.Schema) -> list[bytes]:

@@ -15,7 +15,7 @@ from rotemina.app.motion.recording.device_clock import DeviceClock
 from rotemina.app.motion.recording.errors import RecordingError
 from rotemina.app.motion.recording.merging import UNFINISHED, merged
 from rotemina.app.motion.recording.segments import Opener, SegmentFile, new_file
-from rotemina.app.motion.recording.tables import CLOCK, header, samples_schema, streams
+from rotemina.app.motion.recording.tables import CLOCK, header, prepare, samples_schema, streams
 from rotemina.app.motion.ticker import Ticker
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.samples import Samples
@@ -105,6 +105,7 @@ class RecordingWriter:
             "units": json.dumps(dict(units)),
             **metadata,
         }
+        prepare()  # neither motion nor the first second is to wait for that
         self._file = SegmentFile(path.with_name(path.name + UNFINISHED), opener)
         try:
             self._file.append(header(about))
