@@ -89,7 +89,9 @@ class Button:
     @classmethod
     def of(cls, field: Field, button: int) -> "Button":
         """Return the button of a field; one that tells a pressure is held from the middle on."""
-        least = (field.low + field.high) // 2 + 1 if field.high > field.low else 1
+        # Many a descriptor forgets to say again that a bit is at most 1.
+        high = min(field.high, (1 << field.size) - 1)
+        least = (field.low + high) // 2 + 1 if high > field.low else 1
         return cls(Bits.of(field), button, least)
 
     def take(self, report: int, axes: list[float], buttons: list[bool]) -> None:

@@ -263,7 +263,6 @@ class _Walk:
             self._locals.least = usage
         elif item.tag == TagLocal.USAGE_MAXIMUM and self._locals.least is not None:
             self._locals.usages.append(range(self._locals.least, usage + 1))
-            self._locals.least = None
 
 
 def _nonsense(item: Item, what: str) -> DescriptorError:

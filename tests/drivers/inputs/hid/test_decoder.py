@@ -146,6 +146,26 @@ def test_a_pressure_is_held_from_the_middle_on():
     ]
 
 
+def test_the_last_usage_is_that_of_all_that_are_left():
+    descriptor = "05 01 09 04 A1 01 09 30 09 31 15 00 25 7F 75 08 95 04 81 02 C0"
+    assert decoder_of(bytes.fromhex(descriptor)).axes == ("X", "Y", "Y 2", "Y 3")
+
+
+def test_what_does_not_change_or_has_no_range_or_number_is_no_control():
+    head, axis = "05 01 09 04 A1 01 75 08 95 01 15 00 25 7F", "09 30 81 02"
+    constant, no_range = "09 31 81 03", "25 00 09 32 81 02 25 7F"
+    button_0 = "05 09 19 00 29 02 75 01 95 03 81 02"
+    decoder = decoder_of(bytes.fromhex(f"{head} {constant} {axis} {no_range} {button_0} C0"))
+    assert decoder.axes == ("X",)
+    assert decoder.buttons == ("Button 1", "Button 2")
+    assert decoder.decode(bytes([9, 127, 9, 0b101])) == ((1.0,), (False, True))
+
+
+def test_a_hat_from_1_to_8_is_at_rest_at_0(descriptors):
+    axes, _ = decoder_of(descriptors["triggers"]).decode(bytes([1, *[0] * 16]))
+    assert axes[-2:] == (0.0, 0.0)
+
+
 def test_turned_notches_are_no_deflection():
     axes = "05 01 09 08 A1 01 15 81 25 7F 75 08 95 01 09 37 81 06 09 38 81 02 C0"
     assert decoder_of(bytes.fromhex(axes)).axes == ("Wheel",)
@@ -180,6 +200,7 @@ def test_a_usage_before_its_page_and_one_with_a_page_of_its_own():
         ("85 00", "a report of number 0: must be 1 to 255"),
         ("09 30 75 08 97 FF FF FF FF 81 02", "4294967295 more fields of 8 bits"),
         ("09 30 77 FF FF FF FF 95 01 81 02", "1 more fields of 4294967295 bits"),
+        ("09 30 75 01 96 FF 0F 81 02 95 02 81 02", "byte 11: 2 more fields of 1 bits"),
     ],
 )
 def test_a_descriptor_that_is_of_no_use_says_why(descriptor, reason):

@@ -136,6 +136,17 @@ def test_a_device_with_a_bad_descriptor_is_refused_and_closed(hid, hidapi, descr
     assert hidapi.opened == []
 
 
+def test_a_device_that_would_make_reading_wait_is_closed(hid, hidapi, descriptors, monkeypatch):
+    def refuse(handle, on):
+        raise ValueError("not open")
+
+    hidapi.plug(STICK, descriptors["joystick"])
+    monkeypatch.setattr(type(hidapi.device()), "set_nonblocking", refuse)
+    with pytest.raises(DriverError, match="cannot be opened"):
+        hid.open(hid.devices()[0])
+    assert hidapi.opened == []
+
+
 def test_one_that_was_pulled_out_is_closed_without_a_word(hid, hidapi, descriptors):
     hidapi.plug(STICK, descriptors["joystick"])
     device = hid.open(hid.devices()[0])
