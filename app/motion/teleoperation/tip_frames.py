@@ -29,8 +29,9 @@ from rotemina.sim.kinematics.forward import (
 
 TIP = ("x", "y", "z")
 #: How fast a table may go while it holds the tip against the nano stage, m/s. Measured, see
-#: docs/teleoperation.md: faster, a few ms between the boards carry the tip farther than 0.2 µm.
-PIVOT_TABLE_SPEED = 40e-6
+#: docs/teleoperation.md: faster, microsteps come at the rate at which the tables ring, and a few ms
+#: between the boards weigh more, so that the tip strays by more than 0.2 µm.
+PIVOT_TABLE_SPEED = 8e-6
 _PIVOT_RAMP_S = 0.01  # to that speed: about a period of the tables' vibration
 
 

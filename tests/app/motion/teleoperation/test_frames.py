@@ -215,8 +215,8 @@ def test_pivoting_is_bounded_by_the_tables_room_and_speed():
     cornered = {**CENTRE, "x": 0.0, "thy": 5e-4}
     bounds = PivotFrame.at(CHAIN, cornered).coordinates["thy"].bounds
     assert (bounds.low, bounds.high) == pytest.approx((5e-4, 1.16355e-3))
-    assert bounds.max_speed == pytest.approx(1e-3, rel=2e-3)
-    assert bounds.max_acceleration == pytest.approx(0.1, rel=2e-3)
+    assert bounds.max_speed == pytest.approx(2e-4, rel=2e-3)
+    assert bounds.max_acceleration == pytest.approx(0.02, rel=2e-3)
 
 
 # --- robots ---------------------------------------------------------------------------------------
