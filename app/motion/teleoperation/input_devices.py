@@ -14,6 +14,7 @@ from rotemina.app.motion.teleoperation.intent import Intent
 from rotemina.app.motion.teleoperation.mapping import PluggedDevice, assigned
 from rotemina.app.motion.teleoperation.operator_desk import OperatorDesk
 from rotemina.app.motion.teleoperation.profile import (
+    DeviceMapping,
     ListedProfile,
     Profile,
     ProfileError,
@@ -66,9 +67,6 @@ class InputDevices:
         self._chosen: Profile | None = None  # None: one is made for what is plugged in
         self._used: Profile | None = None
         self._open: dict[str, InputDevice] = {}
-        # What each device said last: a desk that begins anew must hear it of one that is silent.
-        self._latest: dict[str, InputReading] = {}
-        self._anew = False
         self._changes: deque[Changes] = deque()
         # Guards the desk and what is open; held for a step, and never while a device is opened.
         self._lock = threading.RLock()
@@ -125,7 +123,6 @@ class InputDevices:
         """
         with self._lock:
             self.desk.calibrate(key, calibration)
-            self._anew = True
             device = self._open.get(key)
         if device is not None:
             self.calibrations.save(device.identity, calibration)
@@ -162,15 +159,7 @@ class InputDevices:
                 except Exception as error:  # a plugin may raise anything; the device is then gone
                     self._drop(key, str(error))
                     self.hub.lost(key)
-            told: dict[str, tuple[InputReading, ...]] = dict(readings)
-            if self._anew:
-                told = {
-                    key: (self._latest[key], *new) if key in self._latest else new
-                    for key, new in readings.items()
-                }
-                self._anew = False
-            self._latest.update({key: new[-1] for key, new in readings.items() if new})
-            return Heard(self.desk.step(told, now_s), MappingProxyType(readings))
+            return Heard(self.desk.step(readings, now_s), MappingProxyType(readings))
 
     def open_mapping(self) -> None:
         """Send nothing but stops from now on: mappings are made, or sticks calibrated."""
@@ -181,7 +170,6 @@ class InputDevices:
         """Send again, after every stick was seen at rest."""
         with self._lock:
             self.desk.close_mapping()
-            self._anew = True
 
     def rumble(self, strength: float) -> None:
         """Let the devices that can shake with a strength of 0 to 1."""
@@ -226,7 +214,6 @@ class InputDevices:
 
     def _drop(self, key: str, why: str) -> None:
         device = self._open.pop(key, None)
-        self._latest.pop(key, None)
         if device is None:
             return
         self.desk.unplug(key, why)
@@ -256,7 +243,6 @@ class InputDevices:
     def _hand_to_desk(self, profile: Profile) -> None:
         self.desk.use(profile)
         self._used = profile
-        self._anew = True
 
 
 def automatic_profile(devices: Iterable[PluggedDevice]) -> Profile | None:
@@ -264,7 +250,7 @@ def automatic_profile(devices: Iterable[PluggedDevice]) -> Profile | None:
 
     None where no device has anything that could be mapped.
     """
-    mappings = []
+    mappings: list[DeviceMapping] = []
     ordered = sorted(devices, key=lambda device: device.identity.source == _PAD)
     for device in ordered:
         if mappings and device.identity.source != _PAD:

@@ -1,0 +1,491 @@
+"""The loop of teleoperation: an operator's intents in, speeds of axes with a lease out."""
+
+import threading
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from math import isfinite, nan
+
+from rotemina.app.motion.mailbox import RefusedError
+from rotemina.app.motion.session import MotionSession
+from rotemina.app.motion.state import SessionState
+from rotemina.app.motion.teleoperation.following import Following, Lag
+from rotemina.app.motion.teleoperation.frames import AxesFrame, Coordinate, Frame
+from rotemina.app.motion.teleoperation.impedance import Impedance
+from rotemina.app.motion.teleoperation.intent import Action, Intent
+from rotemina.app.motion.teleoperation.mapping import DEGREES_OF_FREEDOM
+from rotemina.app.motion.teleoperation.modes import Modes
+from rotemina.app.motion.teleoperation.scales import LawKind, Scales
+from rotemina.app.motion.teleoperation.scaling import COARSE, FINE, ScalingLaw, next_preset
+from rotemina.app.motion.teleoperation.steering import Steering
+from rotemina.drivers.abilities import VelocityMover
+from rotemina.drivers.samples import DeviceState
+from rotemina.sim.errors import InputError
+from rotemina.sim.trajectory.limits import resolution_of
+
+JOYSTICK = "joystick"  # the owner of the axes that it moves
+LEASE_S = 0.15
+_RENEW_S = 0.04  # a speed that does not change is said again this often
+_LONGEST_STEP_S = 0.05  # a loop that was late does not make up for it
+_NOISE_FLOORS = 3.0  # of a deviation, that are no contact
+DIRECT = "direct"  # axes that a control drives by their own name
+
+
+@dataclass(frozen=True, slots=True)
+class CoordinateView:
+    """One coordinate for the screen.
+
+    Attributes
+    ----------
+    name, unit : str
+    source : str
+        What of the operator's devices moves it.
+    deflection : float or None
+        Of its stick, in its own direction; None: there is none that is trusted.
+    position, velocity : float
+        Of the reference, m or rad.
+    waiting : bool
+        Whether its stick must be seen in the middle before it counts.
+    law : ScalingLaw
+    felt : float
+        The share of the stick's force with which a contact pushes back, −1 to 1.
+    """
+
+    name: str
+    unit: str
+    source: str
+    deflection: float | None
+    position: float
+    velocity: float
+    waiting: bool
+    law: ScalingLaw
+    felt: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class TeleoperationState:
+    """One moment of teleoperation.
+
+    Attributes
+    ----------
+    mode : str
+    law : LawKind
+    preset, factor : float
+        The step preset, and that times fine or coarse as it acts now.
+    driving : bool
+        Whether axes are being moved by it.
+    reason : str or None
+        Why it moves nothing now.
+    refused : str or None
+        Why the last motion was refused or slowed; None once one is taken.
+    coordinates : tuple of CoordinateView
+        Empty before the mode has begun.
+    reserve : float or None
+        How much of its range a piezo still has: 1 in the middle, 0 at an end.
+    tilt : float or None
+        By how much the tool has been turned since the mode began, rad.
+    """
+
+    mode: str
+    law: LawKind
+    preset: float = 1.0
+    factor: float = 1.0
+    driving: bool = False
+    reason: str | None = None
+    refused: str | None = None
+    coordinates: tuple[CoordinateView, ...] = ()
+    reserve: float | None = None
+    tilt: float | None = None
+
+
+@dataclass(slots=True)
+class _Arm:
+    """A steering with what it was sent last."""
+
+    steering: Steering
+    following: Following
+    sent: Mapping[str, float] = field(default_factory=dict)
+    sent_s: float = float("-inf")
+    refused: bool = False  # its axes may be elsewhere by that, and not because others moved them
+
+
+class Teleoperator:
+    """Steers a session's axes by intents; stepped at about 200 Hz by one thread.
+
+    Whatever it moves goes through :meth:`MotionSession.move_velocity`: ranges, keep-out, leases and
+    owners hold. It is anchored where the machine stands whenever anything else has moved it.
+
+    Requests (``use_mode``, ``use_law``, …) may come from any thread and act with the next step.
+
+    Parameters
+    ----------
+    session : MotionSession
+    scales : Scales
+    """
+
+    def __init__(self, session: MotionSession, scales: Scales | None = None) -> None:
+        self.modes = Modes(session.robot)
+        self._session = session
+        self._robot = session.robot
+        self._scales = Scales() if scales is None else scales
+        self._mode = self.modes.names[0]
+        self._law = LawKind.RATE
+        self._preset = 1.0
+        self._arms: dict[str, _Arm] = {}
+        self._before_s: float | None = None
+        self._refused: str | None = None
+        self._reason: str | None = None
+        self._intent = Intent(0.0)
+        self._reactions: dict[str, float] = {}
+        self._lag = Lag()
+        self._requests: list[Callable[[], None]] = []
+        self._lock = threading.Lock()  # guards the requests
+        self.state = TeleoperationState(self._mode, self._law)
+
+    # --- requests ---------------------------------------------------------------------------------
+
+    @property
+    def scales(self) -> Scales:
+        """How far and fast sticks move the coordinates."""
+        return self._scales
+
+    def use_mode(self, name: str) -> None:
+        """Steer in another mode; also in mid-move, without a jump.
+
+        Raises
+        ------
+        RefusedError
+            If the robot has no such mode.
+        """
+        if name not in self.modes.names:
+            raise RefusedError(f"there is no mode {name!r}; use {', '.join(self.modes.names)}")
+        self._request(lambda: self._change_mode(name))
+
+    def use_law(self, kind: LawKind) -> None:
+        """Scale by another law; also in mid-move, without a jump."""
+        self._request(lambda: self._change_law(kind))
+
+    def use_preset(self, factor: float) -> None:
+        """Multiply every scale by a step preset; also in mid-move."""
+
+        def change() -> None:
+            self._preset = factor
+
+        self._request(change)
+
+    def use_scales(self, scales: Scales) -> None:
+        """Use other scales; what moves comes to rest first.
+
+        Raises
+        ------
+        ScalingError
+            If a coordinate of the present mode cannot do what they ask for.
+        """
+        frame = self._frame()
+        if frame is not None:
+            for coordinate in frame.coordinates.values():
+                for kind in LawKind:
+                    scales.of(frame.name, coordinate).law(kind, coordinate, 0.0)
+
+        def change() -> None:
+            self._scales = scales
+            self._let_go("the scales were changed")
+
+        self._request(change)
+
+    # --- the loop ---------------------------------------------------------------------------------
+
+    def step(self, intent: Intent, now_s: float) -> None:
+        """Do what an intent asks for; never waits."""
+        dt = min(max(now_s - (self._before_s or now_s), 0.0), _LONGEST_STEP_S)
+        self._before_s, self._intent = now_s, intent
+        stopped = self._stop_if_asked(intent)
+        self._take_requests(intent)
+        state = self._session.snapshot()
+        self._reason = stopped or self._why_not(state, intent)
+        if self._reason is not None:
+            self._let_go(None)
+        else:
+            self._steer(intent, state, now_s, dt)
+        self.state = self._shown(intent)
+
+    def _stop_if_asked(self, intent: Intent) -> str | None:
+        """Stop where that is asked for, or what drove is gone; return why nothing is to move."""
+        if Action.EMERGENCY_STOP in intent.pressed:
+            self._session.emergency_stop("the joystick's emergency stop")
+        elif Action.STOP in intent.pressed or (intent.lost is not None and self.state.driving):
+            self._session.stop()
+        else:
+            return None
+        self._refused = intent.lost
+        return "the machine is being stopped"
+
+    def _take_requests(self, intent: Intent) -> None:
+        with self._lock:
+            requests, self._requests = self._requests, []
+        if Action.STAGE in intent.pressed:
+            requests.append(lambda: self._change_mode(self.modes.after(self._mode)))
+        if Action.LAW in intent.pressed:
+            requests.append(lambda: self._change_law(self._law.next))
+        if Action.STEP_PRESET in intent.pressed:
+            self._preset = next_preset(self._preset)
+        for request in requests:
+            try:
+                request()
+            except InputError as error:
+                self._refused = str(error)
+
+    def _why_not(self, state: SessionState, intent: Intent) -> str | None:
+        if state.locked is not None:
+            return state.locked
+        if state.stopping:
+            return "the machine is being stopped"
+        if state.activity in (DeviceState.PLAYING, DeviceState.HOMING):
+            return f"the machine is {state.activity}"
+        if not isinstance(self._session.driver, VelocityMover):
+            return f"driver {self._session.driver.name!r} cannot move at a speed"
+        if not intent.deflections and not self.state.driving:
+            return "no stick is trusted: let go of it; hold its dead-man, if it has one"
+        others = {owner for owner in state.owners.values() if owner != JOYSTICK}
+        if state.activity is DeviceState.MOVING and others and not self.state.driving:
+            return f"axes are moved by {' and '.join(sorted(others))}"
+        return None
+
+    def _steer(self, intent: Intent, state: SessionState, now_s: float, dt: float) -> None:
+        factor = self._factor(intent)
+        try:
+            arms = self._arms_for(intent, state)
+            for arm in arms:
+                arm.steering.rescale(factor)
+        except InputError as error:
+            self._let_go(str(error))
+            return
+        for arm in arms:
+            steering, driving = arm.steering, any(arm.sent.values())
+            before = steering.coordinates
+            wanted = steering.step(
+                intent.deflections,
+                dt,
+                free=Action.CLUTCH not in intent.held,
+                reactions=self._felt(steering.frame, state),
+            )
+            arm.following.wanted(now_s, wanted.joints)
+            speeds = arm.following.speeds(wanted.speeds, state, driving)
+            self._send(arm, before, speeds, now_s, state)
+
+    def _send(
+        self,
+        arm: _Arm,
+        before: Mapping[str, float],
+        speeds: Mapping[str, float],
+        now_s: float,
+        state: SessionState,
+    ) -> None:
+        # An axis that rests is nobody's: somebody else may move it meanwhile.
+        speeds = {axis: v for axis, v in speeds.items() if v or arm.sent.get(axis)}
+        if not speeds or (speeds == arm.sent and now_s - arm.sent_s < _RENEW_S):
+            return
+        lost = arm.following.lost(speeds, state)
+        if lost is not None:
+            self._let_go(f"axis {lost} does not follow the stick")
+            return
+        try:
+            used = self._session.move_velocity(speeds, LEASE_S, JOYSTICK)
+        except InputError as error:
+            self._refused = str(error)
+            arm.steering.hold_back(before, 0.0)
+            arm.following.forget()
+            arm.sent, arm.refused = {}, True
+            return
+        arm.sent, arm.sent_s, arm.refused = dict(speeds), now_s, False
+        share = _share(speeds, used)
+        self._refused = None
+        if share < 1.0:
+            self._refused = "slowed: the tip is close to its bounds"
+            arm.steering.hold_back(before, share)
+            arm.following.forget()
+
+    def _elsewhere(self, arm: _Arm, state: SessionState) -> bool:
+        """Whether the axes rest where the reference is not."""
+        if any(arm.sent.values()) or state.activity is not DeviceState.IDLE or state.queued:
+            return False
+        targets = arm.steering.now().joints
+        return any(
+            abs(state.command.get(axis, at) - at) > self._slack(axis)
+            for axis, at in targets.items()
+        )
+
+    # --- modes and laws ---------------------------------------------------------------------------
+
+    def _arms_for(self, intent: Intent, state: SessionState) -> tuple[_Arm, ...]:
+        """Return what steers now, begun where the machine stands if it has not begun."""
+        for name, arm in tuple(self._arms.items()):
+            if not self._elsewhere(arm, state):
+                continue
+            del self._arms[name]
+            if arm.refused:
+                axes = arm.steering.frame.axes
+                anew = self._arm(self._begun(name, axes, state), self._law, engaged=True)
+                anew.steering.begin(anew.steering.frame.start, {}, intent.deflections)
+                self._arms[name] = anew
+        if self._mode not in self._arms:
+            self._arms[self._mode] = self._arm(self._begun(self._mode, (), state), self._law)
+        own = self._arms[self._mode].steering.frame.axes
+        direct = tuple(
+            axis
+            for axis in self._robot.axes
+            if axis in intent.deflections and axis not in (*DEGREES_OF_FREEDOM, *own)
+        )
+        if direct and DIRECT not in self._arms:
+            self._arms[DIRECT] = self._arm(self._begun(DIRECT, direct, state), self._law)
+        return tuple(self._arms[name] for name in (self._mode, DIRECT) if name in self._arms)
+
+    def _begun(self, name: str, axes: tuple[str, ...], state: SessionState) -> Frame:
+        """Return a frame begun where the machine stands; ``axes`` are those driven directly."""
+        if name == DIRECT:
+            return AxesFrame(self._robot, DIRECT, axes, state.command)
+        return self.modes.begin(name, state.command)
+
+    def _arm(self, frame: Frame, kind: LawKind, *, engaged: bool = False) -> _Arm:
+        def law(coordinate: Coordinate) -> ScalingLaw:
+            scale = self._scales.of(frame.name, coordinate)
+            return scale.law(kind, coordinate, self._noise(coordinate))
+
+        return _Arm(Steering(frame, kind, law, engaged=engaged), Following(self._robot, self._lag))
+
+    def _change_mode(self, name: str) -> None:
+        """Begin another mode at the present reference; what it does not move, brakes."""
+        old = self._arms.get(self._mode)
+        if name == self._mode or old is None:
+            self._mode = name
+            return
+        now = old.steering.now()
+        joints = {**self._session.snapshot().command, **now.joints}
+        arm = self._arm(self.modes.begin(name, joints), self._law)
+        velocities = arm.steering.frame.velocities(now.speeds)
+        self._mode = name
+        del self._arms[old.steering.frame.name]
+        self._drop_all()
+        arm.steering.begin(arm.steering.frame.start, velocities, self._intent.deflections)
+        self._arms[name] = arm
+        self._halt(axis for axis in old.sent if axis not in arm.steering.frame.axes)
+        arm.sent = {axis: old.sent.get(axis, 0.0) for axis in arm.steering.frame.axes}
+
+    def _change_law(self, kind: LawKind) -> None:
+        """Begin another law with the motion of the one before."""
+        arms = {}
+        for name, old in self._arms.items():
+            motions = {name: law.motion for name, law in old.steering.laws.items()}
+            arm = self._arm(old.steering.frame, kind, engaged=True)
+            arm.steering.rescale(self._factor(self._intent))
+            arm.steering.begin(
+                {name: motion.position for name, motion in motions.items()},
+                {name: motion.velocity for name, motion in motions.items()},
+                self._intent.deflections,
+            )
+            arms[name] = replace(arm, following=old.following, sent=old.sent)
+        self._law, self._arms = kind, arms
+
+    def _let_go(self, reason: str | None) -> None:
+        """Halt what it moves, and begin anew where the machine then stands."""
+        if reason is not None:
+            self._refused = reason
+        self._drop_all()
+
+    def _drop_all(self) -> None:
+        for arm in tuple(self._arms.values()):
+            self._halt(axis for axis, speed in arm.sent.items() if speed)
+        self._arms.clear()
+
+    def _halt(self, axes: Iterable[str]) -> None:
+        still = dict.fromkeys(axes, 0.0)
+        if still:
+            # Refused, it is because nothing moves by this any more; the leases run out in any case.
+            with suppress(InputError):
+                self._session.move_velocity(still, LEASE_S, JOYSTICK)
+
+    # --- details ----------------------------------------------------------------------------------
+
+    def _request(self, change: Callable[[], None]) -> None:
+        with self._lock:
+            self._requests.append(change)
+
+    def _frame(self) -> Frame | None:
+        arm = self._arms.get(self._mode)
+        return None if arm is None else arm.steering.frame
+
+    def _factor(self, intent: Intent) -> float:
+        factor = self._preset
+        if Action.FINE in intent.held:
+            factor *= FINE
+        if Action.COARSE in intent.held:
+            factor *= COARSE
+        return factor
+
+    def _felt(self, frame: Frame, state: SessionState) -> dict[str, float]:
+        """Return what a contact is told by: how far the machine is from its model, a coordinate."""
+        if self._law is not LawKind.IMPEDANCE:
+            return {}
+        deviations = {
+            axis: state.measured[axis] - state.model[axis]
+            for axis in frame.axes
+            if axis in state.measured and isfinite(state.model.get(axis, nan))
+        }
+        self._reactions = frame.velocities(deviations)
+        return self._reactions
+
+    def _noise(self, coordinate: Coordinate) -> float:
+        """Return what a coordinate's deviation strays by without a contact, m or rad."""
+        floors = [
+            axis.sensor.noise_floor
+            for axis in self._robot.axes.values()
+            if axis.sensor is not None and axis.unit == coordinate.unit
+        ]
+        return _NOISE_FLOORS * max(floors, default=0.0)
+
+    def _slack(self, axis: str) -> float:
+        return 2.0 * max(resolution_of(self._robot.axes[axis]), 1e-6 * self._robot.axes[axis].span)
+
+    def _shown(self, intent: Intent) -> TeleoperationState:
+        arm = self._arms.get(self._mode)
+        state = TeleoperationState(
+            self._mode,
+            self._law,
+            self._preset,
+            self._factor(intent),
+            any(any(one.sent.values()) for one in self._arms.values()),
+            self._reason,
+            self._refused,
+        )
+        if arm is None:
+            return state
+        steering = arm.steering
+        views = tuple(self._viewed(steering, name, intent) for name in steering.laws)
+        places = steering.coordinates
+        frame = steering.frame
+        return replace(
+            state, coordinates=views, reserve=frame.reserve(places), tilt=frame.tilt(places)
+        )
+
+    def _viewed(self, steering: Steering, name: str, intent: Intent) -> CoordinateView:
+        law, coordinate = steering.laws[name], steering.frame.coordinates[name]
+        told = steering.told(name, intent.deflections)
+        felt = 0.0
+        if isinstance(law, Impedance) and law.contact is not None and law.contact.most:
+            felt = law.contact.force(self._reactions.get(name, 0.0)) / law.contact.most
+        return CoordinateView(
+            name,
+            coordinate.unit,
+            steering.sources[name],
+            told,
+            *law.motion,
+            name in steering.waiting,
+            law,
+            felt,
+        )
+
+
+def _share(asked: Mapping[str, float], used: Mapping[str, float]) -> float:
+    """Return the share of the speeds asked for that is used."""
+    shares = [used.get(axis, speed) / speed for axis, speed in asked.items() if speed]
+    return min(shares, default=1.0)
