@@ -11,13 +11,13 @@ from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import SessionState
 from rotemina.app.motion.teleoperation.following import Following, Lag
 from rotemina.app.motion.teleoperation.frames import AxesFrame, Coordinate, Frame
-from rotemina.app.motion.teleoperation.impedance import Impedance
 from rotemina.app.motion.teleoperation.intent import Action, Intent
 from rotemina.app.motion.teleoperation.mapping import DEGREES_OF_FREEDOM
 from rotemina.app.motion.teleoperation.modes import Modes
 from rotemina.app.motion.teleoperation.scales import LawKind, Scales
 from rotemina.app.motion.teleoperation.scaling import COARSE, FINE, ScalingLaw, next_preset
 from rotemina.app.motion.teleoperation.steering import Steering
+from rotemina.app.motion.teleoperation.views import TeleoperationState, shown
 from rotemina.drivers.abilities import VelocityMover
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.errors import InputError
@@ -29,73 +29,6 @@ _RENEW_S = 0.04  # a speed that does not change is said again this often
 _LONGEST_STEP_S = 0.05  # a loop that was late does not make up for it
 _NOISE_FLOORS = 3.0  # of a deviation, that are no contact
 DIRECT = "direct"  # axes that a control drives by their own name
-
-
-@dataclass(frozen=True, slots=True)
-class CoordinateView:
-    """One coordinate for the screen.
-
-    Attributes
-    ----------
-    name, unit : str
-    source : str
-        What of the operator's devices moves it.
-    deflection : float or None
-        Of its stick, in its own direction; None: there is none that is trusted.
-    position, velocity : float
-        Of the reference, m or rad.
-    waiting : bool
-        Whether its stick must be seen in the middle before it counts.
-    law : ScalingLaw
-    felt : float
-        The share of the stick's force with which a contact pushes back, −1 to 1.
-    """
-
-    name: str
-    unit: str
-    source: str
-    deflection: float | None
-    position: float
-    velocity: float
-    waiting: bool
-    law: ScalingLaw
-    felt: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class TeleoperationState:
-    """One moment of teleoperation.
-
-    Attributes
-    ----------
-    mode : str
-    law : LawKind
-    preset, factor : float
-        The step preset, and that times fine or coarse as it acts now.
-    driving : bool
-        Whether axes are being moved by it.
-    reason : str or None
-        Why it moves nothing now.
-    refused : str or None
-        Why the last motion was refused or slowed; None once one is taken.
-    coordinates : tuple of CoordinateView
-        Empty before the mode has begun.
-    reserve : float or None
-        How much of its range a piezo still has: 1 in the middle, 0 at an end.
-    tilt : float or None
-        By how much the tool has been turned since the mode began, rad.
-    """
-
-    mode: str
-    law: LawKind
-    preset: float = 1.0
-    factor: float = 1.0
-    driving: bool = False
-    reason: str | None = None
-    refused: str | None = None
-    coordinates: tuple[CoordinateView, ...] = ()
-    reserve: float | None = None
-    tilt: float | None = None
 
 
 @dataclass(slots=True)
@@ -207,7 +140,17 @@ class Teleoperator:
             self._let_go(None)
         else:
             self._steer(intent, state, now_s, dt)
-        self.state = self._shown(intent)
+        arm = self._arms.get(self._mode)
+        self.state = TeleoperationState(
+            self._mode,
+            self._law,
+            self._preset,
+            self._factor(intent),
+            any(any(one.sent.values()) for one in self._arms.values()),
+            self._reason,
+            self._refused,
+            *(() if arm is None else shown(arm.steering, intent.deflections, self._reactions)),
+        )
 
     def _stop_if_asked(self, intent: Intent) -> str | None:
         """Stop where that is asked for, or what drove is gone; return why nothing is to move."""
@@ -445,44 +388,6 @@ class Teleoperator:
 
     def _slack(self, axis: str) -> float:
         return 2.0 * max(resolution_of(self._robot.axes[axis]), 1e-6 * self._robot.axes[axis].span)
-
-    def _shown(self, intent: Intent) -> TeleoperationState:
-        arm = self._arms.get(self._mode)
-        state = TeleoperationState(
-            self._mode,
-            self._law,
-            self._preset,
-            self._factor(intent),
-            any(any(one.sent.values()) for one in self._arms.values()),
-            self._reason,
-            self._refused,
-        )
-        if arm is None:
-            return state
-        steering = arm.steering
-        views = tuple(self._viewed(steering, name, intent) for name in steering.laws)
-        places = steering.coordinates
-        frame = steering.frame
-        return replace(
-            state, coordinates=views, reserve=frame.reserve(places), tilt=frame.tilt(places)
-        )
-
-    def _viewed(self, steering: Steering, name: str, intent: Intent) -> CoordinateView:
-        law, coordinate = steering.laws[name], steering.frame.coordinates[name]
-        told = steering.told(name, intent.deflections)
-        felt = 0.0
-        if isinstance(law, Impedance) and law.contact is not None and law.contact.most:
-            felt = law.contact.force(self._reactions.get(name, 0.0)) / law.contact.most
-        return CoordinateView(
-            name,
-            coordinate.unit,
-            steering.sources[name],
-            told,
-            *law.motion,
-            name in steering.waiting,
-            law,
-            felt,
-        )
 
 
 def _share(asked: Mapping[str, float], used: Mapping[str, float]) -> float:

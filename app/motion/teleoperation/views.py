@@ -1,0 +1,115 @@
+"""What screens show of teleoperation."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from rotemina.app.motion.teleoperation.impedance import Impedance
+from rotemina.app.motion.teleoperation.scales import LawKind
+from rotemina.app.motion.teleoperation.scaling import ScalingLaw
+from rotemina.app.motion.teleoperation.steering import Steering
+
+
+@dataclass(frozen=True, slots=True)
+class CoordinateView:
+    """One coordinate for the screen.
+
+    Attributes
+    ----------
+    name, unit : str
+    source : str
+        What of the operator's devices moves it.
+    deflection : float or None
+        Of its stick, in its own direction; None: there is none that is trusted.
+    position, velocity : float
+        Of the reference, m or rad.
+    waiting : bool
+        Whether its stick must be seen in the middle before it counts.
+    law : ScalingLaw
+    felt : float
+        The share of the stick's force with which a contact pushes back, −1 to 1.
+    """
+
+    name: str
+    unit: str
+    source: str
+    deflection: float | None
+    position: float
+    velocity: float
+    waiting: bool
+    law: ScalingLaw
+    felt: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class TeleoperationState:
+    """One moment of teleoperation.
+
+    Attributes
+    ----------
+    mode : str
+    law : LawKind
+    preset, factor : float
+        The step preset, and that times fine or coarse as it acts now.
+    driving : bool
+        Whether axes are being moved by it.
+    reason : str or None
+        Why it moves nothing now.
+    refused : str or None
+        Why the last motion was refused or slowed; None once one is taken.
+    coordinates : tuple of CoordinateView
+        Empty before the mode has begun.
+    reserve : float or None
+        How much of its range a piezo still has: 1 in the middle, 0 at an end.
+    tilt : float or None
+        By how much the tool has been turned since the mode began, rad.
+    """
+
+    mode: str
+    law: LawKind
+    preset: float = 1.0
+    factor: float = 1.0
+    driving: bool = False
+    reason: str | None = None
+    refused: str | None = None
+    coordinates: tuple[CoordinateView, ...] = ()
+    reserve: float | None = None
+    tilt: float | None = None
+
+
+class Shown(NamedTuple):
+    """The last three of :class:`TeleoperationState`."""
+
+    coordinates: tuple[CoordinateView, ...]
+    reserve: float | None
+    tilt: float | None
+
+
+def shown(
+    steering: Steering, deflections: Mapping[str, float], reactions: Mapping[str, float]
+) -> Shown:
+    """Return what a steering shows; ``reactions`` is what a contact was told by, a coordinate."""
+    views = tuple(
+        _viewed(steering, name, deflections, reactions.get(name, 0.0)) for name in steering.laws
+    )
+    places = steering.coordinates
+    return Shown(views, steering.frame.reserve(places), steering.frame.tilt(places))
+
+
+def _viewed(
+    steering: Steering, name: str, deflections: Mapping[str, float], reaction: float
+) -> CoordinateView:
+    law = steering.laws[name]
+    felt = 0.0
+    if isinstance(law, Impedance) and law.contact is not None and law.contact.most:
+        felt = law.contact.force(reaction) / law.contact.most
+    return CoordinateView(
+        name,
+        steering.frame.coordinates[name].unit,
+        steering.sources[name],
+        steering.told(name, deflections),
+        *law.motion,
+        name in steering.waiting,
+        law,
+        felt,
+    )
