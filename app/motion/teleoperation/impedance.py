@@ -2,7 +2,7 @@
 
     F = z φ,      M ẍ + D ẋ + K (x − x0) = F + R
 
-(the paper's Eq. 5.3, F_i = z_i φ_j,i), with R what a contact is felt by
+(the paper's F_i = z_i φ_j,i), with R what a contact is felt by
 (:mod:`rotemina.app.motion.teleoperation.contact`).
 
 **Passivity.** With E = M v²/2 + K (x − x0)²/2, exactly E' − E + losses = (F + R)(x' − x) in each

@@ -1,6 +1,6 @@
 """Linear position: the robot's coordinate is the stick's deflection times a scale.
 
-    x_R = x_0 + α φ          (the paper's Eq. 5.2, x_R,i = α_i φ_j,i, from an anchor x_0)
+    x_R = x_0 + α φ          (the paper's x_R,i = α_i φ_j,i, from an anchor x_0)
 
 The anchor is such that starting moves nothing, whatever the deflection: so a clutch does.
 """

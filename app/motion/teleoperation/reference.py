@@ -7,7 +7,7 @@ is so where the change of speed Δv over a step dt, and the way, satisfy::
 
 and it can always still stop inside the range: ``x + v²/(2a) ≤ high`` and likewise at the low end.
 Both hold whatever is wished, and however the steps vary. Source: reachable set of the double
-integrator, e.g. A. E. Bryson and Y.-C. Ho, *Applied Optimal Control* (1975), sec. 3.9.
+integrator, e.g. A. E. Bryson and Y.-C. Ho, *Applied Optimal Control* (1975).
 """
 
 from dataclasses import dataclass
