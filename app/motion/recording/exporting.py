@@ -115,7 +115,7 @@ def trajectory(
     rows = int(np.floor(time_s[-1] / period_s + 1e-6)) + 1
     grid_s = period_s * np.arange(rows, dtype=np.float64)
     signals = {
-        (recording.axes[axis], Tap.CMD): _on_lines(grid_s, time_s, samples.command[:, axis])
+        (recording.axes[axis], Tap.CMD): np.interp(grid_s, time_s, samples.command[:, axis])
         for axis in moving
     }
     metadata = {"trajectory": f"{recording.path.stem} again", "recording": recording.path.name}
@@ -203,10 +203,3 @@ def _check_gaps(recording: Recording, samples: RecordedSamples) -> None:
             f"{at_s:.3f} s after the begin: at most {1e3 * _REST_S:.0f} ms; choose what is before "
             "or after that"
         )
-
-
-def _on_lines(grid_s: FloatArray, time_s: FloatArray, command: FloatArray) -> FloatArray:
-    # A grid point that is next to a sample is meant to be on it.
-    near = np.minimum(np.searchsorted(time_s, grid_s - 1e-9), len(time_s) - 1)
-    exact = np.abs(time_s[near] - grid_s) <= 1e-9
-    return np.where(exact, command[near], np.interp(grid_s, time_s, command))

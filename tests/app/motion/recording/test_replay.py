@@ -91,6 +91,14 @@ def test_seeking_is_as_having_come_there(session):
     assert jumped.snapshot() == walked.snapshot()
 
 
+def test_a_sample_that_is_due_just_now_is_shown_once(session):
+    recording, _, _ = session
+    replay = Replay(recording)
+    replay.seek(float(recording.samples().host_time_s[10]))
+    replay.advance(0.01)
+    assert (np.diff(replay.history.tail().device_time_s) > 0.0).all()
+
+
 def test_a_reconnection_begins_a_new_history(stepped, record):
     recorded = record(stepped)
     recorded.rest()
