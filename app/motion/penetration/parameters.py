@@ -118,7 +118,7 @@ class PenetrationParameters:
     approach_distance: float = 1e-5
     false_alarms_per_hour: float = 1.0
     drift: float = 0.15
-    drift_length: float = 1e-4
+    drift_length: float = 1e-3
     contact_pause_s: float = 0.1
     depth: float = 5e-5
     duration_s: float = 0.09

@@ -28,7 +28,7 @@ def approach(rng, seconds, disturbed=lambda way: 0.0 * way):
 
 def detector(rng, *, drift=0.15, alarms=1.0):
     return ContactDetector(
-        rest(rng), 0.0, SPEED, drift=drift, drift_length=1e-4, false_alarms_per_hour=alarms
+        rest(rng), 0.0, SPEED, drift=drift, drift_length=1e-3, false_alarms_per_hour=alarms
     )
 
 
@@ -100,7 +100,7 @@ def test_creep_at_rest_before_the_motion_is_no_contact():
 
 def test_a_pull_is_no_contact_and_an_outlier_is_none():
     rng = np.random.default_rng(7)
-    assert detector(rng).feed(*approach(rng, 1.0, kink(5e-6, -0.5))) is None
+    assert detector(rng).feed(*approach(rng, 1.0, kink(5e-6, -0.1))) is None
     time_s, command, measured, residual = approach(rng, 1.0)
     residual[[300, 600, 900]] += 50 * SIGMA
     assert detector(rng).feed(time_s, command, measured, residual) is None

@@ -1,0 +1,382 @@
+"""Whole runs on the simulator: success, every way to end one early, and what must never be."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from rotemina.app.motion.mailbox import RefusedError
+from rotemina.app.motion.penetration.errors import PenetrationError
+from rotemina.app.motion.penetration.run_log import Verdict
+from rotemina.app.motion.penetration.status import UNDER_WAY, Phase
+from rotemina.drivers.driver import Driver
+from rotemina.drivers.errors import ConnectionLostError
+from rotemina.sim.errors import InputError
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import AxisEffect, KeepOut
+from rotemina.sim.trajectory.limits import OutOfLimitsError
+
+ROBOT = load_robot("rotemina")
+START = 64e-6
+MOVING = [Phase.APPROACH, Phase.CONTACT, Phase.THRUST, Phase.HOLD, Phase.INJECT, Phase.HOLD_AFTER]
+QUICK = {
+    ("emergency stop", Phase.THRUST),
+    ("emergency stop", Phase.HOLD),
+    ("emergency stop", Phase.INJECT),
+    ("stop", Phase.RETRACT),
+    ("lost link", Phase.HOLD),
+    ("taken over", Phase.THRUST),
+}
+INJECTING = {"inject_s": 0.2, "hold_after_s": 0.2}
+
+
+def cell(place=58e-6, stiffness=0.1):
+    return AxisEffect(axis="zn", id="contact", parameters={"place": place, "stiffness": -stiffness})
+
+
+HYSTERESIS = AxisEffect(axis="zn", id="hysteresis", parameters={"width": 0.12 * 65e-6})
+CREEP = AxisEffect(axis="zn", id="creep", parameters={"rate": 0.02})
+
+
+def commands(bench):
+    window = bench.session.history.tail()
+    return window.device_time_s, window.command[:, 5]
+
+
+def test_a_whole_run_succeeds_and_is_logged(bench):
+    bench.ready([cell(58e-6, 0.05)]).arm(drift=0.02, **INJECTING).step(times=20)
+    assert bench.penetration.status.peak_speed > bench.penetration.status.average_speed
+    bench.press()
+    tool = {}
+    while bench.phase in UNDER_WAY:
+        bench.step(0.01)
+        tool.setdefault(bench.phase, []).append(bench.session.tool_on)
+    assert bench.phase is Phase.DONE
+    assert any(tool[Phase.INJECT])
+    assert not any(tool[Phase.HOLD] + tool[Phase.RETRACT])
+    (run,), problems = bench.log.read()
+    assert problems == ()
+    assert run.verdict is Verdict.DONE
+    assert run.started == "2026-11-21T00:00:00+00:00"
+    assert [name for name, _ in run.phases] == [
+        "approach", "contact", "thrust", "hold", "inject", "hold after", "retract", "done",
+    ]  # fmt: skip
+    assert run.contact == pytest.approx(58e-6, abs=0.3e-6)
+    assert 0.0 < run.contact_delay_s < 0.1
+    assert run.noise_rms == pytest.approx(12.2e-9, rel=0.1)
+    assert run.thrust.depth == pytest.approx(50e-6 * (1 - 0.05 / 1.05), rel=0.01)
+    assert run.thrust.average_speed == pytest.approx(run.thrust.depth / 0.09)
+    assert run.thrust.peak_speed == pytest.approx(run.planned_peak_speed, rel=0.1)
+    assert run.peak_deviation == pytest.approx(50e-6 * 0.05 / 1.05, rel=0.1)
+    assert run.gave_way is False
+    assert bench.session.snapshot().command["zn"] == START
+    bench.stepped.step(0.1)
+    assert bench.session.snapshot().owners == {}
+
+
+def test_a_membrane_that_gives_way_leaves_the_nominal_robot_within_one_percent(bench):
+    bench.ready([cell(58e-6, 0.05)]).arm(drift=0.02).press()
+    bench.until(Phase.THRUST)
+    bench.step(0.03)
+    bench.session.set_effects([])
+    bench.run()
+    run = bench.penetration.status.run
+    assert run.verdict is Verdict.DONE
+    assert run.gave_way
+    assert run.thrust.depth == pytest.approx(50e-6, rel=0.01)
+
+
+def test_the_thrust_goes_as_deep_as_asked_from_where_the_contact_was(bench):
+    bench.ready([cell(58e-6, 0.05)]).arm(drift=0.02).press()
+    bench.until(Phase.HOLD)
+    way = bench.places[-1][1] - bench.penetration._attempt.thrust_from
+    assert way == pytest.approx(-50e-6, abs=1e-12)
+
+
+@pytest.mark.parametrize("phase", MOVING)
+def test_the_button_aborts_every_phase_and_the_tip_comes_back(bench, phase):
+    bench.ready([cell()]).arm(depth_tolerance=0.2, contact_pause_s=0.2, **INJECTING).press()
+    bench.until(phase)
+    bench.press()
+    assert bench.phase is Phase.RETRACT
+    status = bench.run()
+    assert status.phase is Phase.ABORTED
+    assert status.run.reason == f"stopped by the button in {phase}"
+    state = bench.session.snapshot()
+    assert state.command["zn"] == START
+    assert state.fault is None
+    assert bench.session.tool_on is False
+
+
+@pytest.mark.parametrize(
+    ("how", "phase"),
+    [
+        pytest.param(how, phase, marks=() if (how, phase) in QUICK else pytest.mark.slow)
+        for how in ("emergency stop", "stop", "lost link", "taken over")
+        for phase in (*MOVING, Phase.RETRACT)
+    ],
+)
+def test_what_somebody_else_ends_is_held_and_never_goes_back_by_itself(bench, how, phase):
+    bench.ready([cell()]).arm(depth_tolerance=0.2, contact_pause_s=0.2, **INJECTING).press()
+    bench.until(phase)
+    if how == "emergency stop":
+        bench.session.emergency_stop()
+    elif how == "stop":
+        bench.session.stop()
+    elif how == "taken over":
+        bench.session.take_over(["x"], "operator")
+    else:
+
+        def lost():
+            raise ConnectionLostError("torn off")
+
+        bench.stepped.driver.before["read"] = lost
+    bench.step(0.02, 10)
+    assert bench.phase is Phase.HELD
+    assert bench.session.tool_on is False
+    place = bench.session.snapshot().command["zn"]
+    bench.session.release()
+    bench.step(0.1, 20)
+    assert bench.phase is Phase.HELD
+    assert bench.session.snapshot().command["zn"] == place
+    assert bench.penetration.status.run.verdict is Verdict.HELD
+
+
+def test_a_held_tip_goes_back_by_the_button_when_that_is_safe(bench):
+    bench.ready([cell()]).arm(depth_tolerance=0.2).press()
+    bench.until(Phase.HOLD)
+    bench.session.emergency_stop()
+    bench.step(0.02, 5)
+    with pytest.raises(RefusedError, match="latched"):
+        bench.press()
+    with pytest.raises(RefusedError, match="held"):
+        bench.arm()
+    with pytest.raises(RefusedError, match="latched"):
+        bench.session.go_to({"x": 0.03})
+    bench.session.release()
+    with pytest.raises(RefusedError, match="driven by penetration"):
+        bench.session.go_to({"x": 0.03})
+    bench.press()
+    assert bench.run().phase is Phase.ABORTED
+    assert bench.session.snapshot().command["zn"] == START
+
+
+def test_a_held_tip_can_be_let_go_of_where_it_is(bench):
+    bench.ready([cell()]).arm(depth_tolerance=0.2).press()
+    bench.until(Phase.HOLD)
+    bench.session.stop()
+    bench.step(0.02, 5)
+    place = bench.session.snapshot().command["zn"]
+    bench.penetration.disarm()
+    bench.step(0.1, 5)
+    assert bench.session.snapshot().command["zn"] == place
+    assert bench.session.snapshot().owners == {}
+    with pytest.raises(RefusedError, match="not armed"):
+        bench.press()
+
+
+def test_no_contact_ends_within_the_distance_and_goes_back(bench):
+    bench.ready().arm().press()
+    status = bench.run()
+    assert status.phase is Phase.FAILED
+    assert "no contact within 10 µm" in status.reason
+    _, way = commands(bench)
+    assert START - 13e-6 < way[-2000:].min() < START - 9.9e-6
+    assert bench.session.snapshot().command["zn"] == START
+
+
+def test_a_cell_that_is_touched_at_once_is_found(bench):
+    bench.ready([cell(63.95e-6, 1.0)]).arm(depth=10e-6, depth_tolerance=0.5).press()
+    bench.until(Phase.CONTACT)
+    assert START - bench.session.snapshot().command["zn"] < 2e-6
+    bench.run()
+
+
+def test_hysteresis_creep_and_noise_are_no_contact_and_a_cell_is(bench):
+    bench.ready([HYSTERESIS, CREEP], start=60e-6).arm(depth=40e-6).press()
+    assert "no contact" in bench.run().reason
+    bench.session.set_effects([HYSTERESIS, CREEP, cell(62e-6, 0.3)])
+    bench.step(0.02, 50)
+    bench.arm(depth=40e-6, depth_tolerance=0.5, overload=3e-5).press()
+    bench.until(Phase.CONTACT)
+    measured = bench.penetration._attempt.contact.measured
+    assert measured == pytest.approx(62e-6, abs=0.5e-6)
+    assert bench.run().phase is Phase.DONE
+
+
+def test_an_overload_ends_the_thrust(bench):
+    bench.ready([cell(58e-6, 1.0)]).arm(overload=5e-6).press()
+    status = bench.run()
+    assert status.phase is Phase.FAILED
+    assert "overload" in status.reason
+    assert "5 µm at most" in status.reason
+    _, way = commands(bench)
+    assert way.min() > 58e-6 - 45e-6
+    assert bench.session.snapshot().command["zn"] == START
+
+
+def test_a_thrust_that_stays_too_shallow_fails_and_goes_back(bench):
+    bench.ready([cell(58e-6, 0.15)]).arm(depth_tolerance=0.1).press()
+    status = bench.run()
+    assert status.phase is Phase.FAILED
+    assert "must be 50 µm within 10 %" in status.reason
+    assert status.run.thrust.depth == pytest.approx(50e-6 / 1.15, rel=0.02)
+
+
+def test_it_disarms_by_itself_and_starts_no_more(bench):
+    bench.ready().arm(armed_s=5.0)
+    bench.step(0.1, 30)
+    assert bench.penetration.status.armed_left_s == pytest.approx(2.0, abs=0.15)
+    bench.step(0.1, 30)
+    assert bench.phase is Phase.DISARMED
+    assert bench.session.snapshot().owners == {}
+    with pytest.raises(RefusedError, match="not armed; arm it first"):
+        bench.press()
+
+
+def test_a_stop_disarms(bench):
+    bench.ready().arm()
+    bench.session.stop()
+    bench.step()
+    assert bench.phase is Phase.DISARMED
+    assert "a stop was asked for" in bench.penetration.status.reason
+
+
+def test_a_start_after_a_stop_that_nobody_has_seen_yet_is_refused(bench):
+    bench.ready().arm()
+    bench.session.stop()
+    with pytest.raises(RefusedError, match="a stop was asked for"):
+        bench.press()
+
+
+def test_nothing_starts_disarmed(bench):
+    with pytest.raises(RefusedError, match="not armed"):
+        bench.press()
+
+
+def test_somebody_else_who_drives_is_not_pushed_aside(bench):
+    bench.ready()
+    bench.session.go_to({"x": 0.05}, "joystick")
+    with pytest.raises(RefusedError, match="still moving"):
+        bench.arm()
+    bench.stepped.until_idle()
+    bench.session.reserve("joystick")
+    with pytest.raises(RefusedError, match="driven by joystick"):
+        bench.arm()
+    assert bench.phase is Phase.DISARMED
+
+
+@pytest.mark.parametrize(
+    ("parameters", "error", "message"),
+    [
+        ({"axis": "q"}, PenetrationError, "has no axis 'q' to penetrate with"),
+        ({"axis": "thx"}, PenetrationError, "turns"),
+        ({"direction": "up"}, PenetrationError, "1 µm of its range are left upwards"),
+        ({"approach_distance": 2e-5}, PenetrationError, "72 µm are needed"),
+        ({"duration_s": 3e-3}, PenetrationError, "input shaping"),
+        ({"duration_s": 4e-3, "shaping": "none"}, InputError, "at most 5 mm/s"),
+    ],
+)
+def test_what_is_impossible_is_refused_when_it_is_armed(bench, parameters, error, message):
+    bench.ready()
+    with pytest.raises(error, match=message):
+        bench.arm(**parameters)
+    assert bench.phase is Phase.DISARMED
+    bench.step()
+    assert bench.session.snapshot().owners == {}
+
+
+def test_a_robot_without_zn_is_refused(make_bench):
+    bench = make_bench(robot="picma")
+    bench.stepped.step()
+    with pytest.raises(PenetrationError, match="has no axis 'zn' to penetrate with; it has p"):
+        bench.arm()
+
+
+def test_a_device_without_profiles_is_refused(bench, monkeypatch):
+    hooks = {name: lambda *_: None for name in Driver.__abstractmethods__}
+    monkeypatch.setattr(
+        bench.session, "driver", type("Plain", (Driver,), {"name": "plain", **hooks})(ROBOT)
+    )
+    with pytest.raises(RefusedError, match="'plain' cannot run profiles"):
+        bench.arm()
+
+
+def test_the_floor_holds_for_a_thrust_too(make_bench):
+    bench = make_bench(robot=replace(ROBOT, keep_out=KeepOut(floor=10e-6)))
+    bench.ready()
+    with pytest.raises(OutOfLimitsError, match="its floor is 10 µm"):
+        bench.arm()
+    bench.arm(depth=40e-6)  # through the slow zone, at 0.6 mm/s
+    assert bench.phase is Phase.ARMED
+
+
+def test_a_full_disk_is_told_and_stops_nothing(bench, tmp_path):
+    bench.log.path = str(tmp_path)
+    bench.ready().arm().press()
+    status = bench.run()
+    assert status.phase is Phase.FAILED
+    assert "cannot be written" in status.problem
+
+
+def test_a_program_that_closes_holds_the_tip(bench):
+    bench.ready([cell()]).arm(depth_tolerance=0.2).press()
+    bench.until(Phase.THRUST)
+    bench.penetration.close()
+    assert bench.phase is Phase.HELD
+    bench.stepped.step(0.02, 50)
+    assert START - bench.session.snapshot().command["zn"] > 5e-6
+
+
+def test_an_approach_that_nobody_steps_ends_by_itself(bench):
+    bench.ready().arm().press()
+    bench.step(0.02, 20)
+    bench.stepped.step(0.02, 20)
+    place = bench.session.snapshot().command["zn"]
+    bench.stepped.step(0.02, 50)
+    assert bench.session.snapshot().command["zn"] == place
+
+
+def test_a_thrust_that_the_device_will_not_run_goes_back_with_its_reason(bench, monkeypatch):
+    bench.ready([cell()]).arm().press()
+    monkeypatch.setattr(type(bench.stepped.driver), "_trigger", _refuse)
+    status = bench.run()
+    assert status.phase is Phase.FAILED
+    assert "the device did not run the thrust: broken" in status.reason
+
+
+def _refuse(self):
+    raise InputError("broken")
+
+
+@pytest.mark.slow
+@settings(
+    suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=8, deadline=None
+)
+@given(
+    place=st.floats(45e-6, 64e-6),
+    stiffness=st.floats(0.02, 3.0),
+    presses=st.lists(st.integers(0, 250), max_size=2),
+    shape=st.sampled_from(["s_curve", "minimum_jerk"]),
+    shaping=st.sampled_from(["none", "zv", "zvdd", "inverse"]),
+)
+def test_at_every_moment_it_is_within_its_limits(
+    make_bench, place, stiffness, presses, shape, shaping
+):
+    bench = make_bench().ready([cell(place, stiffness)])
+    bench.arm(shape=shape, shaping=shaping, hold_s=0.1, depth_tolerance=0.5).press()
+    for step in range(400):
+        if step in presses and bench.phase in UNDER_WAY | {Phase.HELD}:
+            bench.press()
+        bench.step(0.01)
+    time_s, way = commands(bench)
+    axis = ROBOT.axes["zn"]
+    late = time_s > time_s[-1] - 4.0
+    speed = np.abs(np.diff(way[late]) / np.diff(time_s[late]))
+    assert way[late].min() >= START - (10e-6 + 2e-6 + 50e-6) - 1e-12
+    assert way[late].max() <= START + 1e-12
+    assert speed.max() <= axis.max_speed
+    assert np.abs(np.diff(speed)).max() / 1e-3 <= axis.max_acceleration * (1 + 1e-6)
+    assert bench.phase in {Phase.DONE, Phase.FAILED, Phase.ABORTED, Phase.HELD}
