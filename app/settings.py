@@ -27,6 +27,11 @@ class Settings:
         self._path = path or user_config_path("rotemina", appauthor=False) / "settings.json"
         self._values = self._load()
 
+    @property
+    def folder(self) -> Path:
+        """Where the user's own files are kept, this one among them."""
+        return self._path.parent
+
     def get(self, key: str, default: Value) -> Value:
         """Return a preference, or ``default`` where it is missing or of another type."""
         value = self._values.get(key, default)

@@ -11,6 +11,7 @@ from typing import TypeVar
 from PySide6.QtCore import QTimer, Signal
 
 from rotemina.app.motion.deviation import Excess
+from rotemina.app.motion.operation import Operation
 from rotemina.app.motion.playback import Playback, PlaybackPhase
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import CommandRefused, Event, Faulted, PlaybackFinished
@@ -73,7 +74,8 @@ class Workbench(Requests):
     saved, and ``unsaved`` a played record that no file holds yet: each is written into
     ``played_folder`` by itself as soon as it ends. ``pace`` (times as fast as the trajectory says)
     and ``bounds`` (of the deviation of readings from the model, m or rad by axis) are what the next
-    playback is begun with.
+    playback is begun with. ``operation`` is what an operator's hand does with the machine: input
+    devices, teleoperation, penetration, recorder. Its data go beside ``played_folder``.
 
     Signals
     -------
@@ -95,6 +97,7 @@ class Workbench(Requests):
     closing = Signal()
     _happened = Signal(object)
     _exceeded = Signal(object)
+    _told = Signal(str)
 
     def __init__(
         self, session: MotionSession, settings: Settings, theme: Theme, played_folder: Path
@@ -111,8 +114,12 @@ class Workbench(Requests):
         self.bounds: dict[str, float] = {}
         self._background = Background(self)
         self._exceeded.connect(self._tell_excess)
+        self._told.connect(lambda text: self.notify(Level.WARNING, text))
         # Before this subscribes itself: when it hears of an end, the playback knows it already.
         self.playback = Playback(session, self._exceeded.emit)
+        self.operation = Operation(
+            session, settings.folder, played_folder.parent, told=self._told.emit
+        )
         self._happened.connect(self._on_event)
         self.refused.connect(lambda reason: self.notify(Level.ERROR, reason))
         self._unsubscribe = session.subscribe(self._happened.emit)
@@ -122,6 +129,7 @@ class Workbench(Requests):
     def start(self) -> None:
         """Connect to the driver and begin to refresh the panels."""
         self.session.start()
+        self.operation.start()
         self._frames.start()
 
     def close(self) -> None:
@@ -129,6 +137,7 @@ class Workbench(Requests):
         self._frames.stop()
         self.closing.emit()
         self._unsubscribe()
+        self.operation.close()
         self.playback.close()
         self.session.close()
         self._background.wait()

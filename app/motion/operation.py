@@ -1,0 +1,324 @@
+"""Everything that an operator's hand does with a session, on one steady loop.
+
+Devices are read, what they ask for is steered, a penetration is stepped, and all of it is recorded
+while a recording runs. Free of Qt: the window's panels show it, and ask for the rest.
+"""
+
+import threading
+import time
+from collections.abc import Callable, Mapping
+from datetime import datetime
+from pathlib import Path
+from types import MappingProxyType
+
+from rotemina.app.motion.mailbox import RefusedError
+from rotemina.app.motion.penetration.parameters import PenetrationParameters
+from rotemina.app.motion.penetration.penetration import Penetration
+from rotemina.app.motion.penetration.run_log import RunLog
+from rotemina.app.motion.recording.merging import unfinished
+from rotemina.app.motion.recording.session_recorder import SessionRecorder
+from rotemina.app.motion.recording.writer import RecorderNotice
+from rotemina.app.motion.session import MotionSession
+from rotemina.app.motion.teleoperation.input_devices import Heard, InputDevices
+from rotemina.app.motion.teleoperation.intent import Action, Intent
+from rotemina.app.motion.teleoperation.recentring import plan_recentring
+from rotemina.app.motion.teleoperation.reference import ScalingError
+from rotemina.app.motion.teleoperation.scales import Scales
+from rotemina.app.motion.teleoperation.teleoperator import Teleoperator
+from rotemina.app.motion.ticker import Ticker
+from rotemina.drivers.clock import Clock
+from rotemina.drivers.inputs.board import BoardInputs
+from rotemina.drivers.inputs.device import InputSource
+from rotemina.drivers.inputs.hub import InputHub
+from rotemina.drivers.inputs.pad import Pad
+from rotemina.drivers.samples import DeviceState
+from rotemina.sim.errors import InputError
+from rotemina.sim.kinematics.chain import JOINTS, Chain, ChainError
+
+STEP_S, LOOK_S = 0.005, 1.0
+SCALES = "scales.toml"
+_RUMBLE_STEP = 0.05  # a change that no hand feels is not sent
+
+
+class Operation:
+    """The operator's side of a session.
+
+    Parameters
+    ----------
+    session : MotionSession
+    folder : Path
+        Of the user's profiles, calibrations and scales.
+    data : Path
+        Of recordings and of the log of penetrations.
+    sources : mapping of str to InputSource
+        Of input devices, beside the installed ones, the controller's own and the pad.
+    clock : callable
+        The host's; the session's too.
+    told : callable
+        Gets what the operator must know and no state shows, on any thread.
+    """
+
+    def __init__(
+        self,
+        session: MotionSession,
+        folder: Path,
+        data: Path,
+        *,
+        sources: Mapping[str, InputSource] = MappingProxyType({}),
+        clock: Clock = time.monotonic,
+        told: Callable[[str], None] = lambda _: None,
+    ) -> None:
+        self.session = session
+        self.data = data
+        self.clock = clock
+        self._told = told
+        self._scales_file = folder / SCALES
+        #: The pad on the screen and its keys: a device like any other.
+        self.pad = Pad("pad", buttons=tuple(Action), clock=clock)
+        own = {
+            "board": BoardInputs(lambda: session.driver, clock=clock),
+            "pad": self.pad,
+            **sources,
+        }
+        hub = InputHub.installed(own, clock=clock)
+        self.devices = InputDevices(hub, tuple(session.robot.axes), folder)
+        self.teleoperator = Teleoperator(session, self._kept_scales())
+        self.penetration = Penetration(session, RunLog(data / "penetrations.jsonl"))
+        self.penetration_parameters = PenetrationParameters()
+        self.intent = Intent(0.0)
+        self._recorder: SessionRecorder | None = None
+        self._recorder_lock = threading.Lock()
+        self._rumbled = 0.0
+        self._planning: threading.Thread | None = None
+        self._tickers = (
+            Ticker("operation", STEP_S, lambda: self.step(self.clock()), self._step_failed),
+            Ticker("input devices", LOOK_S, self.devices.look),
+        )
+
+    def start(self) -> None:
+        """Begin to listen to the input devices, on threads of their own."""
+        for ticker in self._tickers:
+            ticker.start()
+
+    def close(self) -> None:
+        """Stop what the sticks and the penetration do, end a recording, let go of the devices."""
+        for ticker in self._tickers:
+            ticker.close()
+        if self.teleoperator.state.driving:
+            self.session.stop()
+        self.penetration.close()
+        self.devices.close()
+        if self._planning is not None:
+            self._planning.join()
+        if self.recording is not None:
+            try:
+                self.stop_recording()
+            except InputError as error:  # what was recorded is in its folder, and is told at start
+                self._told(str(error))
+
+    def step(self, now_s: float) -> None:
+        """Read the devices and do what they ask for; for a loop of its own, or for a test."""
+        heard = self.devices.step(now_s)
+        self.intent = heard.intent
+        self._act(heard.intent, now_s)
+        self.teleoperator.step(heard.intent, now_s)
+        self.penetration.step(now_s)
+        self._rumble()
+        self._record(heard)
+
+    # --- what buttons ask for ---------------------------------------------------------------------
+
+    def press_penetration(self) -> None:
+        """Take the penetration's one button: start it, bring it back.
+
+        Raises
+        ------
+        InputError
+            As :meth:`Penetration.press`.
+        """
+        self.penetration.press(self.clock())
+
+    def arm_penetration(self, parameters: PenetrationParameters) -> None:
+        """Arm it, and keep the parameters for the button.
+
+        Raises
+        ------
+        InputError
+            As :meth:`Penetration.arm`.
+        """
+        self.penetration.arm(parameters, self.clock())
+        self.penetration_parameters = parameters
+
+    def toggle_tool(self) -> None:
+        """Switch the tool on or off.
+
+        Raises
+        ------
+        RefusedError
+            If there is none, or as :meth:`MotionSession.switch_tool`.
+        """
+        self.session.switch_tool(not self.session.tool_on)
+
+    def recentre(self, joints: tuple[str, ...] = ("zn",)) -> None:
+        """Bring nano joints to mid-range while the tip stays; planned on a thread of its own.
+
+        Raises
+        ------
+        RefusedError
+            If the machine is not at rest, or one is being planned.
+        InputError
+            If the robot has no such joints.
+        """
+        if self._planning is not None and self._planning.is_alive():
+            raise RefusedError("re-centring is being planned; wait")
+        state = self.session.snapshot()
+        if state.locked is not None:
+            raise RefusedError(f"motion is locked: {state.locked}")
+        if state.activity is not DeviceState.IDLE or state.queued:
+            raise RefusedError("the machine is still moving; let go of the stick first")
+        chain = Chain.of(self.session.robot)
+        period_s = self.session.setpoint_period_s
+
+        def plan() -> None:
+            try:
+                planned = plan_recentring(chain, state.command, period_s, joints)
+                now = self.session.snapshot().command
+                if any(now[axis] != state.command[axis] for axis in JOINTS):
+                    raise RefusedError("the machine has moved meanwhile; ask once more")
+                self.session.play(planned.trajectory)
+            except InputError as error:
+                self._told(f"Re-centring: {error}")
+
+        self._planning = threading.Thread(target=plan, name="re-centring", daemon=True)
+        self._planning.start()
+
+    def use_scales(self, scales: Scales) -> None:
+        """Use other scales, and keep them.
+
+        Raises
+        ------
+        ScalingError
+            As :meth:`Teleoperator.use_scales`.
+        FileWriteError
+            If they cannot be kept; they are used all the same.
+        """
+        self.teleoperator.use_scales(scales)
+        scales.save(self._scales_file)
+
+    # --- recorder ---------------------------------------------------------------------------------
+
+    @property
+    def recording(self) -> SessionRecorder | None:
+        """What records now; None: nothing does."""
+        return self._recorder
+
+    @property
+    def recordings(self) -> Path:
+        """The folder of recordings."""
+        return self.data / "recordings"
+
+    @property
+    def unfinished_recordings(self) -> tuple[Path, ...]:
+        """What a crash has left behind in the folder of recordings."""
+        return unfinished(self.recordings) if self.recordings.is_dir() else ()
+
+    def start_recording(self, settings: Mapping[str, object] = MappingProxyType({})) -> Path:
+        """Record everything from now on, and return into which file.
+
+        Raises
+        ------
+        RefusedError
+            If something is being recorded.
+        RecordingError
+            If no file can be made.
+        """
+        with self._recorder_lock:
+            if self._recorder is not None:
+                raise RefusedError("a recording is running; end it first")
+            began = datetime.now().astimezone()
+            path = self.recordings / f"{began:%Y-%m-%d_%H-%M-%S-%f}.arrows"
+            self.recordings.mkdir(parents=True, exist_ok=True)
+            recorder = SessionRecorder(
+                self.session,
+                path,
+                settings=settings,
+                began=began.isoformat(timespec="seconds"),
+                clock=self.clock,
+                tell=self._recorder_told,
+            )
+            recorder.start()
+            self._recorder = recorder
+            return path
+
+    def stop_recording(self) -> Path:
+        """End the recording, and return the finished file; takes as long as copying it does.
+
+        Raises
+        ------
+        RefusedError
+            If nothing is being recorded.
+        RecordingError
+            If it cannot be finished; what was recorded stays to be recovered.
+        """
+        with self._recorder_lock:
+            recorder, self._recorder = self._recorder, None
+        if recorder is None:
+            raise RefusedError("nothing is being recorded")
+        return recorder.close()
+
+    # --- inside -----------------------------------------------------------------------------------
+
+    def _act(self, intent: Intent, now_s: float) -> None:
+        requests: list[Callable[[], object]] = []
+        if Action.PENETRATION in intent.pressed:
+            requests.append(lambda: self.penetration.press(now_s))
+        if Action.TOOL in intent.pressed:
+            requests.append(self.toggle_tool)
+        if Action.RECENTRE in intent.pressed:
+            requests.append(self.recentre)
+        for request in requests:
+            try:
+                request()
+            except InputError as error:
+                self._told(str(error))
+
+    def _rumble(self) -> None:
+        strength = max((abs(one.felt) for one in self.teleoperator.state.coordinates), default=0.0)
+        strength = min(strength, 1.0)
+        gone = strength == 0.0 and self._rumbled != 0.0
+        if gone or abs(strength - self._rumbled) >= _RUMBLE_STEP:
+            self._rumbled = strength
+            self.devices.rumble(strength)
+
+    def _record(self, heard: Heard) -> None:
+        recorder = self._recorder
+        if recorder is None:
+            return
+        for key, readings in heard.readings.items():
+            device = self.devices.device(key)
+            if device is not None:
+                for reading in readings:
+                    recorder.record_reading(device, reading)
+        recorder.record_intent(heard.intent)
+
+    def _recorder_told(self, notice: RecorderNotice) -> None:
+        self._told(f"Recorder: {notice.message}")
+
+    def _step_failed(self, error: Exception) -> None:
+        self._told(f"The loop of the input devices failed: {type(error).__name__}: {error}")
+
+    def _kept_scales(self) -> Scales:
+        try:
+            return Scales.load(self._scales_file)
+        except ScalingError as error:
+            self._told(f"{error}; presets are used")
+            return Scales()
+
+
+def has_tip(session: MotionSession) -> bool:
+    """Whether the robot has a tip that can be held while the nano stage moves."""
+    try:
+        Chain.of(session.robot)
+    except ChainError:
+        return False
+    return True
