@@ -2,6 +2,7 @@
 
 import logging
 import time
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from threading import Lock
@@ -22,6 +23,9 @@ _LOG = logging.getLogger(__name__)
 
 INPUTS = "rotemina.inputs"
 
+# The system gives permissions a moment after a device has appeared.
+_MOST_TRIES = 4
+
 
 @dataclass(frozen=True, slots=True)
 class Changes:
@@ -30,7 +34,8 @@ class Changes:
     Attributes
     ----------
     arrived, left : tuple of InputIdentity
-        One that was unplugged and came back between two polls has arrived, if it was open.
+        One that was unplugged and came back between two polls has arrived, if it was open. One that
+        could not be opened is told a few times: it may be ready a moment later.
     returned : tuple of InputIdentity
         Those of ``arrived`` that were open when they were lost.
     """
@@ -68,6 +73,7 @@ class InputHub:
         self._lost: set[str] = set()
         self._source_problems: dict[str, str] = {}
         self._device_problems: dict[str, str] = {}
+        self._failed: Counter[str] = Counter()  # how often each could not be opened
 
     @classmethod
     def installed(
@@ -150,7 +156,7 @@ class InputHub:
             ) from error
         with self._lock:
             self._opened.add(key)
-            self._device_problems.pop(key, None)
+            self._clear(key)
         return device
 
     def lost(self, key: str) -> None:
@@ -175,12 +181,13 @@ class InputHub:
                 if self._source_problems.get(name) != problem:
                     _LOG.warning("input devices of %s: %s", name, problem)
             self._source_problems = problems
-            new = (there.keys() - before.keys()) | (there.keys() & self._lost)
+            again = {key for key, count in self._failed.items() if count < _MOST_TRIES}
+            new = (there.keys() - before.keys()) | (there.keys() & (self._lost | again))
             self._lost.clear()
             arrived = tuple(one for key, (one, _) in there.items() if key in new)
             left = tuple(one for key, (one, _) in before.items() if key not in there)
             for one in left:
-                self._device_problems.pop(one.key, None)
+                self._clear(one.key)
             returned = tuple(one for one in arrived if one.key in self._opened)
             self._opened -= {one.key for one in returned}
         return Changes(arrived, left, returned)
@@ -188,6 +195,11 @@ class InputHub:
     def _note(self, key: str, problem: str) -> None:
         with self._lock:
             self._device_problems[key] = problem
+            self._failed[key] += 1
+
+    def _clear(self, key: str) -> None:
+        self._device_problems.pop(key, None)
+        self._failed.pop(key, None)
 
 
 def _checked(identity: object) -> InputIdentity:

@@ -73,6 +73,10 @@ def test_one_that_was_open_returns(hub, pad):
     pad.offer()
     assert hub.poll() == Changes(arrived=(pad.identity,), returned=(pad.identity,))
     assert hub.poll() == Changes()
+    pad.withdraw()  # nobody has opened it again
+    hub.poll()
+    pad.offer()
+    assert hub.poll() == Changes(arrived=(pad.identity,))
 
 
 def test_one_that_was_away_between_two_polls_returns(hub, pad):
@@ -84,6 +88,7 @@ def test_one_that_was_away_between_two_polls_returns(hub, pad):
         device.read()
     hub.lost("keys:pad")
     assert hub.poll() == Changes(arrived=(pad.identity,), returned=(pad.identity,))
+    assert hub.poll() == Changes()
     hub.open("keys:pad")
     hub.lost("keys:pad")
     pad.withdraw()
@@ -145,6 +150,29 @@ def test_a_device_that_does_not_open_is_named_until_it_does(hub, hidapi, descrip
     hidapi.bus.clear()
     hub.poll()
     assert hub.problems == {}
+
+
+def test_one_that_could_not_be_opened_is_told_again_but_not_for_ever(hub, hidapi, descriptors):
+    stick = hidapi.plug(b"/dev/hidraw0", descriptors["joystick"])
+    stick.refusal = "Permission denied"
+    told = 0
+    for _ in range(10):
+        for identity in hub.poll().arrived:
+            if identity.source == "hid":
+                told += 1
+                with pytest.raises(DriverError):
+                    hub.open(identity.key)
+    assert told == 4
+    hidapi.bus.clear()
+    hub.poll()
+    hidapi.plug(b"/dev/hidraw0", descriptors["joystick"]).refusal = "Permission denied"
+    (identity,) = hub.poll().arrived
+    with pytest.raises(DriverError):
+        hub.open(identity.key)
+    hidapi.bus[b"/dev/hidraw0"].refusal = None  # the system is done with it
+    assert hub.poll().arrived == (identity,)
+    hub.open(identity.key)
+    assert hub.poll() == Changes()
 
 
 def test_what_a_plugin_raises_is_translated(pad):

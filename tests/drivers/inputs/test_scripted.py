@@ -44,6 +44,12 @@ def test_a_file_is_read(written):
     assert [moment.plugged for moment in script.moments] == [True, True, True, False, True]
 
 
+def test_a_file_of_a_spreadsheet_is_read(tmp_path):
+    path = tmp_path / "script.csv"
+    path.write_bytes("time_s,axis θx\r\n0,1\r\n".encode("utf-8-sig"))
+    assert Script.load(path).axes == ("θx",)
+
+
 def test_it_plays_on_the_clock(source, clock):
     begun_s = clock()
     device = source.open(source.identity)
