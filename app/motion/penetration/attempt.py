@@ -32,12 +32,13 @@ class Attempt:
     contact: Contact | None = None
     thrust_from: float = 0.0
     contact_height: float | None = None
-    contact_residual: float | None = None
+    contact_offset: float | None = None  # reading − command, at rest on the membrane
     thrusting: list[AxisSamples] = field(default_factory=list)
     triggered_s: float | None = None  # device time of the latest sample before it
     captured: list[Captured] = field(default_factory=list)
     thrust: ThrustMeasured | None = None
-    residual: float | None = None  # the latest
+    residual: float | None = None  # the latest, and reading − command
+    offset: float = 0.0
 
     @property
     def side(self) -> float:
@@ -55,11 +56,16 @@ class Attempt:
         return self.side * (self.residual - self.noise.level)
 
     def load(self) -> float:
-        """Return the greatest change of the residual, m: since the contact, or the start."""
+        """Return how far the axis is from where it should be, m: since the contact, or the start.
+
+        In a thrust that is told by the command: a model lags behind samples that a device sends
+        more seldom while it captures.
+        """
+        if self.contact_offset is not None:
+            return abs(self.offset - self.contact_offset)
         if self.noise is None or self.residual is None:
             return 0.0
-        since = self.noise.level if self.contact_residual is None else self.contact_residual
-        return abs(self.residual - since)
+        return abs(self.residual - self.noise.level)
 
     def ended(self, robot: Robot, driver: str, verdict: Verdict, reason: str) -> PenetrationRun:
         """Return the log's entry."""
@@ -91,12 +97,12 @@ class Attempt:
         )
 
     def _deviations(self) -> tuple[float | None, float | None]:
-        if self.contact_residual is None or self.triggered_s is None:
+        if self.contact_offset is None or self.triggered_s is None:
             return None, None
         thrust = joined(self.thrusting).since(self.triggered_s)
         if not len(thrust):
             return None, None
-        load = self.side * (thrust.residual - self.contact_residual)
+        load = self.side * (thrust.measured - thrust.command - self.contact_offset)
         return float(load.max()), float(np.mean(load[-5:]))
 
     def _gave_way(self, peak: float | None, final: float | None) -> bool | None:

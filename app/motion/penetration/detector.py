@@ -36,6 +36,8 @@ _CLIP = 4.0  # standard deviations: one outlier alone is no contact
 _STIFF = 3.0  # times the drift: a residual that grows faster is a wall, from the start on
 _SURE = 6.0  # standard deviations beside that
 _LEAST_SAMPLES = 40
+_SETTING_OFF = 3  # samples in motion in which the level may jump
+_LAG = 2.0  # samples, by which it may
 _LEAST_RMS = 1e-11  # m; a simulated sensor may have no noise at all
 
 
@@ -156,6 +158,7 @@ class ContactDetector:
         self._slope = 0.0
         self._p = (noise.rms**2 / _LEAST_SAMPLES, 0.0, drift**2)  # of level, both, slope
         self._sum = 0.0
+        self._setting_off = _SETTING_OFF
         self._latest: tuple[float, float] | None = None  # time and command
         self._met: tuple[float, float, float] | None = None
 
@@ -190,6 +193,10 @@ class ContactDetector:
         way = abs(command - before)
         noise = self._noise.rms**2
         p, c, s = self._p
+        if way > 0.0 and self._setting_off:
+            # A model that holds each command until the next lags behind a device that does not.
+            self._setting_off -= 1
+            p += (_LAG * way) ** 2
         q = self._wander * way
         p += way * (2.0 * c + way * (s + q / 3.0)) + _CREEP**2 * noise * (time_s - before_s)
         c += way * (s + 0.5 * q)

@@ -173,6 +173,7 @@ class Penetration:
             samples = self._feed.taken() if self._feed is not None else joined([])
             if len(samples):
                 attempt.residual = float(samples.residual[-1])
+                attempt.offset = float(samples.measured[-1] - samples.command[-1])
             broken = self._broken(state)
             if phase is Phase.ARMED:
                 self._wait(attempt, samples, broken, now_s)
@@ -267,7 +268,7 @@ class Penetration:
             self._capture(attempt)
             return
         recent = joined(attempt.thrusting)
-        attempt.contact_residual = float(np.mean(recent.residual[-20:]))
+        attempt.contact_offset = float(np.mean((recent.measured - recent.command)[-20:]))
         attempt.thrust_from = state.command[attempt.parameters.axis]
         attempt.triggered_s = state.device_time_s
         self._session.trigger_profile(OWNER)
@@ -371,7 +372,7 @@ class Penetration:
         load, most = attempt.load(), attempt.parameters.overload
         if load > most:
             raise PenetrationError(
-                f"overload: the axis is {readable(load, 'm')} from where its model is, "
+                f"overload: the axis is {readable(load, 'm')} from where it should be, "
                 f"{readable(most, 'm')} at most"
             )
 

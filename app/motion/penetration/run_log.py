@@ -44,8 +44,8 @@ class PenetrationRun:
     planned_average_speed, planned_peak_speed, fit_error : float or None
     thrust : ThrustMeasured or None
     peak_deviation, final_deviation : float or None
-        Change of ``meas − model`` since the contact, against the thrust: its peak on the way and
-        what was left at its end.
+        Change of ``meas − command`` since the contact, against the thrust: its peak on the way, a
+        tick's lag included, and what was left at its end.
     gave_way : bool or None
         Whether it fell by a third of its peak, and by more than noise: a membrane that broke.
     """

@@ -98,6 +98,17 @@ def test_creep_at_rest_before_the_motion_is_no_contact():
     assert detector(rng).feed(time_s, 0.0 * time_s, residual, residual) is None
 
 
+def test_a_model_that_lags_a_sample_behind_is_no_contact():
+    # Telemetry of 200 Hz: the device moves on by 50 nm while the model holds the latest command.
+    for seed in range(40):
+        rng = np.random.default_rng(seed)
+        time_s = np.arange(300) / 200.0
+        way = np.maximum(time_s - 0.302, 0.0) * 10e-6
+        lead = np.diff(way, prepend=0.0)
+        residual = rng.normal(0.0, SIGMA, 300) - lead
+        assert detector(rng).feed(time_s, -way, -way, residual) is None
+
+
 def test_a_pull_is_no_contact_and_an_outlier_is_none():
     rng = np.random.default_rng(7)
     assert detector(rng).feed(*approach(rng, 1.0, kink(5e-6, -0.1))) is None
