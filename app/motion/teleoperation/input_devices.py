@@ -27,7 +27,9 @@ from rotemina.drivers.inputs.device import InputDevice, InputReading, Rumbler
 from rotemina.drivers.inputs.hub import Changes, InputHub
 
 _LOG = logging.getLogger(__name__)
-_PAD = "keys"  # the source of the pad: a device that is always there comes after every other
+_PAD = "keys"  # the source of the pad
+# Sources of what is always there, if anybody uses it or not: they come after every other.
+_RANKS = {"board": 1, _PAD: 2}
 
 
 @dataclass(frozen=True, slots=True)
@@ -251,7 +253,7 @@ def automatic_profile(devices: Iterable[PluggedDevice]) -> Profile | None:
     None where no device has anything that could be mapped.
     """
     mappings: list[DeviceMapping] = []
-    ordered = sorted(devices, key=lambda device: device.identity.source == _PAD)
+    ordered = sorted(devices, key=_rank)
     for device in ordered:
         if mappings and device.identity.source != _PAD:
             continue
@@ -266,10 +268,14 @@ def automatic_profile(devices: Iterable[PluggedDevice]) -> Profile | None:
 def _fits(profile: Profile, plugged: tuple[PluggedDevice, ...]) -> bool:
     """Whether every device of a profile is there, and no better one is left out."""
     used = assigned(profile, plugged)
-    others = [one for one in plugged if one.identity.key not in used]
-    left_out = any(one.identity.source != _PAD for one in others)
-    only_pad = all(one.identity.source == _PAD for one in plugged if one.identity.key in used)
-    return len(used) == len(profile.devices) > 0 and not (left_out and only_pad)
+    if len(used) != len(profile.devices):
+        return False
+    best = min(_rank(one) for one in plugged)
+    return any(_rank(one) == best for one in plugged if one.identity.key in used)
+
+
+def _rank(device: PluggedDevice) -> int:
+    return _RANKS.get(device.identity.source, 0)
 
 
 def _plugged(device: InputDevice) -> PluggedDevice:
