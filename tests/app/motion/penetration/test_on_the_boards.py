@@ -51,6 +51,27 @@ def until(condition, limit_s):
         time.sleep(0.01)
 
 
+def there(session):
+    state = session.snapshot()
+    return state.phase is Phase.READY and state.command["zn"] == pytest.approx(64e-6, abs=1e-9)
+
+
+def attempt(session, penetration):
+    """Return what becomes of a run from above the cell."""
+    until(lambda: session.snapshot().locked is None, 20.0)
+    session.go_to({"zn": 64e-6})
+    until(lambda: there(session), 10.0)
+    time.sleep(1.0)  # until the vibration of the way there has died away
+    penetration.arm(PenetrationParameters(depth_tolerance=0.2), time.monotonic())
+    penetration.press(time.monotonic())
+    until(lambda: penetration.status.phase not in UNDER_WAY, 20.0)
+    run = penetration.status.run
+    if run.verdict is Verdict.HELD:
+        penetration.disarm()
+        until(lambda: not session.snapshot().owners, 2.0)
+    return run
+
+
 def test_the_cell_is_penetrated_and_the_tip_comes_back(ports):
     session = MotionSession(
         MC68HC11(load_robot("rotemina"), {"port": ports[0], "second_port": ports[1]})
@@ -58,27 +79,18 @@ def test_the_cell_is_penetrated_and_the_tip_comes_back(ports):
     penetration = Penetration(session)
     ticker = Ticker("penetration", 0.005, lambda: penetration.step(time.monotonic()))
     session.start()
+    ticker.start()
     try:
-        until(lambda: session.snapshot().phase is Phase.READY, 20.0)
-        session.go_to({"zn": 64e-6})
-        until(
-            lambda: (
-                session.snapshot().phase is Phase.READY
-                and session.snapshot().command["zn"] == pytest.approx(64e-6, abs=1e-9)
-            ),
-            10.0,
-        )
-        time.sleep(1.0)  # until the vibration of the way there has died away
-        ticker.start()
-        penetration.arm(PenetrationParameters(depth_tolerance=0.2), time.monotonic())
-        penetration.press(time.monotonic())
-        until(lambda: penetration.status.phase not in UNDER_WAY, 20.0)
-        run = penetration.status.run
+        for _ in range(4):
+            run = attempt(session, penetration)
+            # A busy computer lets a virtual board fall silent, which holds, as it must.
+            if run.verdict is not Verdict.HELD or "does not answer" not in run.reason:
+                break
         assert run.verdict is Verdict.DONE, run.reason
         assert run.contact == pytest.approx(58e-6, abs=0.6e-6)
         assert run.thrust.depth == pytest.approx(50e-6 / 1.1, rel=0.03)
         assert run.thrust.peak_speed == pytest.approx(run.planned_peak_speed / 1.1, rel=0.1)
-        assert session.snapshot().command["zn"] == pytest.approx(64e-6, abs=1e-9)
+        assert there(session)
         until(lambda: not session.snapshot().owners, 2.0)
     finally:
         ticker.close()
