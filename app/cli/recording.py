@@ -21,6 +21,9 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     one = does.add_parser("info", help="what a recording holds")
     one.add_argument("recording", type=Path, metavar="FILE")
     one.add_argument("--events", action="store_true", help="list what happened, too")
+    one.add_argument(
+        "--robot-file", action="store_true", help="print the robot file that is in it, only"
+    )
     one.set_defaults(run=info)
 
     one = does.add_parser("recover", help="finish recordings that a crash has left")
@@ -55,6 +58,9 @@ def info(options: argparse.Namespace) -> int:
 
     recording = Recording.open(options.recording)
     about = recording.metadata
+    if options.robot_file:
+        print(about["robot_file"], end="")
+        return 0
     print(f"{options.recording}: {recording.ended_s - recording.began_s:.3f} s")
     for key in ("began", "program", "robot", "robot_sha256", "driver", "driver_settings"):
         print(f"  {key:16s}{about.get(key, '')}")

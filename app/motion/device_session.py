@@ -84,6 +84,7 @@ class DeviceSession:
         # Guards what follows; never held while the driver is called.
         self._lock = threading.Lock()
         self._latched: str | None = None
+        self._barred: str | None = None
         self._callbacks: list[Callback] = []
         self._taps: dict[Tap, bool] = {}  # whether it has failed
         self._stop_latency_s: float | None = None
@@ -208,6 +209,10 @@ class DeviceSession:
         """Let the machine move again after an emergency stop; it stands until it is told to."""
         self._latched = None
 
+    def bar(self, reason: str | None) -> None:
+        """Accept no motion for this reason, on any path, until None is said; what moves goes on."""
+        self._barred = reason
+
     def accept_parameters(self) -> None:
         """Move with the device's parameters as they are.
 
@@ -285,6 +290,7 @@ class DeviceSession:
         locked = state.locked
         if locked is None and age_s is not None and age_s > self._stale_after_s:
             locked = f"the device has sent nothing for {age_s:.1f} s; wait, or reconnect"
+        locked = locked or self._barred
         if self._latched is not None:
             locked = f"{self._latched} is latched; release it first"
         return replace(
@@ -351,6 +357,8 @@ class DeviceSession:
             raise RefusedError(f"motion is locked: {state.locked}")
         if self._latched is not None:
             raise RefusedError(f"{self._latched} is latched; release it first")
+        if self._barred is not None:
+            raise RefusedError(f"motion is locked: {self._barred}")
 
     def _emit(self, event: Event) -> None:
         with self._lock:

@@ -15,6 +15,7 @@ from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.penetration import Penetration
 from rotemina.app.motion.penetration.run_log import RunLog
+from rotemina.app.motion.recording.errors import RecordingError
 from rotemina.app.motion.recording.merging import unfinished
 from rotemina.app.motion.recording.session_recorder import SessionRecorder
 from rotemina.app.motion.recording.writer import RecorderNotice
@@ -88,6 +89,7 @@ class Operation:
         self.intent = Intent(0.0)
         self._recorder: SessionRecorder | None = None
         self._recorder_lock = threading.Lock()
+        self._closing = False
         self._rumbled = 0.0
         self._planning: threading.Thread | None = None
         self._tickers = (
@@ -110,6 +112,8 @@ class Operation:
         self.devices.close()
         if self._planning is not None:
             self._planning.join()
+        with self._recorder_lock:  # one that begins just now is waited for
+            self._closing = True
         if self.recording is not None:
             try:
                 self.stop_recording()
@@ -233,11 +237,18 @@ class Operation:
             If no file can be made.
         """
         with self._recorder_lock:
+            if self._closing:
+                raise RefusedError("the program is being closed")
             if self._recorder is not None:
                 raise RefusedError("a recording is running; end it first")
             began = datetime.now().astimezone()
             path = self.recordings / f"{began:%Y-%m-%d_%H-%M-%S-%f}.arrows"
-            self.recordings.mkdir(parents=True, exist_ok=True)
+            try:
+                self.recordings.mkdir(parents=True, exist_ok=True)
+            except OSError as error:
+                raise RecordingError(
+                    f"{self.recordings}: the folder cannot be made ({error.strerror or error})"
+                ) from error
             recorder = SessionRecorder(
                 self.session,
                 path,

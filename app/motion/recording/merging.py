@@ -11,6 +11,7 @@ import numpy as np
 import pyarrow as pa  # type: ignore[import-untyped,unused-ignore] # it comes without types
 
 from rotemina.app.motion.recording.errors import RecordingError
+from rotemina.app.motion.recording.locking import locked
 from rotemina.app.motion.recording.segments import Place, WholeSegments
 from rotemina.app.motion.recording.tables import (
     EVENTS,
@@ -42,6 +43,15 @@ def recover(path: Path) -> Path:
 def unfinished(folder: Path) -> tuple[Path, ...]:
     """Return what recordings were left in a folder, those that are being recorded among them."""
     return tuple(sorted(folder.glob(f"*{SUFFIX}{UNFINISHED}")))
+
+
+def being_recorded(path: Path) -> bool:
+    """Tell whether a program has what is in ``path`` under way: records or recovers it."""
+    try:
+        with path.open("r+b") as file:
+            return not locked(file)
+    except OSError:  # it is gone, or nobody here may write it: recovering says so
+        return False
 
 
 def merged(source: Path, target: Path) -> Path:

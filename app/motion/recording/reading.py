@@ -3,6 +3,7 @@
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Self
@@ -126,11 +127,11 @@ class Recording:
         """When the recording began."""
         return float(self.metadata["began_s"])
 
-    @property
+    @cached_property
     def ended_s(self) -> float:
         """The latest time that anything in it has."""
         tables = [table[TIME].to_numpy() for table in self._tables.values() if len(table)]
-        return max([self.began_s, *(float(each[-1]) for each in tables)])
+        return max([self.began_s, *(float(each.max()) for each in tables)])
 
     @property
     def channels(self) -> tuple[str, ...]:

@@ -1,6 +1,7 @@
 """A recording shown again: history and states as the session had them, at any pace."""
 
 import json
+from bisect import bisect_right
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
@@ -31,7 +32,7 @@ class Replay:
 
     Nothing moves and nobody is asked for the time: :meth:`advance` is told how much of it goes by.
     It has what panels read of a session: ``robot``, ``history``, :meth:`snapshot`,
-    :meth:`subscribe`.
+    :meth:`subscribe`; and all ``events`` of the recording, oldest first.
 
     Parameters
     ----------
@@ -50,7 +51,7 @@ class Replay:
         self.robot = recording.robot
         self.history = history if history is not None else LiveHistory(recording.axes)
         self.host_time_s = recording.began_s
-        self._events = recording.events()
+        self.events = recording.events()
         self._at = 0  # of the events, those told
         self._connection = -1
         self._state = SessionState()
@@ -84,7 +85,7 @@ class Replay:
         begin_s = self.host_time_s
         self.host_time_s = min(begin_s + seconds, self.recording.ended_s)
         # Past the sample that was shown last, up to the one that is due.
-        self._show(np.nextafter(begin_s, np.inf), self.host_time_s, tell=True)
+        self._show(np.nextafter(begin_s, np.inf), self.host_time_s)
 
     def seek(self, host_time_s: float) -> None:
         """Jump to a time of the recording; the minute before it is in the history then.
@@ -93,19 +94,24 @@ class Replay:
         """
         low, high = self.recording.began_s, self.recording.ended_s
         self.host_time_s = min(max(host_time_s, low), high)
-        self._at, self._connection, self._state = 0, -1, SessionState()
+        self._connection, self._state = -1, SessionState()
+        self._at = bisect_right(self.events, self.host_time_s, key=lambda one: one.host_time_s)
+        for event in reversed(self.events[: self._at]):
+            if event.kind == "state":
+                self._again(event)
+                break
         self.history.clear()
-        self._show(self.host_time_s - _SEEN_S, self.host_time_s, tell=False)
+        self._show(self.host_time_s - _SEEN_S, self.host_time_s)
         self._emit(StateChanged(self.snapshot()))
 
-    def _show(self, begin_s: float, end_s: float, *, tell: bool) -> None:
+    def _show(self, begin_s: float, end_s: float) -> None:
         for piece in self.recording.pieces(begin_s, end_s):
             for part in _by_connection(piece):
                 self._append(part)
-        while self._at < len(self._events) and self._events[self._at].host_time_s <= end_s:
-            event = self._again(self._events[self._at])
+        while self._at < len(self.events) and self.events[self._at].host_time_s <= end_s:
+            event = self._again(self.events[self._at])
             self._at += 1
-            if tell and event is not None:
+            if event is not None:
                 self._emit(event)
 
     def _append(self, part: RecordedSamples) -> None:

@@ -83,6 +83,8 @@ class RecordingWriter:
             raise RecordingError(f"{path}: it is there already; record to another name")
         self.path = path
         self._schema = samples_schema(units)
+        #: Host time, s.
+        self.began_s = clock()
         self._clock = clock
         self._tell = tell
         self._backlog = Backlog(capacity_bytes)
@@ -101,7 +103,7 @@ class RecordingWriter:
         )
         about = {
             "id": uuid4().hex,
-            "began_s": repr(clock()),
+            "began_s": repr(self.began_s),
             "units": json.dumps(dict(units)),
             **metadata,
         }

@@ -45,6 +45,14 @@ def test_recover_then_info(crashed, capsys):
     assert "0.220000 state          moving" in out
 
 
+def test_the_robot_file_in_it_is_printed_to_be_used(crashed, capsys):
+    main(["recording", "recover", "run.arrows.part"])
+    capsys.readouterr()
+    assert main(["recording", "info", "run.arrows", "--robot-file"]) == 0
+    crashed.with_name("robot.toml").write_text(capsys.readouterr().out, "utf-8")
+    assert load_robot("robot.toml").axes == load_robot("rotemina").axes
+
+
 def test_a_folder_is_recovered_but_for_what_is_none(crashed, capsys):
     crashed.with_name("bad.arrows.part").write_bytes(b"nothing of ours")
     assert main(["recording", "recover", "."]) == 2

@@ -176,6 +176,25 @@ def test_an_emergency_stop_stays_until_it_is_released(free):
     free.session.jog("x", 1e-3)
 
 
+def test_a_barred_session_moves_on_no_path_and_says_why(free):
+    free.session.go_to({"x": 0.05})
+    free.step(0.2)
+    free.session.bar("a replay is shown")
+    reached = free.until_idle()
+    assert reached.command["x"] == pytest.approx(0.05)  # what was under way goes on
+    assert reached.locked == "a replay is shown"
+    for request in (
+        lambda: free.session.jog("x", 1e-3),
+        lambda: free.session.move_velocity({"x": 1e-3}),
+        free.session.home,
+        free.session.undo,
+    ):
+        with pytest.raises(RefusedError, match="a replay is shown"):
+            request()
+    free.session.bar(None)
+    free.session.undo()
+
+
 def test_phases_name_what_matters(free):
     assert free.session.snapshot().phase is Phase.READY
     free.session.go_to({"x": 0.05})

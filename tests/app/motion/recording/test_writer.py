@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.merging import recover
+from rotemina.app.motion.recording.merging import being_recorded, recover
 from rotemina.app.motion.recording.reading import Recording
 
 
@@ -213,10 +213,12 @@ def test_two_recorders_do_not_meet(make_writer, feed, tmp_path):
         make_writer()
     with pytest.raises(RecordingError, match="still being recorded"):
         recover(tmp_path / "run.arrows.part")
+    assert being_recorded(tmp_path / "run.arrows.part")
     other = make_writer("other.arrows")
     feed(writer, 0, 20)
     writer.close()
     other.close()
+    assert not being_recorded(tmp_path / "run.arrows.part")
     with pytest.raises(RecordingError, match="there already"):
         make_writer()
 
