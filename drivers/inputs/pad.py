@@ -3,6 +3,7 @@
 import time
 from collections import deque
 from collections.abc import Sequence
+from math import inf
 from threading import Lock
 
 from rotemina.drivers.clock import Clock
@@ -23,6 +24,7 @@ class Pad(InputSource):
 
     What is held stays held until it is released: whoever sets it calls :meth:`release_all` when its
     window loses the focus, is left or is covered, so that no key stays down that nobody holds.
+    With a lease it also has to say :meth:`renew` meanwhile: one that hangs steers no more.
 
     Parameters
     ----------
@@ -30,6 +32,8 @@ class Pad(InputSource):
         Tells several pads apart, for example "keyboard".
     axes, buttons : sequence of str
         What they are called.
+    lease_s : float
+        For how long something is held of which nothing is said.
     clock : callable
         The host's time, s.
     """
@@ -42,15 +46,18 @@ class Pad(InputSource):
         axes: Sequence[str] = ("x", "y", "z"),
         buttons: Sequence[str] = (),
         *,
+        lease_s: float = inf,
         clock: Clock = time.monotonic,
     ) -> None:
         super().__init__(clock=clock)
+        self._lease_s = lease_s
         self.identity = InputIdentity(f"keys:{label}", label, "keys")
         self.axes = tuple(axes)
         self.buttons = tuple(buttons)
         # Guards what follows, and the readings that wait in the devices.
         self._lock = Lock()
         self._there = True
+        self._said_s = -inf
         self._deflections = dict.fromkeys(self.axes, 0.0)
         self._held = dict.fromkeys(self.buttons, False)
         self._devices: list[PadDevice] = []
@@ -83,6 +90,13 @@ class Pad(InputSource):
             self._held[button] = held
             self._tell()
 
+    def renew(self) -> bool:
+        """Go on holding what is held; return whether it was still held. Any thread."""
+        with self._lock:
+            self._lapse()
+            self._said_s = self.clock()
+            return self._holds
+
     def release_all(self) -> None:
         """Bring all axes to 0 and release all buttons; any thread."""
         with self._lock:
@@ -111,10 +125,26 @@ class Pad(InputSource):
         with self._lock:
             if not self._there or identity != self.identity:
                 raise InputLostError(f"{identity.name} ({identity.key}): it is not there")
-            device = PadDevice(self, self._lock)
+            device = PadDevice(self)
             self._devices.append(device)
             device.waiting.append(self._reading())
         return device
+
+    def readings(self, device: "PadDevice") -> tuple[InputReading, ...]:
+        """Return what a device has not yet told; a lease that ran out is told too.
+
+        Raises
+        ------
+        InputLostError
+            If it was taken away.
+        """
+        with self._lock:
+            if device.lost:
+                raise InputLostError(f"{self.identity.name}: it was taken away")
+            self._lapse()
+            readings = tuple(device.waiting)
+            device.waiting.clear()
+        return readings
 
     def forget(self, device: "PadDevice") -> None:
         """Tell a device nothing any more: it was closed."""
@@ -128,6 +158,14 @@ class Pad(InputSource):
                 f"{self.identity.name}: no {kind} {name!r}; it has {', '.join(names) or 'none'}"
             )
 
+    @property
+    def _holds(self) -> bool:
+        return any(self._deflections.values()) or any(self._held.values())
+
+    def _lapse(self) -> None:
+        if self._holds and self.clock() - self._said_s > self._lease_s:
+            self._release()
+
     def _release(self) -> None:
         self._deflections = dict.fromkeys(self.axes, 0.0)
         self._held = dict.fromkeys(self.buttons, False)
@@ -139,10 +177,10 @@ class Pad(InputSource):
         )
 
     def _tell(self) -> None:
-        if self._devices:
-            reading = self._reading()
-            for device in self._devices:
-                device.waiting.append(reading)
+        reading = self._reading()
+        self._said_s = reading.host_time_s
+        for device in self._devices:
+            device.waiting.append(reading)
 
 
 class PadDevice(InputDevice):
@@ -151,30 +189,23 @@ class PadDevice(InputDevice):
     Parameters
     ----------
     pad : Pad
-    lock : Lock
-        Held while ``waiting`` and ``lost`` are touched.
+        Its lock is held while ``waiting`` and ``lost`` are touched.
     """
 
-    def __init__(self, pad: Pad, lock: Lock) -> None:
+    def __init__(self, pad: Pad) -> None:
         self.identity = pad.identity
         self.axes = pad.axes
         self.buttons = pad.buttons
         self.waiting: deque[InputReading] = deque(maxlen=_MOST_WAITING)
         self.lost = False
         self._pad = pad
-        self._lock = lock
         self._is_open = True
 
     def read(self) -> tuple[InputReading, ...]:
         """Return what was set since the last call; see :class:`InputDevice`."""
         if not self._is_open:
             raise StateError(f"{self.identity.name}: it was closed; open it again")
-        with self._lock:
-            if self.lost:
-                raise InputLostError(f"{self.identity.name}: it was taken away")
-            readings = tuple(self.waiting)
-            self.waiting.clear()
-        return readings
+        return self._pad.readings(self)
 
     def close(self) -> None:
         """Let go of it; see :class:`InputDevice`."""

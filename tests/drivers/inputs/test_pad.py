@@ -106,3 +106,41 @@ def test_set_by_two_threads_each_change_is_told_once_in_order(pad):
         told = [reading.axes[axis] for reading in readings]
         assert told == sorted(told)
         assert told[-1] == 1.0
+
+
+@pytest.fixture
+def leased(clock):
+    return Pad("keyboard", ("x", "y"), ("fine",), lease_s=0.3, clock=clock)
+
+
+def test_held_by_somebody_who_says_nothing_any_more_it_is_released(leased, clock):
+    device = leased.open(leased.identity)
+    leased.deflect("x", 1.0)
+    leased.hold("fine")
+    device.read()
+    clock.advance(0.29)
+    assert device.read() == ()
+    clock.advance(0.02)
+    (reading,) = device.read()
+    assert reading.axes == (0.0, 0.0)
+    assert reading.buttons == (False,)
+    assert not leased.renew()  # and stays so
+    assert device.read() == ()
+
+
+def test_renewed_it_is_held_on(leased, clock):
+    device = leased.open(leased.identity)
+    leased.deflect("x", 1.0)
+    device.read()
+    for _ in range(10):
+        clock.advance(0.2)
+        assert leased.renew()
+        assert device.read() == ()
+
+
+def test_too_late_to_renew_it_is_released(leased, clock):
+    device = leased.open(leased.identity)
+    leased.deflect("x", 1.0)
+    clock.advance(0.31)
+    assert not leased.renew()
+    assert device.read()[-1].axes == (0.0, 0.0)
