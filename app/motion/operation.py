@@ -37,6 +37,10 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.kinematics.chain import JOINTS, Chain, ChainError
 
 STEP_S, LOOK_S = 0.005, 1.0
+#: What the pad on the screen can hold. Everything else has buttons of its own there, and a dead-man
+#: of the pad would only keep it from acting.
+PAD_BUTTONS = (Action.CLUTCH, Action.FINE, Action.COARSE, Action.TAKE_OVER)
+PAD_LEASE_S = 0.3  # of a screen that hangs while something is held on it
 SCALES = "scales.toml"
 _RUMBLE_STEP = 0.05  # a change that no hand feels is not sent
 
@@ -75,7 +79,7 @@ class Operation:
         self._told = told
         self._scales_file = folder / SCALES
         #: The pad on the screen and its keys: a device like any other.
-        self.pad = Pad("pad", buttons=tuple(Action), clock=clock)
+        self.pad = Pad("pad", buttons=PAD_BUTTONS, lease_s=PAD_LEASE_S, clock=clock)
         own = {
             "board": BoardInputs(lambda: session.driver, clock=clock),
             "pad": self.pad,
