@@ -68,6 +68,11 @@ class Impedance(ScalingLaw):
         """The force of the latest deflection."""
         return self._force_per_deflection(self.factor) * self._deflection
 
+    @property
+    def acting_factor(self) -> float:
+        """The factor that acts: coarser ones are cut to what the acceleration allows."""
+        return self._force_per_deflection(self.factor) / self.impedance.force
+
     def _force_per_deflection(self, factor: float) -> float:
         return min(factor * self.impedance.force, self._most_force)
 

@@ -7,6 +7,7 @@ A full deflection means a way (linear position), a speed (linear rate), or a for
 from collections.abc import Mapping
 from dataclasses import field, replace
 from enum import StrEnum
+from math import ceil, floor, log10, sqrt
 from pathlib import Path
 from types import MappingProxyType
 from typing import Annotated
@@ -23,6 +24,7 @@ from rotemina.app.motion.teleoperation.reference import ScalingError
 from rotemina.app.motion.teleoperation.scaling import ScalingLaw
 from rotemina.app.motion.teleoperation.tables import STRICT, Format, Text
 from rotemina.app.motion.teleoperation.virtual_impedance import VirtualImpedance
+from rotemina.sim.trajectory.wording import readable
 
 _LONG = 5e-3  # m: what has a longer range is a table
 _TABLE_WAY, _TABLE_SPEED = 5e-4, 1e-3  # m, m/s at full deflection
@@ -115,7 +117,29 @@ class Scale:
             free = Contact(0.0, noise, 0.0)
             gain = self.contact_gain * free.greatest_gain(impedance)
             contact = Contact(gain, noise, impedance.force)
-        return Impedance(bounds, impedance, contact)
+        try:
+            return Impedance(bounds, impedance, contact)
+        except ScalingError as error:
+            most = bounds.max_acceleration / (2.0 if contact else 1.0)
+            excess = impedance.force * impedance.acceleration_per_force / most
+            raise ScalingError(self._too_brisk(coordinate, excess)) from error
+
+    def _too_brisk(self, coordinate: Coordinate, excess: float) -> str:
+        """Return what to change of an impedance that accelerates so many times too fast."""
+        name, unit = coordinate.name, coordinate.unit
+        if self.spring_hz:
+            return (
+                f"{name}: a way of {readable(self.way, unit)} on a spring of {self.spring_hz:.4g} "
+                "Hz is more than the axes can accelerate; use at most "
+                f"{readable(_rounded(self.way / excess), unit)}, or at most "
+                f"{_rounded(self.spring_hz / sqrt(excess)):g} Hz"
+            )
+        return (
+            f"{name}: {readable(self.speed, f'{unit}/s')} within a time constant of "
+            f"{self.time_constant_s:.4g} s is more than the axes can accelerate; use at most "
+            f"{readable(_rounded(self.speed / excess), f'{unit}/s')}, or at least "
+            f"{_rounded(self.time_constant_s * excess, up=True):g} s"
+        )
 
     @property
     def impedance(self) -> VirtualImpedance:
@@ -161,6 +185,12 @@ class Scales:
             If it cannot be written.
         """
         _FORMAT.save(path, self)
+
+
+def _rounded(bound: float, *, up: bool = False) -> float:
+    """Return a bound in three digits, on the side that is allowed."""
+    digit = 10.0 ** (floor(log10(bound)) - 2)
+    return (ceil if up else floor)(bound / digit) * digit
 
 
 _FORMAT = Format(Scales, {"modes": Scale}, ScalingError)
