@@ -67,6 +67,10 @@ class InputDevice(ABC):
     #: What its axes and buttons are called, in the order of the readings.
     axes: tuple[str, ...]
     buttons: tuple[str, ...]
+    #: Whether it goes on talking while nothing changes, so that a quarter of a second without a
+    #: reading is a fault. Only where that is certain: one that speaks of changes alone, and is left
+    #: alone, would be lost. It may turn out, or turn out wrong, while the device is open.
+    streams: bool = False
 
     @abstractmethod
     def read(self) -> tuple[InputReading, ...]:

@@ -114,10 +114,17 @@ class CalibrationRun:
         problems = self.problems
         if problems:
             raise CalibrationError("; ".join(problems.values()))
-        kept = before or {}
+        return self.sound(before)
+
+    def sound(
+        self, before: Mapping[str, AxisCalibration] | None = None
+    ) -> Mapping[str, AxisCalibration]:
+        """Return the calibration of each wanted axis without a problem; as :meth:`result`."""
+        kept, problems = before or {}, self.problems
         return {
             axis: self._calibrated(axis, seen, kept.get(axis, AxisCalibration()))
             for axis, seen in self._seen.items()
+            if axis not in problems
         }
 
     def _problem(self, axis: str, seen: _Seen) -> str | None:

@@ -3,13 +3,14 @@
 import logging
 import threading
 from collections import deque
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 
 from rotemina.app.motion.teleoperation.calibration import Calibration, CalibrationFolder
 from rotemina.app.motion.teleoperation.default_profile import default_profile
+from rotemina.app.motion.teleoperation.devices_view import DevicesView
 from rotemina.app.motion.teleoperation.intent import Intent
 from rotemina.app.motion.teleoperation.mapping import PluggedDevice, assigned
 from rotemina.app.motion.teleoperation.operator_desk import OperatorDesk
@@ -25,6 +26,8 @@ from rotemina.app.motion.teleoperation.profile import (
 from rotemina.drivers.errors import DriverError
 from rotemina.drivers.inputs.device import InputDevice, InputReading, Rumbler
 from rotemina.drivers.inputs.hub import Changes, InputHub
+
+VIEW_S = 1.0 / 30.0  # no screen needs more
 
 _LOG = logging.getLogger(__name__)
 _PAD = "keys"  # the source of the pad
@@ -70,6 +73,9 @@ class InputDevices:
         self._used: Profile | None = None
         self._open: dict[str, InputDevice] = {}
         self._changes: deque[Changes] = deque()
+        self._listeners: tuple[Callable[[Heard], None], ...] = ()
+        self._view = DevicesView()
+        self._changed = True  # by somebody, and not yet in the view
         # Guards the desk and what is open; held for a step, and never while a device is opened.
         self._lock = threading.RLock()
 
@@ -102,6 +108,7 @@ class InputDevices:
             if profile is not None:
                 self._hand_to_desk(profile)
             self._chosen = profile
+            self._changed = True
             if profile is None:
                 self._use_automatic()
 
@@ -125,6 +132,7 @@ class InputDevices:
         """
         with self._lock:
             self.desk.calibrate(key, calibration)
+            self._changed = True
             device = self._open.get(key)
         if device is not None:
             self.calibrations.save(device.identity, calibration)
@@ -136,6 +144,28 @@ class InputDevices:
         """The devices that are open."""
         with self._lock:
             return tuple(_plugged(device) for device in self._open.values())
+
+    @property
+    def view(self) -> DevicesView:
+        """What to show of it: of a step at most ``VIEW_S`` before the latest. It waits for nobody.
+
+        Sources and devices that cannot be used are in :attr:`InputHub.problems`.
+        """
+        return self._view
+
+    def listen(self, tell: Callable[[Heard], None]) -> Callable[[], None]:
+        """Have every step told, on its thread, until what is returned is called.
+
+        ``tell`` must neither wait nor raise; that of a queue is good.
+        """
+        with self._lock:
+            self._listeners = (*self._listeners, tell)
+
+        def leave() -> None:
+            with self._lock:
+                self._listeners = tuple(one for one in self._listeners if one is not tell)
+
+        return leave
 
     @property
     def problems(self) -> tuple[str, ...]:
@@ -151,27 +181,36 @@ class InputDevices:
 
     def step(self, now_s: float) -> Heard:
         """Read every device and return what the operator wants; never waits for one."""
+        while self._changes:
+            self._follow(self._changes.popleft())
         with self._lock:
-            while self._changes:
-                self._follow(self._changes.popleft())
             readings: dict[str, tuple[InputReading, ...]] = {}
             for key, device in tuple(self._open.items()):
                 try:
                     readings[key] = device.read()
+                    self.desk.inform(key, streams=device.streams)
                 except Exception as error:  # a plugin may raise anything; the device is then gone
                     self._drop(key, str(error))
                     self.hub.lost(key)
-            return Heard(self.desk.step(readings, now_s), MappingProxyType(readings))
+            heard = Heard(self.desk.step(readings, now_s), MappingProxyType(readings))
+            if self._changed or now_s - self._view.host_time_s >= VIEW_S:
+                self._changed, self._view = False, self._viewed(now_s)
+            listeners = self._listeners
+        for tell in listeners:
+            tell(heard)
+        return heard
 
     def open_mapping(self) -> None:
         """Send nothing but stops from now on: mappings are made, or sticks calibrated."""
         with self._lock:
             self.desk.open_mapping()
+            self._changed = True
 
     def close_mapping(self) -> None:
         """Send again, after every stick was seen at rest."""
         with self._lock:
             self.desk.close_mapping()
+            self._changed = True
 
     def rumble(self, strength: float) -> None:
         """Let the devices that can shake with a strength of 0 to 1."""
@@ -199,6 +238,18 @@ class InputDevices:
 
     # --- inside -----------------------------------------------------------------------------------
 
+    def _viewed(self, now_s: float) -> DevicesView:
+        desk = self.desk
+        return DevicesView(
+            now_s,
+            desk.views,
+            desk.driving,
+            desk.mapping_open,
+            self._used,
+            self._chosen is None,
+            desk.problems,
+        )
+
     def _follow(self, changes: Changes) -> None:
         for identity in changes.left:
             self._drop(identity.key, "unplugged")
@@ -209,22 +260,26 @@ class InputDevices:
             except DriverError as error:  # kept among the problems by the hub
                 _LOG.warning("%s", error)
                 continue
-            self._open[identity.key] = device
-            self.desk.plug(_plugged(device), self.calibrations.load(identity))
-        if self._chosen is None:
-            self._use_automatic()
+            calibration = self.calibrations.load(identity)
+            with self._lock:
+                self._open[identity.key] = device
+                self.desk.plug(_plugged(device), calibration)
+        with self._lock:
+            if self._chosen is None:
+                self._use_automatic()
 
     def _drop(self, key: str, why: str) -> None:
-        device = self._open.pop(key, None)
-        if device is None:
-            return
-        self.desk.unplug(key, why)
-        try:
-            device.close()
-        except Exception:  # it has gone, and closing is all that is left to do
-            _LOG.warning("%s cannot be closed", device.identity.name, exc_info=True)
-        if self._chosen is None:
-            self._use_automatic()
+        with self._lock:
+            device = self._open.pop(key, None)
+            if device is None:
+                return
+            self.desk.unplug(key, why)
+            try:
+                device.close()
+            except Exception:  # it has gone, and closing is all that is left to do
+                _LOG.warning("%s cannot be closed", device.identity.name, exc_info=True)
+            if self._chosen is None:
+                self._use_automatic()
 
     def _use_automatic(self) -> None:
         """Use what the user has kept for these devices, or else what their controls suggest."""
@@ -279,4 +334,4 @@ def _rank(device: PluggedDevice) -> int:
 
 
 def _plugged(device: InputDevice) -> PluggedDevice:
-    return PluggedDevice(device.identity, device.axes, device.buttons)
+    return PluggedDevice(device.identity, device.axes, device.buttons, device.streams)

@@ -66,23 +66,25 @@ class MappedDevice:
         self.mapping = mapping
         #: What it said last; None as long as it has said nothing that still holds.
         self.newest = last
-        #: Whether it streams and has stopped doing so.
-        self.silent = False
+        #: Why nothing can be made of what it says; None: something can.
+        self.problem: str | None = None
+        #: Why it was lost in the last step; None: it was not.
+        self.lost: str | None = None
         #: Actions pressed in the last step, and those held.
         self.pressed: frozenset[Action] = frozenset()
         self.held: frozenset[Action] = frozenset()
         self._calibrations = {axis: calibration.axis(axis) for axis in device.axes}
         self._trust = {axis: AxisTrust(self._calibrations[axis]) for axis in device.axes}
         self._raw: dict[str, float] = {}
-        self._garbled: str | None = None
-        self._listening_since_s: float | None = None
+        self._heard_s: float | None = None if last is None else last.host_time_s
         self._before = () if last is None else (last,)
         self._actors = [] if mapping is None else [_Actor(each) for each in mapping.actions]
 
     def step(self, readings: Sequence[InputReading], now_s: float) -> None:
         """Take in the readings since the last step, oldest first, and let time pass."""
-        if self._listening_since_s is None:
-            self._listening_since_s = now_s
+        if self._heard_s is None:
+            self._heard_s = now_s  # it has as long from now on as after a reading
+        self.lost = None
         pressed: set[Action] = set()
         for reading in (*self._before, *readings):
             pressed |= self._feed(reading)
@@ -134,7 +136,7 @@ class MappedDevice:
                 self._raw.get(axis),
                 self._deflection(axis) if axis in self._raw else 0.0,
                 drives.get(axis),
-                self._garbled or trust.reason,
+                self.problem or trust.reason,
             )
             for axis, trust in self._trust.items()
         )
@@ -144,14 +146,14 @@ class MappedDevice:
 
     def _feed(self, reading: InputReading) -> set[Action]:
         device = self.device
+        self._heard_s = reading.host_time_s
         if (len(reading.axes), len(reading.buttons)) != (len(device.axes), len(device.buttons)):
-            self._garbled = (
+            self._lose(
                 f"a reading of {len(reading.axes)} axes and {len(reading.buttons)} buttons came "
                 f"from a device with {len(device.axes)} and {len(device.buttons)}: replug it"
             )
-            self._forget(self._garbled)
             return set()
-        self._garbled = None
+        self.problem = None
         self.newest = reading
         for axis, raw in zip(device.axes, reading.axes, strict=True):
             self._raw[axis] = raw
@@ -172,16 +174,19 @@ class MappedDevice:
         return actor.threshold.feed(self._deflection(actor.control))
 
     def _listen(self, now_s: float) -> None:
-        assert self._listening_since_s is not None
-        newest = self.newest
-        heard_s = self._listening_since_s if newest is None else newest.host_time_s
-        silent = self.device.streams and now_s - heard_s > SILENCE_S
-        if silent:
-            self._forget("silent: nothing has come from it; replug it, or look at its cable")
-        self.silent = silent
+        assert self._heard_s is not None
+        if self.device.streams and now_s - self._heard_s > SILENCE_S:
+            self._lose(
+                "silent, though it streams: nothing has come from it; replug it, or look at its "
+                "cable"
+            )
 
-    def _forget(self, why: str) -> None:
+    def _lose(self, why: str) -> None:
         """Take back everything that it said, a held dead-man too."""
+        if self.problem is None:
+            self.lost = why
+        self.problem = why
+        self.newest = None
         for axis in self._trust.values():
             axis.forget(why)
         if self.mapping is not None:

@@ -4,7 +4,8 @@ It has neither threads nor a clock: whoever reads the devices tells it what came
 """
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import compress
 from types import MappingProxyType
 
 from rotemina.app.motion.teleoperation.calibration import Calibration, CalibrationError
@@ -37,6 +38,9 @@ class DeviceView:
         Why it cannot be used at all.
     axes : tuple of AxisView
     held : frozenset of Action
+    newest : InputReading or None
+        What it said last, as long as that holds.
+    calibration : Calibration
     """
 
     device: PluggedDevice
@@ -45,6 +49,14 @@ class DeviceView:
     problem: str | None
     axes: tuple[AxisView, ...]
     held: frozenset[Action]
+    newest: InputReading | None
+    calibration: Calibration
+
+    @property
+    def lit(self) -> frozenset[str]:
+        """The buttons that are down."""
+        said = () if self.newest is None else self.newest.buttons
+        return frozenset(compress(self.device.buttons, said))
 
 
 class OperatorDesk:
@@ -93,6 +105,12 @@ class OperatorDesk:
         self._lose(key, why)
         del self._plugged[key], self._calibrations[key]
         self._arrange(())
+
+    def inform(self, key: str, *, streams: bool) -> None:
+        """Take note whether a plugged device streams: that may turn out while it is open."""
+        device = self._plugged[key]
+        if device.streams is not streams:
+            self._plugged[key] = self._devices[key].device = replace(device, streams=streams)
 
     def use(self, profile: Profile) -> None:
         """Take another profile; nothing moves before every stick was seen at rest.
@@ -157,10 +175,9 @@ class OperatorDesk:
             ``host_time_s``.
         """
         for key, device in self._devices.items():
-            was_silent = device.silent
             device.step(readings.get(key, ()), now_s)
-            if device.silent and not was_silent:
-                self._lose(key, "silent, though it streams")
+            if device.lost is not None:
+                self._lose(key, device.lost)
         if not self._mapping_open:
             self._hand_over()
         lost, self._lost = "; ".join(self._lost) or None, []
@@ -195,9 +212,11 @@ class OperatorDesk:
                 device.device,
                 device.mapping.seat if device.mapping is not None else None,
                 self._drives(device),
-                self._unusable.get(key),
+                self._unusable.get(key) or device.problem,
                 device.axes,
                 device.held,
+                device.newest,
+                self._calibrations[key],
             )
             for key, device in self._devices.items()
         )
@@ -217,7 +236,7 @@ class OperatorDesk:
             mapping = mappings.get(key)
             kept = self._devices.get(key)
             if kept is None or key in anew or kept.mapping is not mapping:
-                last = None if kept is None or kept.silent else kept.newest
+                last = None if kept is None else kept.newest
                 kept = MappedDevice(device, self._calibrations[key], mapping, last)
             devices[key] = kept
         self._devices = devices
@@ -262,7 +281,7 @@ class OperatorDesk:
         devices = self._of(seat)
         deflections = [abs(d) for device in devices for d in device.deflections.values()]
         return SeatState(
-            present=any(not device.silent for device in devices),
+            present=any(device.problem is None for device in devices),
             asks=any(Action.TAKE_OVER in device.pressed for device in devices),
             most=max(deflections, default=0.0),
         )

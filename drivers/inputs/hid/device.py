@@ -12,6 +12,7 @@ from rotemina.drivers.inputs.device import (
 )
 from rotemina.drivers.inputs.hid.decoder import Decoder, Ignored
 from rotemina.drivers.inputs.hid.hidapi import Handle
+from rotemina.drivers.inputs.hid.streaming import Streaming
 
 _LOG = logging.getLogger(__name__)
 _REPORT_BYTES = 4096
@@ -42,6 +43,7 @@ class HidDevice(InputDevice):
         self._handle: Handle | None = handle
         self._decoder = decoder
         self._clock = clock
+        self._streaming = Streaming()
 
     @property
     def ignored(self) -> Ignored:
@@ -59,7 +61,10 @@ class HidDevice(InputDevice):
                 break
             state = self._decoder.decode(report)
             if state is not None:
-                readings.append(InputReading(self._clock(), *state))
+                reading = InputReading(self._clock(), *state)
+                self._streaming.hear(reading)
+                readings.append(reading)
+        self.streams = self._streaming.found
         return tuple(readings)
 
     def close(self) -> None:

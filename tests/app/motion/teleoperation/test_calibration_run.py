@@ -31,6 +31,20 @@ def test_ends_are_reached_although_the_hand_comes_a_little_short():
     assert (axis.deflection(-0.985), axis.deflection(0.985)) == (-1.0, 1.0)
 
 
+def test_a_bad_axis_does_not_keep_the_others_from_being_calibrated():
+    both = CalibrationRun(["X", "Y"])
+    both.feed(InputReading(0.0, (0.1, 0.0), ()))
+    both.sweep()
+    for raw in (-0.8, 0.9):
+        both.feed(InputReading(1.0, (raw, 0.01), ()))
+    with pytest.raises(CalibrationError, match="axis Y hardly moved"):
+        both.result()
+    before = {"X": AxisCalibration(expo=0.3), "Y": AxisCalibration()}
+    sound = both.sound(before)
+    assert list(sound) == ["X"]
+    assert (sound["X"].centre, sound["X"].expo) == (0.1, 0.3)
+
+
 def test_a_silent_device_is_at_rest_where_it_spoke_last():
     last = InputReading(0.0, (0.1,), ())
     axis = run([], [-1.0, 1.0], last=last).result()["X"]

@@ -1,5 +1,7 @@
 """Input devices found, opened, read and lost, with the desk told of it all."""
 
+import threading
+
 import pytest
 
 from rotemina.app.motion.teleoperation.input_devices import InputDevices, automatic_profile
@@ -191,6 +193,67 @@ def test_a_calibration_is_used_and_kept(make, clock, stick):
     stick.deflect("x", 1.0)
     assert run(devices, clock, TICK_S).intent.deflections["x"] == -1.0
     assert devices.calibrations.read(stick.identity) == turned
+
+
+def test_a_view_is_taken_seldom_but_at_once_after_a_change(make, clock, stick):
+    devices = make(stick)
+    run(devices, clock)
+    before = devices.view
+    run(devices, clock, TICK_S)
+    run(devices, clock, TICK_S)
+    assert clock() - devices.view.host_time_s <= 1.0 / 30.0
+    devices.open_mapping()
+    run(devices, clock, TICK_S)
+    view = devices.view
+    assert view is not before
+    assert view.setting_up
+    assert view.host_time_s == clock()
+    assert [one.device.identity.key for one in view.devices] == ["hid:stick"]
+    assert view.profile == devices.profile
+    assert view.automatic
+
+
+def test_who_listens_is_told_every_step_until_it_leaves(make, clock, stick):
+    devices = make(stick)
+    run(devices, clock)
+    heard = []
+    leave = devices.listen(heard.append)
+    stick.deflect("x", 0.5)
+    run(devices, clock, 2 * TICK_S)
+    leave()
+    stick.deflect("x", 1.0)
+    run(devices, clock, TICK_S)
+    told = [one.readings["hid:stick"] for one in heard]
+    assert [len(readings) for readings in told] == [1, 0]
+    assert told[0][0].axes == (0.5, 0.0, 0.0)
+
+
+def test_nobody_waits_while_a_device_is_opened(make, clock, stick):
+    devices = make(stick)
+    opened = stick.open
+
+    def slowly(identity):
+        other = threading.Thread(target=devices.open_mapping, daemon=True)
+        other.start()
+        other.join(5.0)
+        assert not other.is_alive()
+        return opened(identity)
+
+    stick.open = slowly
+    run(devices, clock, TICK_S)
+    assert devices.view.setting_up
+    assert [one.identity.key for one in devices.plugged] == ["hid:stick"]
+
+
+def test_a_device_that_turns_out_to_stream_is_lost_when_it_falls_silent(make, clock, stick):
+    devices = make(stick)
+    run(devices, clock)
+    assert not devices.plugged[0].streams
+    devices.device("hid:stick").streams = True
+    run(devices, clock, TICK_S)
+    assert devices.plugged[0].streams
+    run(devices, clock, 0.5)
+    assert "silent, though it streams" in devices.view.devices[0].problem
 
 
 def test_nothing_plugged_in_has_no_profile(make, clock):

@@ -1,0 +1,36 @@
+"""What screens show of the input devices."""
+
+from dataclasses import dataclass
+from math import inf
+
+from rotemina.app.motion.teleoperation.operator_desk import DeviceView
+from rotemina.app.motion.teleoperation.profile import Profile, Seat
+
+
+@dataclass(frozen=True, slots=True)
+class DevicesView:
+    """All input devices for the screen, as they were at one step.
+
+    Attributes
+    ----------
+    host_time_s : float
+        Of the step; −inf before the first.
+    devices : tuple of DeviceView
+        Those that are open.
+    driving : Seat
+    setting_up : bool
+        Whether nothing is sent but stops.
+    profile : Profile or None
+    automatic : bool
+        Whether the profile was made for what is plugged in.
+    problems : tuple of str
+        What is wrong with the profile, and with devices as it uses them.
+    """
+
+    host_time_s: float = -inf
+    devices: tuple[DeviceView, ...] = ()
+    driving: Seat = Seat.TRAINER
+    setting_up: bool = False
+    profile: Profile | None = None
+    automatic: bool = True
+    problems: tuple[str, ...] = ()
