@@ -113,6 +113,7 @@ class RunLog:
         """
         data = (run.line() + "\n").encode()
         try:
+            Path(self.path).parent.mkdir(parents=True, exist_ok=True)
             descriptor = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o644)
             try:
                 if os.lseek(descriptor, 0, os.SEEK_END):
