@@ -13,10 +13,12 @@ from PySide6.QtCore import QTimer, Signal
 from rotemina.app.motion.deviation import Excess
 from rotemina.app.motion.operation import Operation
 from rotemina.app.motion.playback import Playback, PlaybackPhase
+from rotemina.app.motion.recording.replay import Replay
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import CommandRefused, Event, Faulted, PlaybackFinished
 from rotemina.app.settings import Settings
 from rotemina.app.shell.background import Background
+from rotemina.app.shell.replaying import Replaying, opened, remark
 from rotemina.app.shell.requests import Requests
 from rotemina.app.shell.theme import Theme
 from rotemina.sim.comparison.comparison import Comparison, compare
@@ -75,11 +77,14 @@ class Workbench(Requests):
     ``played_folder`` by itself as soon as it ends. ``pace`` (times as fast as the trajectory says)
     and ``bounds`` (of the deviation of readings from the model, m or rad by axis) are what the next
     playback is begun with. ``operation`` is what an operator's hand does with the machine: input
-    devices, teleoperation, penetration, recorder. Its data go beside ``played_folder``.
+    devices, teleoperation, penetration, recorder. Its data go beside ``played_folder``. ``source``
+    is what is shown: the machine, or a replay of ``replaying``; whoever draws positions reads
+    ``source`` and ``shown``, and whoever acts on the machine reads ``session`` and ``refreshed``.
 
     Signals
     -------
-    refreshed(SessionState) : once a frame, at most 30 a second.
+    refreshed(SessionState) : the machine's, once a frame, at most 30 a second.
+    shown(SessionState) : likewise, of what is shown; the same unless that is a replay.
     plan_changed(Plan) : a trajectory was loaded and its dry run is done.
     run_changed(Run) : a record was opened or a playback ended, and model and real are compared.
     busy_changed(str) : what is being worked on in the background, or "".
@@ -89,6 +94,7 @@ class Workbench(Requests):
     """
 
     refreshed = Signal(object)
+    shown = Signal(object)
     plan_changed = Signal(object)
     run_changed = Signal(object)
     busy_changed = Signal(str)
@@ -120,11 +126,12 @@ class Workbench(Requests):
         self.operation = Operation(
             session, settings.folder, played_folder.parent, told=self._told.emit
         )
+        self.replaying = Replaying(session, self.operation.penetration)
         self._happened.connect(self._on_event)
         self.refused.connect(lambda reason: self.notify(Level.ERROR, reason))
         self._unsubscribe = session.subscribe(self._happened.emit)
         self._frames = QTimer(self, interval=FRAME_MS)
-        self._frames.timeout.connect(lambda: self.refreshed.emit(self.session.snapshot()))
+        self._frames.timeout.connect(self._refresh)
 
     def start(self) -> None:
         """Connect to the driver and begin to refresh the panels."""
@@ -141,6 +148,12 @@ class Workbench(Requests):
         self.playback.close()
         self.session.close()
         self._background.wait()
+
+    @property
+    def source(self) -> MotionSession | Replay:
+        """What is shown; ``replaying.changed`` tells when it is another."""
+        paced = self.replaying.paced
+        return self.session if paced is None else paced.replay
 
     @property
     def busy(self) -> bool:
@@ -233,6 +246,17 @@ class Workbench(Requests):
 
         self.work("save", f"Writing {path.name} …", lambda: write_record(record, path), done)
 
+    def open_replay(self, path: Path) -> None:
+        """Show a recording in place of the machine."""
+
+        def show(replay: Replay) -> None:
+            told = remark(replay, self.robot)
+            if self.ask(lambda: self.replaying.show(replay)) and told is not None:
+                self.notify(Level.WARNING, told)
+
+        opening = f"Opening {path.name} …"
+        self.work("replay", opening, lambda: opened(path, self.robot), show)
+
     # --- inside -----------------------------------------------------------------------------------
 
     def work(
@@ -241,11 +265,12 @@ class Workbench(Requests):
         doing: str,
         work: Callable[[], Answer],
         done: Callable[[Answer], None],
+        undone: Callable[[], None] = lambda: None,
     ) -> None:
         """Do something in the background and hand its answer on; a failure becomes a notice.
 
         ``kind`` tells requests apart: of one kind only the latest answer counts. ``doing`` is
-        shown meanwhile.
+        shown meanwhile; ``undone`` is called after a failure.
         """
 
         def finished(answer: Answer) -> None:
@@ -255,9 +280,17 @@ class Workbench(Requests):
         def failed(message: str) -> None:
             self.busy_changed.emit("")
             self.notify(Level.ERROR, message)
+            undone()
 
         self.busy_changed.emit(doing)
         self._background.run(kind, work, finished, failed)
+
+    def _refresh(self) -> None:
+        state = self.session.snapshot()
+        self.refreshed.emit(state)
+        self.replaying.step()
+        source = self.source
+        self.shown.emit(state if source is self.session else source.snapshot())
 
     def _tried(self, name: str, trajectory: Record) -> Plan:
         period_s = self.session.setpoint_period_s

@@ -29,7 +29,7 @@ class ControlPanel(Panel):
             self._add_stage(column, stage, axes)
         column.addStretch(1)
         self._add_scroll_area(content)
-        workbench.refreshed.connect(self._refresh)
+        workbench.shown.connect(self._refresh)
 
     def _add_scroll_area(self, content: QWidget) -> None:
         scroll = QScrollArea()

@@ -67,6 +67,9 @@ class AxisPlot(QWidget):
         """Draw a window of live data; time runs up to 0, the newest sample."""
         self.plot.set_time(-span_s, 0.0)
         if len(window.device_time_s) == 0:
+            self._gap.setText("")
+            for name in ("command", "model", "measured"):
+                self.plot.clear_signal(name)
             return
         since = window.device_time_s - window.device_time_s[-1]
         model, measured = (s[:, self._column] for s in (window.model, window.measured))

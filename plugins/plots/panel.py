@@ -43,7 +43,8 @@ class PlotsPanel(Panel):
             for row, name in enumerate(axes):
                 grid.addWidget(self.plots[name], row, place)
         column.addLayout(grid, 1)
-        workbench.refreshed.connect(lambda _: self.refresh())
+        workbench.shown.connect(lambda _: self.refresh())
+        workbench.replaying.changed.connect(self._begin_anew)
         workbench.theme_changed.connect(self._use_theme)
 
     def refresh(self) -> None:
@@ -51,10 +52,15 @@ class PlotsPanel(Panel):
         if self.pause.isChecked() or not self.isVisible():
             return
         span_s = float(self.span.currentData())
-        window = self.workbench.session.history.tail(span_s)
+        window = self.workbench.source.history.tail(span_s)
         shown = Shown(self.shown.currentData())
         for plot in self.plots.values():
             plot.draw(window, span_s, shown)
+
+    def _begin_anew(self) -> None:
+        """Draw what is shown now: no picture of the machine stays in a replay, nor the reverse."""
+        self.pause.setChecked(False)
+        self.refresh()
 
     def _header(self) -> QHBoxLayout:
         self.shown = QComboBox()
@@ -68,7 +74,7 @@ class PlotsPanel(Panel):
         self.span.setAccessibleName("How far back the plots show")
         self.pause = QPushButton("Pause")
         self.pause.setCheckable(True)
-        self.pause.setToolTip("Hold the picture still; motion and recording go on")
+        self.pause.setToolTip("Hold the picture still; motion, recording and replay go on")
         self._legend = QLabel()
         self._legend.setTextFormat(Qt.TextFormat.RichText)
         self._use_theme(self.workbench.theme)

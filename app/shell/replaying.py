@@ -1,0 +1,111 @@
+"""Which recording is shown in place of the machine, if any."""
+
+import shlex
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+
+from rotemina.app.motion.mailbox import RefusedError
+from rotemina.app.motion.penetration.penetration import Penetration
+from rotemina.app.motion.penetration.status import UNDER_WAY, Phase
+from rotemina.app.motion.recording.errors import RecordingError
+from rotemina.app.motion.recording.pacing import PacedReplay
+from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.replay import Replay
+from rotemina.app.motion.recording.tables import units_of
+from rotemina.app.motion.session import MotionSession
+from rotemina.drivers.samples import DeviceState
+from rotemina.sim.robot.model import Robot
+from rotemina.sim.robot.writing import robot_text
+
+
+class Replaying(QObject):
+    """Holds the replay that is shown; meanwhile the machine accepts no motion, on any path.
+
+    What the screen shows then is not the machine, so nobody could see what moves. A stop is
+    always possible.
+
+    Signals
+    -------
+    changed() : another recording is shown from now on, or the machine again.
+    """
+
+    changed = Signal()
+
+    def __init__(self, session: MotionSession, penetration: Penetration) -> None:
+        super().__init__()
+        self._session, self._penetration = session, penetration
+        self.paced: PacedReplay | None = None
+
+    def show(self, replay: Replay) -> None:
+        """Show a recording from its begin on.
+
+        Raises
+        ------
+        RefusedError
+            If the machine is not at rest: it must not move out of sight.
+        """
+        name = replay.recording.path.name
+        self._refuse_unless_at_rest(name)
+        self._session.bar(f"a replay of {name} is shown; go back to live first")
+        try:
+            self._refuse_unless_at_rest(name)  # nothing can have begun from here on
+        except RefusedError:
+            self.end()
+            raise
+        self.paced = PacedReplay(replay)
+        self.paced.play()
+        self.changed.emit()
+
+    def end(self) -> None:
+        """Show the machine again, which may be moved from now on."""
+        self._session.bar(None)
+        if self.paced is not None:
+            self.paced = None
+            self.changed.emit()
+
+    def step(self) -> None:
+        """Go on; once a frame."""
+        if self.paced is not None:
+            self.paced.step()
+
+    def _refuse_unless_at_rest(self, name: str) -> None:
+        state, phase = self._session.snapshot(), self._penetration.status.phase
+        if phase in UNDER_WAY | {Phase.HELD}:
+            raise RefusedError(f"{name} cannot be shown: a penetration is {phase}; end it first")
+        moves = state.activity not in (DeviceState.IDLE, DeviceState.CLOSED)
+        # In a fault a device may name no activity that anybody could wait for.
+        if (moves and state.fault is None) or state.queued:
+            raise RefusedError(f"{name} cannot be shown: the machine moves; wait, or stop it first")
+
+
+def opened(path: Path, robot: Robot) -> Replay:
+    """Open a recording of a robot with the same axes.
+
+    Raises
+    ------
+    RecordingError
+        If it cannot be read, or is of another robot; with the command that shows it.
+    RobotFileError
+        If the robot file in it is none for this program.
+    """
+    recording = Recording.open(path)
+    if tuple(recording.units.items()) != tuple(units_of(robot).items()):
+        file = "robot.toml"
+        raise RecordingError(
+            f"{path.name}: recorded on robot {recording.metadata['robot']!r} with axes "
+            f"{', '.join(recording.axes)}; this window's has {', '.join(robot.axes)}. Start a "
+            f"window for it: rotemina recording info --robot-file {shlex.quote(str(path))} > {file}"
+            f" && rotemina --robot {file}"
+        )
+    return Replay(recording)
+
+
+def remark(replay: Replay, robot: Robot) -> str | None:
+    """Return what is to be known of a replay on this robot; None for nothing."""
+    if replay.recording.metadata["robot_file"] == robot_text(robot):
+        return None
+    return (
+        f"{replay.recording.path.name}: recorded with another robot file; ranges and scales on the "
+        "screen are those of this window's"
+    )
