@@ -16,6 +16,7 @@ from rotemina.drivers.conformance.findings import Inapplicable, demand, refused,
 from rotemina.drivers.conformance.subject import LONGEST_S, Motion, Subject
 from rotemina.drivers.errors import LimitError, StateError
 from rotemina.drivers.samples import DeviceState
+from rotemina.drivers.tool import ToolOutput
 from rotemina.sim.robot.model import PiezoAxis
 
 # Of a motion by a voltage alone: the hysteresis of a piezo is 15 % of its way, and it creeps.
@@ -170,6 +171,23 @@ def analog_inputs(bench: Bench) -> None:
         demand(all(isinstance(one, bool) for one in buttons), f"buttons {buttons}", "true or false")
 
 
+@check(needs=ToolOutput, moves=False)
+def tool(bench: Bench) -> None:
+    """The tool is off when the device is opened and after a stop, and on only when told so."""
+    with bench.opened(to_move=False) as subject:
+        driver = subject.driver
+        assert isinstance(driver, ToolOutput), "a check runs where its ability is"
+        demand(not driver.tool_on, "on when opened", "off")
+        for on in (True, False, True):
+            driver.switch_tool(on)
+            subject.run(0.05)
+            demand(driver.tool_on is on, f"told {on} it is {driver.tool_on}", "as it was told")
+        subject.stop()
+        subject.run(0.05)
+        demand(not driver.tool_on, "on after a stop", "off")
+    refused("a tool switched on while closed", lambda: driver.switch_tool(True), StateError)
+
+
 CHECKS = (
     homing,
     homing_refuses,
@@ -178,4 +196,5 @@ CHECKS = (
     refused_voltages,
     display,
     analog_inputs,
+    tool,
 )

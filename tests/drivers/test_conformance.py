@@ -375,6 +375,13 @@ class CountsPotentiometers(Cabled):
         return (2048.0,), (False,)
 
 
+class LeavesTheToolOn(Cabled):
+    def _stop(self):
+        on = self.tool_on
+        super()._stop()
+        self._tool_on = on
+
+
 class MistakesTheVoltage(Cabled):
     def _set_voltage(self, axis, voltage):
         at = float(self._running.command[self.axes.index(axis)])
@@ -491,6 +498,7 @@ MUTANTS = {
     NeverKnows: "homing",
     SpellsAsciiOnly: "display",
     CountsPotentiometers: "analog-inputs",
+    LeavesTheToolOn: "tool",
     KnowsAfterAStoppedSearch: "homing-stopped",
     MistakesTheVoltage: "voltage",
     LosesACapturedSample: "capture",
