@@ -51,6 +51,17 @@ class DeviceRequests(DeviceSession, ABC):
             self._refuse_unless_at_rest("reserving the axes")
             self._worker.ownership.reserve(self.driver.axes, owner)
 
+    def check_reservable(self, owner: str) -> None:
+        """Refuse what :meth:`reserve` would refuse now, and reserve nothing.
+
+        Raises
+        ------
+        RefusedError
+            As :meth:`reserve`.
+        """
+        self._refuse_unless_at_rest("reserving the axes")
+        self._worker.ownership.check(self.driver.axes, owner)
+
     def has_reserved(self, owner: str) -> bool:
         """Tell whether every axis is reserved for an owner: nobody has taken one over."""
         return self._worker.ownership.has_reserved(self.driver.axes, owner)
@@ -114,16 +125,17 @@ class DeviceRequests(DeviceSession, ABC):
                 self._mailbox.post(RunProfile({profile.axis: end}))
             self._loaded = None
 
-    def check_thrust(self, axis: str, ends: tuple[float, float], speed: float, owner: str) -> None:
-        """Refuse a way of one axis, at this speed at most, that no profile of the owner's may make.
+    def check_thrust(self, axis: str, ends: tuple[float, float], speed: float) -> None:
+        """Refuse a way of one axis, at this speed at most, that no profile may make.
+
+        That is, none of an owner who has reserved every axis.
 
         Raises
         ------
         OutOfLimitsError
             As :meth:`upload_profile`.
         """
-        thrust = self.has_reserved(owner)
-        self._guard.profile(self._place(), axis, ends, speed, thrust=thrust)
+        self._guard.profile(self._place(), axis, ends, speed, thrust=True)
 
     def abort_profile(self) -> None:
         """Halt the profile that runs, without a fault, or forget the one that waits.

@@ -12,6 +12,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from rotemina.app.motion.mailbox import RefusedError
+from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.penetration import Penetration
 from rotemina.app.motion.penetration.run_log import RunLog
@@ -41,7 +42,7 @@ STEP_S, LOOK_S = 0.005, 1.0
 #: of the pad would only keep it from acting.
 PAD_BUTTONS = (Action.CLUTCH, Action.FINE, Action.COARSE, Action.TAKE_OVER)
 PAD_LEASE_S = 0.3  # of a screen that hangs while something is held on it
-SCALES = "scales.toml"
+SCALES, PENETRATION = "scales.toml", "penetration.toml"
 _RUMBLE_STEP = 0.05  # a change that no hand feels is not sent
 
 
@@ -52,7 +53,7 @@ class Operation:
     ----------
     session : MotionSession
     folder : Path
-        Of the user's profiles, calibrations and scales.
+        Of the user's profiles, calibrations, scales and parameters of the penetration.
     data : Path
         Of recordings and of the log of penetrations.
     sources : mapping of str to InputSource
@@ -78,6 +79,9 @@ class Operation:
         self.clock = clock
         self._told = told
         self._scales_file = folder / SCALES
+        self._penetration_file = folder / PENETRATION
+        #: What is wrong with files of the user's, told at the start.
+        self.problems: list[str] = []
         #: The pad on the screen and its keys: a device like any other.
         self.pad = Pad("pad", buttons=PAD_BUTTONS, lease_s=PAD_LEASE_S, clock=clock)
         own = {
@@ -88,8 +92,9 @@ class Operation:
         hub = InputHub.installed(own, clock=clock)
         self.devices = InputDevices(hub, tuple(session.robot.axes), folder)
         self.teleoperator = Teleoperator(session, self._kept_scales())
-        self.penetration = Penetration(session, RunLog(data / "penetrations.jsonl"))
-        self.penetration_parameters = PenetrationParameters()
+        self.penetration_log = RunLog(data / "penetrations.jsonl")
+        self.penetration = Penetration(session, self.penetration_log)
+        self.penetration_parameters = self._kept_parameters()
         self.intent = Intent(0.0)
         self._recorder: SessionRecorder | None = None
         self._recorder_lock = threading.Lock()
@@ -103,6 +108,8 @@ class Operation:
 
     def start(self) -> None:
         """Begin to listen to the input devices, on threads of their own."""
+        for problem in self.problems:
+            self._told(problem)
         for ticker in self._tickers:
             ticker.start()
 
@@ -147,7 +154,7 @@ class Operation:
         self.penetration.press(self.clock())
 
     def arm_penetration(self, parameters: PenetrationParameters) -> None:
-        """Arm it, and keep the parameters for the button.
+        """Arm it; nothing moves until the button is pressed.
 
         Raises
         ------
@@ -155,7 +162,17 @@ class Operation:
             As :meth:`Penetration.arm`.
         """
         self.penetration.arm(parameters, self.clock())
+
+    def keep_penetration(self, parameters: PenetrationParameters) -> None:
+        """Keep parameters for the next time, also that of another start.
+
+        Raises
+        ------
+        FileWriteError
+            If they cannot be written; they are known until the program ends all the same.
+        """
         self.penetration_parameters = parameters
+        parameters.save(self._penetration_file)
 
     def toggle_tool(self) -> None:
         """Switch the tool on or off.
@@ -326,8 +343,15 @@ class Operation:
         try:
             return Scales.load(self._scales_file)
         except ScalingError as error:
-            self._told(f"{error}; presets are used")
+            self.problems.append(f"{error}; presets are used")
             return Scales()
+
+    def _kept_parameters(self) -> PenetrationParameters:
+        try:
+            return PenetrationParameters.kept(self._penetration_file)
+        except PenetrationError as error:
+            self.problems.append(f"{error}; presets are used")
+            return PenetrationParameters()
 
 
 def has_tip(session: MotionSession) -> bool:

@@ -43,12 +43,7 @@ class Ownership:
         """
         wanted = tuple(axes)
         with self._lock:
-            for axis in wanted:
-                other = self._owners.get(axis, owner)
-                if other != owner:
-                    raise RefusedError(
-                        f"axis {axis} is driven by {other}; stop it, or take over first"
-                    )
+            self.check(wanted, owner)
             before = dict(self._owners)
             self._owners.update(dict.fromkeys(wanted, owner))
             try:
@@ -56,6 +51,22 @@ class Ownership:
             except BaseException:
                 self._owners = before
                 raise
+
+    def check(self, axes: Iterable[str], owner: str) -> None:
+        """Refuse axes of which one is another's; nobody's change.
+
+        Raises
+        ------
+        RefusedError
+            As :meth:`claimed`.
+        """
+        with self._lock:
+            for axis in axes:
+                other = self._owners.get(axis, owner)
+                if other != owner:
+                    raise RefusedError(
+                        f"axis {axis} is driven by {other}; stop it, or take over first"
+                    )
 
     def take_over(self, axes: Iterable[str], owner: str) -> None:
         """Make axes an owner's, whoever had them."""

@@ -1,5 +1,7 @@
 """What must be true before a penetration may begin."""
 
+from typing import NamedTuple
+
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.penetration.attempt import Attempt
 from rotemina.app.motion.penetration.errors import PenetrationError
@@ -14,6 +16,28 @@ LEASE_S = 0.15  # of the approach: without a host it ends after that
 _OVERSHOOT_S = 0.2  # of approach: until a contact is sure, seen, and the axis at rest
 
 
+class Room(NamedTuple):
+    """The way that a penetration takes at most, and what the range leaves for it; m.
+
+    Attributes
+    ----------
+    approach, halt, thrust : float
+        The parts of the way; the thrust as it is commanded.
+    left : float
+        From where the axis stands to the end of its range.
+    """
+
+    approach: float
+    halt: float
+    thrust: float
+    left: float
+
+    @property
+    def needed(self) -> float:
+        """All of the way."""
+        return self.approach + self.halt + self.thrust
+
+
 def armed(session: MotionSession, parameters: PenetrationParameters, owner: str) -> Attempt:
     """Reserve every axis and return the attempt, all of whose way has been checked.
 
@@ -23,23 +47,54 @@ def armed(session: MotionSession, parameters: PenetrationParameters, owner: str)
         With what is missing, the value, the bound, and what to do; then nothing is reserved.
     """
     _check_device(session, parameters)
-    _check_axis(session.robot, parameters)
+    plan = planned(session, parameters)
     session.reserve(owner)
     try:
-        plan = plan_thrust(session.robot, parameters, session.setpoint_period_s)
         start = session.snapshot().command[parameters.axis]
-        farthest = _check_room(session.robot, parameters, plan, start)
-        plan.profile.check(session.robot, start)
-        deepest = plan.ends[1] if parameters.sign > 0.0 else -plan.ends[0]
-        contact = farthest - parameters.sign * deepest
-        name, least = parameters.axis, min(start, farthest)
-        session.check_thrust(name, (least, max(start, farthest)), 0.0, owner)
-        low, high = sorted((contact, farthest))
-        session.check_thrust(name, (low, high), plan.peak_speed, owner)
+        _check_way(session, parameters, plan, start)
     except BaseException:
         session.set_free(owner)
         raise
     return Attempt(parameters, plan, start)
+
+
+def check_now(
+    session: MotionSession, parameters: PenetrationParameters, plan: ThrustPlan, owner: str
+) -> None:
+    """Refuse what :func:`armed` would refuse now, by the same checks; nothing is reserved.
+
+    Raises
+    ------
+    InputError
+        As :func:`armed`.
+    """
+    _check_device(session, parameters)
+    session.check_reservable(owner)
+    _check_way(session, parameters, plan, session.snapshot().command[parameters.axis])
+
+
+def planned(session: MotionSession, parameters: PenetrationParameters) -> ThrustPlan:
+    """Return the thrust of parameters on this robot, wherever it stands.
+
+    Raises
+    ------
+    InputError
+        If the robot has no such axis, or as :func:`plan_thrust`.
+    """
+    _check_axis(session.robot, parameters)
+    return plan_thrust(session.robot, parameters, session.setpoint_period_s)
+
+
+def room(robot: Robot, parameters: PenetrationParameters, plan: ThrustPlan, start: float) -> Room:
+    """Return the room that is needed and left, from a position ``start`` of the axis, m."""
+    low, high = plan.ends
+    ends = robot.axes[parameters.axis].range
+    return Room(
+        parameters.approach_distance,
+        parameters.approach_speed * _OVERSHOOT_S,
+        high if parameters.sign > 0.0 else -low,
+        ends[1] - start if parameters.sign > 0.0 else start - ends[0],
+    )
 
 
 def _check_device(session: MotionSession, parameters: PenetrationParameters) -> None:
@@ -77,22 +132,28 @@ def _check_axis(robot: Robot, parameters: PenetrationParameters) -> None:
         )
 
 
-def _check_room(
-    robot: Robot, parameters: PenetrationParameters, plan: ThrustPlan, start: float
-) -> float:
-    """Return the farthest position of all, m; refuse if it is beyond the range."""
-    low, high = plan.ends
-    thrust = high if parameters.sign > 0.0 else -low
-    reserve = parameters.approach_speed * _OVERSHOOT_S
-    needed = parameters.approach_distance + reserve + thrust
-    ends = robot.axes[parameters.axis].range
-    left = ends[1] - start if parameters.sign > 0.0 else start - ends[0]
-    if needed > left:
+def _check_way(
+    session: MotionSession, parameters: PenetrationParameters, plan: ThrustPlan, start: float
+) -> None:
+    """Refuse a way that leaves the range or the tip's bounds, or a thrust that is too fast."""
+    name, taken = parameters.axis, room(session.robot, parameters, plan, start)
+    _check_room(parameters, taken)
+    plan.profile.check(session.robot, start)
+    farthest = start + parameters.sign * taken.needed
+    contact = farthest - parameters.sign * taken.thrust
+    session.check_thrust(name, _sorted(start, farthest), 0.0)
+    session.check_thrust(name, _sorted(contact, farthest), plan.peak_speed)
+
+
+def _check_room(parameters: PenetrationParameters, taken: Room) -> None:
+    if taken.needed > taken.left:
         raise PenetrationError(
-            f"axis {parameters.axis}: {readable(left, 'm')} of its range are left "
-            f"{parameters.direction}wards, {readable(needed, 'm')} are needed "
-            f"({readable(parameters.approach_distance, 'm')} to approach, "
-            f"{readable(reserve, 'm')} to halt, {readable(thrust, 'm')} to thrust); move the axis "
-            "back first, or shorten them"
+            f"axis {parameters.axis}: {readable(taken.left, 'm')} of its range are left "
+            f"{parameters.direction}wards, {readable(taken.needed, 'm')} are needed "
+            f"({readable(taken.approach, 'm')} to approach, {readable(taken.halt, 'm')} to halt, "
+            f"{readable(taken.thrust, 'm')} to thrust); move the axis back first, or shorten them"
         )
-    return start + parameters.sign * needed
+
+
+def _sorted(one: float, other: float) -> tuple[float, float]:
+    return min(one, other), max(one, other)

@@ -2,6 +2,7 @@
 
 import difflib
 import tomllib
+from contextlib import suppress
 from dataclasses import dataclass, fields
 from enum import StrEnum
 from math import isfinite
@@ -179,6 +180,11 @@ class PenetrationParameters:
             raise PenetrationError(f"{name}: {error}") from error
 
     @classmethod
+    def kept(cls, path: Path) -> Self:
+        """Read a file that may be missing: presets then; else as :meth:`load`."""
+        return cls.load(path) if path.exists() else cls()
+
+    @classmethod
     def parsed(cls, text: str) -> Self:
         """Read parameters from the text of such a file."""
         try:
@@ -206,13 +212,15 @@ class PenetrationParameters:
         return "\n".join(lines) + "\n"
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write the file, whole or not at all.
+        """Write the file, whole or not at all; its folder is made.
 
         Raises
         ------
         FileWriteError
             If it cannot be written.
         """
+        with suppress(OSError):  # what is wrong is said by the writing
+            Path(path).parent.mkdir(parents=True, exist_ok=True)
         with replaced(path) as file:
             file.write(self.text().encode())
 

@@ -14,7 +14,7 @@ from datetime import UTC, datetime
 import numpy as np
 
 from rotemina.app.motion.mailbox import RefusedError
-from rotemina.app.motion.penetration.arming import LEASE_S, armed
+from rotemina.app.motion.penetration.arming import LEASE_S, armed, check_now
 from rotemina.app.motion.penetration.attempt import Attempt
 from rotemina.app.motion.penetration.detector import ContactDetector, noise_at_rest
 from rotemina.app.motion.penetration.errors import PenetrationError
@@ -22,7 +22,7 @@ from rotemina.app.motion.penetration.feed import AxisFeed, AxisSamples, joined
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.run_log import PenetrationRun, RunLog, Verdict
 from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
-from rotemina.app.motion.penetration.thrust import followed
+from rotemina.app.motion.penetration.thrust import ThrustPlan, followed, traced
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import CommandRefused, Event, SessionState
 from rotemina.drivers.abilities import Capturer
@@ -69,6 +69,7 @@ class Penetration:
         self._attempt: Attempt | None = None
         self._feed: AxisFeed | None = None
         self._refusals: deque[str] = deque(maxlen=8)
+        self._unwritten: deque[PenetrationRun] = deque()
         self._end = session.subscribe(self._hear)
         self._stop_s: float | None = None  # the latest stop that is known
         self._since_s = self._renewed_s = self._armed_until_s = 0.0
@@ -88,9 +89,8 @@ class Penetration:
 
     @property
     def status(self) -> PenetrationStatus:
-        """What is to be shown."""
-        with self._lock:
-            return self._status
+        """What is to be shown; at once, whatever goes on meanwhile."""
+        return self._status
 
     def arm(self, parameters: PenetrationParameters, now_s: float) -> None:
         """Check everything, and reserve every axis; nothing moves until the button is pressed.
@@ -116,7 +116,22 @@ class Penetration:
                 average_speed=plan.average_speed,
                 peak_speed=plan.peak_speed,
                 run=self._status.run,
+                trace=self._status.trace,
             )
+
+    def why_not(self, parameters: PenetrationParameters, plan: ThrustPlan) -> str | None:
+        """Return why :meth:`arm` would refuse parameters and their plan now; None: it would not.
+
+        Nothing is reserved, and nothing waited for.
+        """
+        phase = self._status.phase
+        if phase in UNDER_WAY | {Phase.HELD}:
+            return f"a penetration is {phase}; end it first"
+        try:
+            check_now(self._session, parameters, plan, OWNER)
+        except InputError as error:
+            return str(error)
+        return None
 
     def disarm(self) -> None:
         """Set the axes free; after a hold, that leaves the tip where it is.
@@ -140,6 +155,7 @@ class Penetration:
                 self._hold_here("the program let go of it", self._since_s)
             self._release()
             self._end()
+        self._write()
 
     def press(self, now_s: float) -> None:
         """Take the one button: start when armed, go back while it runs, go back when held.
@@ -167,26 +183,29 @@ class Penetration:
         """Go on; ``now_s`` is the host's time. Never raises for what a device does."""
         with self._lock:
             phase, attempt = self._status.phase, self._attempt
-            if attempt is None or phase not in self._steps.keys() | {Phase.ARMED}:
-                return
-            state = self._session.snapshot()
-            samples = self._feed.taken() if self._feed is not None else joined([])
-            if len(samples):
-                attempt.residual = float(samples.residual[-1])
-                attempt.offset = float(samples.measured[-1] - samples.command[-1])
-            broken = self._broken(state)
-            if phase is Phase.ARMED:
-                self._wait(attempt, samples, broken, now_s)
-                return
-            if broken is not None:
-                self._halt()
-                self._hold_here(broken, now_s)
-                return
-            try:
-                self._steps[phase](attempt, state, samples, now_s)
-            except InputError as error:
-                self._fail(str(error), now_s)
-            self._show(attempt, state)
+            if attempt is not None and phase in self._steps.keys() | {Phase.ARMED}:
+                self._go_on(phase, attempt, now_s)
+        self._write()
+
+    def _go_on(self, phase: Phase, attempt: Attempt, now_s: float) -> None:
+        state = self._session.snapshot()
+        samples = self._feed.taken() if self._feed is not None else joined([])
+        if len(samples):
+            attempt.residual = float(samples.residual[-1])
+            attempt.offset = float(samples.measured[-1] - samples.command[-1])
+        broken = self._broken(state)
+        if phase is Phase.ARMED:
+            self._wait(attempt, samples, broken, now_s)
+            return
+        if broken is not None:
+            self._halt()
+            self._hold_here(broken, now_s)
+            return
+        try:
+            self._steps[phase](attempt, state, samples, now_s)
+        except InputError as error:
+            self._fail(str(error), now_s)
+        self._show(attempt, state)
 
     # --- armed ----------------------------------------------------------------------------------
 
@@ -400,7 +419,10 @@ class Penetration:
         )
         if not attempt.captured:
             time_s, measured = slow.time_s, slow.measured
-        attempt.thrust = followed(attempt.plan, time_s, measured, attempt.triggered_s)
+        begin_s = attempt.triggered_s
+        attempt.thrust = followed(attempt.plan, time_s, measured, begin_s)
+        trace = traced(attempt.plan, time_s, measured, begin_s, attempt.thrust.delay_s)
+        self._status = replace(self._status, trace=trace)
         return True
 
     def _broken(self, state: SessionState) -> str | None:
@@ -470,18 +492,24 @@ class Penetration:
         self._release()
 
     def _keep(self, verdict: Verdict, reason: str) -> None:
-        """Log the run; a disk that is full is said, and stops nothing."""
+        """Have the run logged by the next step, outside of the lock: a disk may be slow."""
         attempt, session = self._attempt, self._session
         if attempt is None:
             return
         run: PenetrationRun = attempt.ended(session.robot, session.driver.name, verdict, reason)
-        problem = ""
-        if self._log is not None:
+        self._unwritten.append(run)
+        self._status = replace(self._status, run=run, problem="")
+
+    def _write(self) -> None:
+        """Log what has ended; a disk that is full is said, and stops nothing."""
+        while self._unwritten:
+            run = self._unwritten.popleft()
             try:
-                self._log.append(run)
+                if self._log is not None:
+                    self._log.append(run)
             except InputError as error:
-                problem = str(error)
-        self._status = replace(self._status, run=run, problem=problem)
+                with self._lock:
+                    self._status = replace(self._status, problem=str(error))
 
     def _release(self) -> None:
         self._session.set_free(OWNER)

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from rotemina.app.motion.penetration.run_log import PenetrationRun
+from rotemina.app.motion.penetration.thrust import ThrustTrace
 
 
 class Phase(StrEnum):
@@ -57,6 +58,8 @@ class PenetrationStatus:
         Of the thrust that is planned, m/s.
     run : PenetrationRun or None
         The latest run that has ended.
+    trace : ThrustTrace or None
+        Of the latest thrust that could be compared with its profile.
     problem : str
         Why the latest run could not be logged; empty if it was.
     """
@@ -69,4 +72,5 @@ class PenetrationStatus:
     average_speed: float | None = None
     peak_speed: float | None = None
     run: PenetrationRun | None = None
+    trace: ThrustTrace | None = None
     problem: str = ""

@@ -13,7 +13,7 @@ from rotemina.app.motion.penetration.parameters import (
     ThrustShape,
 )
 from rotemina.drivers.profile import MOST_SEGMENTS, Profile, ProfileSegment
-from rotemina.sim.arrays import FloatArray
+from rotemina.sim.arrays import FloatArray, read_only
 from rotemina.sim.modes.vibration import damped_modes
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.shaping.cubics import as_cubics
@@ -99,6 +99,23 @@ class ThrustMeasured:
     rate_hz: float
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class ThrustTrace:
+    """What the axis' own sensor said of a thrust, for a picture of it.
+
+    Attributes
+    ----------
+    time_s, way : (n,)
+        Since the profile began, s, the constant delay taken off; and from where it began, m.
+    plan : ThrustPlan
+        What it was to do.
+    """
+
+    time_s: FloatArray
+    way: FloatArray
+    plan: ThrustPlan
+
+
 def resonance_of(robot: Robot, axis: str) -> Resonance | None:
     """Return the lightly damped mode that an axis carries most of; None where it has none."""
     if robot.axes[axis].static:
@@ -160,10 +177,7 @@ def followed(
         If there are no samples before or after it.
     """
     wanted = plan.wanted
-    before = measured[time_s <= begin_s][-_BEFORE:]
-    if not len(before):
-        raise PenetrationError(f"thrust: none of {len(time_s)} samples is before it")
-    way = measured - float(np.mean(before))
+    way = _way(time_s, measured, begin_s)
 
     def squares(delay_s: float) -> float:
         return float(np.sum((way - wanted.position(time_s - begin_s - delay_s)) ** 2))
@@ -189,6 +203,22 @@ def followed(
         float(speeds.max()),
         rate_hz,
     )
+
+
+def traced(
+    plan: ThrustPlan, time_s: FloatArray, measured: FloatArray, begin_s: float, delay_s: float
+) -> ThrustTrace:
+    """Return readings (n,) beside the profile that they followed by ``delay_s``; as `followed`."""
+    since_s = read_only(np.asarray(time_s - begin_s - delay_s))
+    return ThrustTrace(since_s, read_only(_way(time_s, measured, begin_s)), plan)
+
+
+def _way(time_s: FloatArray, measured: FloatArray, begin_s: float) -> FloatArray:
+    """Return readings (n,) from where the thrust began, m."""
+    before = measured[time_s <= begin_s][-_BEFORE:]
+    if not len(before):
+        raise PenetrationError(f"thrust: none of {len(time_s)} samples is before it")
+    return np.asarray(measured - float(np.mean(before)))
 
 
 def _plain(parameters: PenetrationParameters, depth: float, duration_s: float) -> Shape:

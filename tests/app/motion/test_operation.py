@@ -5,7 +5,7 @@ import threading
 import pytest
 
 from rotemina.app.motion.mailbox import RefusedError
-from rotemina.app.motion.operation import SCALES, Operation
+from rotemina.app.motion.operation import PENETRATION, SCALES, Operation
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.recording.reading import Recording
 from rotemina.app.motion.session import MotionSession
@@ -155,9 +155,27 @@ def test_scales_are_kept_and_a_bad_file_is_said(bench, tmp_path):
     other.operation.close()
     (tmp_path / "config" / SCALES).write_text("modes = 3", "utf-8")
     bad = Bench(tmp_path)
-    assert SCALES in bad.told[0]
+    assert SCALES in bad.operation.problems[0]
     assert bad.operation.teleoperator.scales == Scales()
     bad.operation.close()
+
+
+def test_parameters_of_the_penetration_are_kept_and_a_bad_file_is_told_at_the_start(tmp_path):
+    first = Bench(tmp_path)
+    assert first.operation.penetration_parameters == PenetrationParameters()
+    asked = PenetrationParameters(depth=2e-5, shape="table", table=((0.0, 0.0), (1.0, 1.0)))
+    first.operation.keep_penetration(asked)
+    first.operation.close()
+    other = Bench(tmp_path)
+    assert other.operation.penetration_parameters == asked
+    other.operation.close()
+    (tmp_path / "config" / PENETRATION).write_text("depth = 3", "utf-8")
+    bad = Bench(tmp_path)
+    assert bad.operation.penetration_parameters == PenetrationParameters()
+    assert bad.told == []  # nobody could read it yet
+    bad.operation.start()
+    bad.operation.close()
+    assert "depth = 3 m: must be 1 µm to 0.1 mm; presets are used" in bad.told[0]
 
 
 def test_its_threads_end(tmp_path):

@@ -4,6 +4,7 @@ from datetime import UTC, datetime
 
 import pytest
 
+from rotemina.app.motion.penetration.arming import planned
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.penetration import Penetration
 from rotemina.app.motion.penetration.run_log import RunLog
@@ -54,6 +55,10 @@ class Bench:
     def arm(self, **parameters):
         self.penetration.arm(PenetrationParameters(**parameters), self.clock())
         return self
+
+    def why_not(self, **parameters):
+        asked = PenetrationParameters(**parameters)
+        return self.penetration.why_not(asked, planned(self.session, asked))
 
     def press(self):
         self.penetration.press(self.clock())

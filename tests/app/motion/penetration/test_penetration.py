@@ -1,5 +1,6 @@
 """Whole runs on the simulator: success, every way to end one early, and what must never be."""
 
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -93,6 +94,32 @@ def test_the_thrust_goes_as_deep_as_asked_from_where_the_contact_was(bench):
     bench.until(Phase.HOLD)
     way = bench.places[-1][1] - bench.penetration._attempt.thrust_from
     assert way == pytest.approx(-50e-6, abs=1e-12)
+
+
+def test_what_speaks_against_arming_is_known_before_and_reserves_nothing(bench):
+    bench.ready()
+    assert bench.why_not() is None
+    assert "62 µm are needed" in bench.ready(start=32e-6).why_not()
+    assert bench.session.snapshot().owners == {}
+    bench.session.go_to({"x": 0.03})
+    bench.step()
+    assert "still moving" in bench.why_not()
+    bench.stepped.until_idle()
+    bench.session.reserve("joystick")
+    assert "driven by joystick" in bench.why_not()
+    bench.session.set_free("joystick")
+    bench.ready().arm()
+    bench.press().step()
+    assert "a penetration is approach" in bench.why_not()
+
+
+def test_the_thrust_can_be_drawn_beside_its_profile(bench):
+    bench.ready([cell(58e-6, 0.05)]).arm(drift=0.02).press()
+    trace = bench.until(Phase.HOLD).trace
+    wanted = trace.plan.wanted.position(trace.time_s) / 1.05  # the cell pushes back
+    assert np.abs(trace.way - wanted).max() < 0.04 * 50e-6
+    assert bench.run().trace is trace
+    assert not trace.way.flags.writeable
 
 
 @pytest.mark.parametrize("phase", MOVING)
@@ -281,8 +308,12 @@ def test_somebody_else_who_drives_is_not_pushed_aside(bench):
 )
 def test_what_is_impossible_is_refused_when_it_is_armed(bench, parameters, error, message):
     bench.ready()
-    with pytest.raises(error, match=message):
+    refused = None
+    with suppress(InputError):  # where there is no plan, there is nothing to ask about it
+        refused = bench.why_not(**parameters)
+    with pytest.raises(error, match=message) as caught:
         bench.arm(**parameters)
+    assert refused in (None, str(caught.value))
     assert bench.phase is Phase.DISARMED
     bench.step()
     assert bench.session.snapshot().owners == {}
