@@ -34,7 +34,7 @@ def main(folder: Path) -> int:
     count = 0
     with tempfile.TemporaryDirectory() as kept:
         settings = Settings(Path(kept) / "settings.json")
-        window = make_window(MotionSession(Simulator(robot)), settings, Path(kept))
+        window = make_window(MotionSession(Simulator(robot)), settings, Path(kept) / "played")
         window.show()
         window.workbench.start()
         diagnose(window)

@@ -22,6 +22,7 @@ from rotemina.plugins.trajectory.table import (
     COLUMNS,
     bound_text,
     cells,
+    gap_text,
     preset_bound,
     read_bound,
 )
@@ -158,8 +159,7 @@ class TrajectoryPanel(Panel):
         plan = self.workbench.plan
         if gaps and plan is not None:
             parts = [
-                f"{label(name)} {bound_text(gaps[name].rms, axis.unit)} rms, "
-                f"{bound_text(gaps[name].peak, axis.unit)} peak"
+                f"{label(name)} {gap_text(gaps[name], axis.unit)}"
                 for name, axis in plan.dry_run.axes.items()
                 if name in gaps
             ]

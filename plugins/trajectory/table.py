@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 from rotemina.app.display import PLAIN_NUMBER, Scale
+from rotemina.app.motion.deviation import Gap
 from rotemina.sim.errors import InputError
 from rotemina.sim.trajectory.dry_run import AxisFigures
 from rotemina.sim.units import from_unit, symbol, to_unit
@@ -40,8 +41,12 @@ def preset_bound(axis: AxisFigures) -> float:
 
 def bound_text(bound: float | None, si_unit: str) -> str:
     """Return a bound as the table writes it; nothing for none."""
-    unit = "urad" if si_unit == "rad" else "um"
-    return "" if bound is None else f"{float(to_unit(bound, unit)):.4g} {symbol(unit)}"
+    return "" if bound is None else _small(bound, si_unit, 4)
+
+
+def gap_text(gap: Gap, si_unit: str) -> str:
+    """Return how far model and real are apart."""
+    return f"{_small(gap.rms, si_unit, 3)} rms, {_small(gap.peak, si_unit, 3)} peak"
 
 
 def read_bound(text: str, si_unit: str) -> float | None:
@@ -62,6 +67,11 @@ def read_bound(text: str, si_unit: str) -> float | None:
             "point, or nothing"
         )
     return float(from_unit(float(number), unit))
+
+
+def _small(value: float, si_unit: str, digits: int) -> str:
+    unit = "urad" if si_unit == "rad" else "um"
+    return f"{float(to_unit(value, unit)):.{digits}g} {symbol(unit)}"
 
 
 def _rate(value: float, bound: float | None, si_unit: str, per: str) -> Cell:
