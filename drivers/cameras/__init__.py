@@ -1,0 +1,1 @@
+"""Cameras: their contract, and the built-in ones."""

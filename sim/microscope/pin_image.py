@@ -1,0 +1,124 @@
+"""The pin as it is seen: a tapering tube, blurred by how far each part is from focus."""
+
+from math import cos, erf, exp, hypot, sin, sqrt
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.microscope import kernels
+from rotemina.sim.microscope.kernels import Image
+from rotemina.sim.microscope.optics import Optics
+from rotemina.sim.microscope.scene import Pin
+
+_END_ON = 0.05  # sine of the angle between pin and view below which it is drawn as rings
+_SECTIONS_M = (0.0, 5e-6, 10e-6, 20e-6, 40e-6, 80e-6, 160e-6, 320e-6)
+_FINE = 4  # values of the rings' profile per px
+
+
+def body_direction(pin: Pin, tool_axis: FloatArray) -> FloatArray:
+    """Return the unit vector (3,) from the tip along the body.
+
+    The body leans from the tool axis (3,) towards +x by what the approach angle lacks to a right
+    one, and turns with the axis: by the smallest rotation that takes the z axis to it.
+    """
+    axis = np.asarray(tool_axis, dtype=np.float64)
+    rest = np.array([cos(pin.approach_rad), 0.0, sin(pin.approach_rad)])
+    # Rodrigues' formula for the rotation e_z → axis, without its singular form.
+    turn = np.array([-axis[1], axis[0], 0.0])  # e_z × axis
+    crossed = np.cross(turn, rest)
+    return np.asarray(rest + crossed + np.cross(turn, crossed) / (1.0 + axis[2]))
+
+
+def draw_pin(
+    light: Image, optics: Optics, pin: Pin, tip_m: FloatArray, tool_axis: FloatArray, focus_m: float
+) -> None:
+    """Darken ``light`` (height, width) by the pin, in place; its far parts stay untouched."""
+    body = body_direction(pin, tool_axis)
+    way = optics.mapping @ body
+    tip = optics.pixel_of(tip_m)
+    away = float(optics.depth_of(tip_m)) - focus_m
+    seen = hypot(*way) * optics.pixel_m  # foreshortening
+    if seen < _END_ON:
+        _draw_rings(light, optics, pin, tip, away, float(body @ optics.view[2]))
+        return
+    growth = pin.taper / seen
+    ends = (pin.tip_radius_m / optics.pixel_m, pin.shank_radius_m / optics.pixel_m)
+    direction = way / hypot(*way)
+    rise = float(body @ optics.view[2]) * optics.pixel_m / seen  # depth per px
+    box = _box(light, optics, tip, direction, (ends[0], growth, ends[1]), (away, rise))
+    if box is None:
+        return
+    half_depth = optics.depth_of_field_m / 2.0
+    kernels.draw_tube(
+        light[box],
+        _row(tip[0] - box[1].start, tip[1] - box[0].start),
+        _row(*direction),
+        _row(ends[0], growth, ends[1]),
+        _row(away / half_depth, rise / half_depth),
+        _row(optics.sharpest_px**2, optics.blur_px(0.0) ** 2 - optics.sharpest_px**2),
+        _row(pin.wall, pin.lumen, pin.bore),
+    )
+
+
+def _box(
+    light: Image,
+    optics: Optics,
+    tip: FloatArray,
+    way: FloatArray,
+    radius: tuple[float, float, float],
+    depth: tuple[float, float],
+) -> tuple[slice, slice] | None:
+    """Return rows and columns that the pin may darken, or None."""
+    height, width = light.shape
+    farthest = float(np.abs(tip).max()) + width + height  # px along the body, out of every picture
+    along = np.linspace(0.0, farthest, 256)
+    half = np.minimum(radius[0] + radius[1] * along, radius[2])
+    reach = half + kernels.REACH * optics.blur_px(depth[0] + depth[1] * along)
+    reach += along[1] * max(radius[1], 1.0)  # between two places
+    middle = tip + along[:, None] * way
+    touched = (
+        (middle[:, 0] + reach >= 0.0)
+        & (middle[:, 0] - reach <= width - 1.0)
+        & (middle[:, 1] + reach >= 0.0)
+        & (middle[:, 1] - reach <= height - 1.0)
+    )
+    if not touched.any():
+        return None
+    middle, reach = middle[touched], reach[touched, None]
+    low = np.floor((middle - reach).min(axis=0)).clip(0.0, [width, height]).astype(int)
+    high = np.ceil((middle + reach).max(axis=0) + 1.0).clip(0.0, [width, height]).astype(int)
+    return slice(low[1], high[1]), slice(low[0], high[0])
+
+
+def _draw_rings(
+    light: Image, optics: Optics, pin: Pin, tip: FloatArray, away: float, along: float
+) -> None:
+    """Draw a pin that is seen along its body: each section a blurred disc, the darkest counts."""
+    sections = np.array(_SECTIONS_M)
+    radii = np.minimum(pin.tip_radius_m + pin.taper * sections, pin.shank_radius_m) / optics.pixel_m
+    blurs = optics.blur_px(away + along * sections)
+    reach = float((radii + kernels.REACH * blurs).max())
+    distance = np.arange(0.0, reach, 1.0 / _FINE)
+    covered = np.max(
+        [_disc(distance, float(r), float(s)) for r, s in zip(radii, blurs, strict=True)], axis=0
+    )
+    bore = _disc(distance, float(radii[0]) * pin.bore, float(blurs[0]))
+    profile = np.append(1.0 - pin.wall * covered + pin.lumen * bore, [1.0, 1.0])
+    kernels.draw_radial(light, _row(*tip), profile.astype(np.float32), np.float32(_FINE))
+
+
+def _disc(distance: FloatArray, radius: float, blur: float) -> FloatArray:
+    """Return a disc blurred by a Gaussian, at distances (n,) from its middle.
+
+    Exact in the middle, ``1 − exp(−R²/2σ²)``, and the edge of a half plane for R ≫ σ.
+    """
+    share = 1.0 / (sqrt(2.0) * blur)
+    edges = [
+        np.array([erf(float(x)) for x in (radius + sign * distance) * share]) for sign in (-1, 1)
+    ]
+    strip = 0.5 * (edges[0] + edges[1])
+    return np.asarray(strip * (1.0 - exp(-((radius * share) ** 2))) / erf(radius * share))
+
+
+def _row(*values: float) -> Image:
+    return np.array(values, dtype=np.float32)
