@@ -110,7 +110,7 @@ class InputDevices:
             self._chosen = profile
             self._changed = True
             if profile is None:
-                self._use_automatic()
+                self._use_automatic(anew=True)
 
     def keep(self, profile: Profile) -> Path:
         """Write a profile into the user's folder, and return where it is.
@@ -281,10 +281,13 @@ class InputDevices:
             if self._chosen is None:
                 self._use_automatic()
 
-    def _use_automatic(self) -> None:
-        """Use what the user has kept for these devices, or else what their controls suggest."""
+    def _use_automatic(self, anew: bool = False) -> None:
+        """Use what the user has kept for these devices, or else what their controls suggest.
+
+        What is used now stays if it fits, unless one is to be found ``anew``.
+        """
         plugged = tuple(_plugged(device) for device in self._open.values())
-        if self._used is not None and _fits(self._used, plugged):
+        if not anew and self._used is not None and _fits(self._used, plugged):
             return
         kept = (listed.profile for listed in self.profiles if listed.profile is not None)
         for profile in (*kept, automatic_profile(plugged)):

@@ -153,6 +153,16 @@ def test_a_chosen_profile_stays_until_another_one_is_chosen(make, clock, stick):
     assert run(devices, clock).intent.deflections["x"] == 0.0
 
 
+def test_back_to_automatic_what_was_chosen_is_used_no_more(make, clock, stick):
+    mapping = DeviceMapping(key="hid:stick", axes=(AxisMapping(control="x", drives="zn"),))
+    devices = make(stick)
+    run(devices, clock)
+    devices.use(Profile(name="Other", devices=(mapping,)))
+    assert run(devices, clock).intent.deflections == {"zn": 0.0}
+    devices.use(None)
+    assert run(devices, clock).intent.deflections == {"x": 0.0, "y": 0.0, "z": 0.0}
+
+
 def test_a_profile_with_two_owners_of_one_axis_is_refused_and_the_one_before_stays(
     make, clock, stick
 ):

@@ -1,0 +1,171 @@
+"""The calibration of one device: measured in steps, then curve, sense and travel of each axis."""
+
+from PySide6.QtWidgets import QCheckBox, QFormLayout, QWidget
+
+from rotemina.app.motion.teleoperation.calibration import AxisCalibration
+from rotemina.app.motion.teleoperation.input_devices import Heard
+from rotemina.app.motion.teleoperation.operator_desk import DeviceView
+from rotemina.app.shell.controls import allow
+from rotemina.app.shell.theme import Theme
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.plugins.inputs.bars import Curve
+from rotemina.plugins.inputs.calibrating import Calibrating, summary
+from rotemina.plugins.inputs.measuring import Measuring
+from rotemina.plugins.inputs.number_field import NumberField
+from rotemina.plugins.inputs.section import Section, SteadyChoice, button
+
+_MM = 1e3
+
+
+class CalibrationSection(Section):
+    """Measuring, and the settings of each axis; used and kept when somebody says so."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__("Calibration")
+        self._workbench = workbench
+        self._all: dict[str, Calibrating] = {}
+        self._now: Calibrating | None = None
+        self._device: DeviceView | None = None
+        self.measuring = Measuring(workbench)
+        self.measuring.measured.connect(self._show_axis)
+        self.column.addWidget(self.measuring)
+        self.axis = SteadyChoice("Axis")
+        self.axis.currentIndexChanged.connect(lambda _: self._show_axis())
+        self.column.addWidget(self.axis)
+        self.summary = self.add_text()
+        self.curve = Curve(workbench.theme)
+        self.column.addWidget(self.curve)
+        self._make_fields()
+        self.keep = button("Keep", self._keep)
+        self.keep.setProperty("primary", True)
+        self.discard = button("Discard", self._discard)
+        self.defaults = button("Defaults", self._forget)
+        self.defaults.setToolTip("This axis as one that was never calibrated")
+        self.add_row(self.keep, self.discard, self.defaults)
+
+    def _make_fields(self) -> None:
+        about = "Half the width of the range about the centre that counts as centred, raw"
+        self.dead_zone = NumberField("Dead zone", "", about, 0.001, 0.5)
+        self.expo = NumberField("Expo", "", "Response curve: 0 linear, 1 finest near rest", 0, 1)
+        self.travel = NumberField(
+            "Travel", "mm", "Way of the grip from rest to an end", 0.1, 1000.0, optional=True
+        )
+        self.inverted = QCheckBox("Inverted")
+        self.inverted.setToolTip("The deflection has the other sign")
+        form = QFormLayout()
+        form.setContentsMargins(0, 0, 0, 0)
+        form.setVerticalSpacing(4)
+        form.addRow("Dead zone", self.dead_zone)
+        form.addRow("Expo", self.expo)
+        form.addRow("Travel, mm", self.travel)
+        form.addRow("", self.inverted)
+        self.fields = QWidget()
+        self.fields.setLayout(form)
+        self.column.addWidget(self.fields)
+        self.dead_zone.entered.connect(lambda value: self._change(dead_zone=value))
+        self.expo.entered.connect(lambda value: self._change(expo=value))
+        self.travel.entered.connect(
+            lambda value: self._change(travel_m=None if value is None else value / _MM)
+        )
+        self.inverted.clicked.connect(lambda on: self._change(inverted=on))
+
+    # --- what is shown ----------------------------------------------------------------------------
+
+    def set_theme(self, theme: Theme) -> None:
+        """Change the colours."""
+        self.curve.set_theme(theme)
+
+    def refresh(self, device: DeviceView | None, now_s: float) -> None:
+        """Show the calibration of a device."""
+        self._device = device
+        self._use(device)
+        now = self._now
+        if device is None or now is None:
+            return
+        self.heading.show_text(f"Calibration of {device.device.identity.name}")
+        self.measuring.refresh(now, device, now_s)
+        unchanged = None if now.changed else "nothing was changed"
+        allow(self.keep, unchanged, "Use this calibration from now on, and keep it for the device")
+        allow(self.discard, unchanged, "Go back to the calibration that is in use")
+        raw = next((a.raw for a in device.axes if a.control == self.axis.currentData()), None)
+        self.curve.show_curve(self._shown, raw)
+
+    def hear(self, heard: Heard) -> None:
+        """Take in what the devices have said."""
+        for key, readings in heard.readings.items():
+            if key in self._all:
+                self._all[key].hear(readings)
+
+    def leave(self) -> None:
+        """Forget what was not kept; somebody is told of it."""
+        lost = [one.device.identity.name for one in self._all.values() if one.changed]
+        self._all.clear()
+        self._now = None
+        if lost:
+            self._workbench.notify(
+                Level.WARNING, f"The changed calibration of {' and '.join(lost)} was not kept."
+            )
+
+    @property
+    def _shown(self) -> AxisCalibration:
+        axis = self.axis.currentData()
+        return AxisCalibration() if self._now is None else self._now.draft.axis(str(axis))
+
+    def _use(self, device: DeviceView | None) -> None:
+        """Have a draft for a device, a new one if it has come back as another."""
+        if device is None:
+            self._now = None
+            return
+        key = device.device.identity.key
+        one = self._all.get(key)
+        if one is None or one.device.axes != device.device.axes:
+            one = self._all[key] = Calibrating(device)
+        if one is not self._now:
+            self._now = one
+            self.axis.blockSignals(True)
+            self.axis.clear()
+            for axis in device.device.axes:
+                self.axis.addItem(axis, axis)
+            self.axis.blockSignals(False)
+            self._show_axis()
+
+    def _show_axis(self) -> None:
+        none = self.axis.count() == 0
+        for widget in (self.axis, self.curve, self.fields, self.defaults):
+            widget.setVisible(not none)
+        if none:
+            self.summary.setText("It has no axes: there is nothing to calibrate.")
+            return
+        one = self._shown
+        self.summary.setText(f"Says {summary(one)}.")
+        self.dead_zone.reset(one.dead_zone)
+        self.expo.reset(one.expo)
+        self.travel.reset(None if one.travel_m is None else _MM * one.travel_m)
+        self.inverted.setChecked(one.inverted)
+
+    # --- changes ----------------------------------------------------------------------------------
+
+    def _change(self, **changes: float | bool | None) -> None:
+        if self._now is not None:
+            now, axis = self._now, str(self.axis.currentData())
+            self._workbench.ask(lambda: now.change(axis, **changes))
+            self._show_axis()
+
+    def _forget(self) -> None:
+        if self._now is not None:
+            self._now.forget(str(self.axis.currentData()))
+            self._show_axis()
+
+    def _discard(self) -> None:
+        if self._now is not None:
+            self._now.discard()
+            self._show_axis()
+
+    def _keep(self) -> None:
+        if self._now is None:
+            return
+        now, identity = self._now, self._now.device.identity
+        devices = self._workbench.operation.devices
+        if self._workbench.ask(lambda: devices.calibrate(identity.key, now.draft)):
+            now.kept = now.draft
+            self._workbench.notify(Level.GOOD, f"The calibration of {identity.name} is kept.")

@@ -1,0 +1,122 @@
+"""What is plugged in, whether it drives, and what is wrong."""
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QFrame,
+    QLabel,
+    QListWidget,
+    QListWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.shell.controls import plain_tip
+from rotemina.plugins.inputs.section import Section, clear, quiet_text, show_text
+from rotemina.plugins.inputs.words import Entry, Trouble
+
+_MOST_ROWS = 4
+_ROOM = 6
+
+
+class DeviceList(Section):
+    """The devices, one of which is looked at.
+
+    Signals
+    -------
+    selected(str) : the key of the device that somebody wants to look at.
+    """
+
+    selected = Signal(str)
+
+    def __init__(self) -> None:
+        super().__init__("Devices")
+        self.none = self.add_text()
+        show_text(self.none, "None yet. Plug one in; it is found within a second.")
+        self.list = QListWidget()
+        self.list.setAccessibleName("Input devices that are plugged in")
+        self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.list.setTextElideMode(Qt.TextElideMode.ElideRight)
+        self.list.currentItemChanged.connect(lambda *_: self.selected.emit(self.key))
+        self.column.addWidget(self.list)
+        self._entries: tuple[Entry, ...] = ()
+
+    @property
+    def key(self) -> str:
+        """The device that is looked at; empty: there is none."""
+        item = self.list.currentItem()
+        return "" if item is None else str(item.data(Qt.ItemDataRole.UserRole))
+
+    def show_entries(self, entries: tuple[Entry, ...]) -> None:
+        """Show other devices; the one that is looked at stays."""
+        if entries == self._entries:
+            return
+        same = [one.key for one in entries] == [one.key for one in self._entries]
+        self._entries = entries
+        if not same:
+            self._fill(entries)
+        for row, entry in enumerate(entries):
+            item = self.list.item(row)
+            item.setText(f"{entry.name}  –  {entry.standing}\n{entry.key}")
+            item.setToolTip(plain_tip(entry.name, entry.key, entry.standing, entry.problem or ""))
+        self.none.setVisible(not entries)
+        self.list.setVisible(bool(entries))
+        if entries:
+            height = self.list.sizeHintForRow(0) * min(len(entries), _MOST_ROWS) + _ROOM
+            self.list.setFixedHeight(height)
+
+    def _fill(self, entries: tuple[Entry, ...]) -> None:
+        before = self.key
+        self.list.blockSignals(True)
+        self.list.clear()
+        for entry in entries:
+            item = QListWidgetItem(self.list)
+            item.setData(Qt.ItemDataRole.UserRole, entry.key)
+        keys = [entry.key for entry in entries]
+        self.list.setCurrentRow(keys.index(before) if before in keys else min(0, len(keys) - 1))
+        self.list.blockSignals(False)
+        if self.key != before:
+            self.selected.emit(self.key)
+
+
+class Troubles(QWidget):
+    """What is wrong, each in a frame."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._column = QVBoxLayout(self)
+        self._column.setContentsMargins(0, 0, 0, 0)
+        self._column.setSpacing(4)
+        self._shown: tuple[Trouble, ...] = ()
+
+    def show_troubles(self, troubles: tuple[Trouble, ...]) -> None:
+        """Show what is wrong now."""
+        if troubles == self._shown:
+            return
+        self._shown = troubles
+        clear(self._column)
+        for trouble in troubles:
+            self._column.addWidget(_frame(trouble))
+
+    @property
+    def text(self) -> str:
+        """All of it."""
+        return "\n".join(one.text for one in self._shown)
+
+
+def _frame(trouble: Trouble) -> QFrame:
+    frame = QFrame()
+    frame.setObjectName("question")
+    column = QVBoxLayout(frame)
+    column.setContentsMargins(8, 5, 8, 6)
+    for words in (trouble.text, trouble.remedy):
+        if words:
+            column.addWidget(_selectable(words))
+    return frame
+
+
+def _selectable(words: str) -> QLabel:
+    text = quiet_text()
+    text.setProperty("quiet", False)
+    text.setText(words)
+    text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+    return text

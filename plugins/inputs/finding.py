@@ -1,0 +1,57 @@
+"""*Move it now*: which control of a device is moved, for one row of the mapping. Free of Qt."""
+
+from rotemina.app.motion.teleoperation.detection import Detection, Findings, Kind
+from rotemina.app.motion.teleoperation.input_devices import Heard
+from rotemina.app.motion.teleoperation.operator_desk import DeviceView
+
+BUTTON_WAIT_S = 0.3  # a trigger tells its way first, and that it is pressed a moment later
+
+
+class Finding:
+    """Waits for one control to be moved.
+
+    Parameters
+    ----------
+    view : DeviceView
+        The device; what it said last is where its controls stand.
+    axis : bool
+        Whether it must be an axis. Otherwise a button goes before an axis: the trigger of many a
+        gamepad is both.
+    """
+
+    def __init__(self, view: DeviceView, *, axis: bool) -> None:
+        self._key = view.device.identity.key
+        kinds = (Kind.AXIS,) if axis else (Kind.BUTTON, Kind.AXIS)
+        self._detections = {kind: Detection([view.device], kind) for kind in kinds}
+        self._axis_since_s: float | None = None
+        if view.newest is not None:
+            for detection in self._detections.values():
+                detection.feed(self._key, view.newest)
+
+    def hear(self, heard: Heard) -> None:
+        """Take in what a step has read."""
+        for reading in heard.readings.get(self._key, ()):
+            for detection in self._detections.values():
+                detection.feed(self._key, reading)
+
+    def look(self, now_s: float) -> Findings:
+        """Return what was moved, once that is sure."""
+        found = {kind: detection.findings(now_s) for kind, detection in self._detections.items()}
+        button = found.get(Kind.BUTTON)
+        if button is None:
+            return found[Kind.AXIS]
+        axis = found[Kind.AXIS]
+        if button.detected is not None or axis.detected is None:
+            self._axis_since_s = None
+            return button if button.detected is not None else _both(button, axis)
+        if self._axis_since_s is None:
+            self._axis_since_s = now_s
+        return axis if now_s - self._axis_since_s >= BUTTON_WAIT_S else Findings(None, axis.message)
+
+
+def _both(button: Findings, axis: Findings) -> Findings:
+    """Return what there is to say while nothing was found: that several moved, if they did."""
+    for one in (button, axis):
+        if "together" in one.message:
+            return one
+    return Findings(None, "press the button, or move the axis, now")

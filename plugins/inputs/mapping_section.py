@@ -1,0 +1,182 @@
+"""The mapping of one device: which control does what, found by moving it."""
+
+from collections.abc import Callable
+
+from PySide6.QtWidgets import QGridLayout
+
+from rotemina.app.motion.teleoperation.detection import Detected
+from rotemina.app.motion.teleoperation.devices_view import DevicesView
+from rotemina.app.motion.teleoperation.input_devices import Heard
+from rotemina.app.motion.teleoperation.operator_desk import DeviceView
+from rotemina.app.motion.teleoperation.profile import Profile, Seat
+from rotemina.app.shell.controls import allow
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.plugins.inputs.edits import Edited, exchanged, threshold, turned
+from rotemina.plugins.inputs.finding import Finding
+from rotemina.plugins.inputs.mapping_rows import ActionRow, Row, TargetRow
+from rotemina.plugins.inputs.profiles import ProfileChoice
+from rotemina.plugins.inputs.section import Section, SteadyChoice, button, quiet_text
+from rotemina.plugins.inputs.words import ACTIONS, axis_targets, way_of
+from rotemina.sim.errors import InputError
+
+HINT = "Press a field, then move the control that is to do it."
+_SEATS = {"Trainer": Seat.TRAINER, "Trainee": Seat.TRAINEE, "Does nothing": None}
+
+
+class MappingSection(Section):
+    """What the controls of the device that is looked at do.
+
+    Changes are used at once; nothing is sent while they are made.
+    """
+
+    def __init__(self, workbench: Workbench, profiles: ProfileChoice) -> None:
+        super().__init__("Mapping")
+        self._workbench = workbench
+        self._devices = workbench.operation.devices
+        self._profiles = profiles
+        self._device: DeviceView | None = None
+        self._view = DevicesView()
+        self._finding: Finding | None = None
+        self._row: Row | None = None
+        self.seat = SteadyChoice("Seat of the device")
+        for name, seat in _SEATS.items():
+            self.seat.addItem(name, seat)
+        self.seat.activated.connect(lambda _: self._choose_seat())
+        self.exchange = button("Exchange seats", self._exchange)
+        self.add_row(self.seat, self.exchange)
+        self.message = quiet_text()  # placed where it stays in sight
+        self.message.setText(HINT)
+        grid = QGridLayout()
+        grid.setHorizontalSpacing(5)
+        grid.setVerticalSpacing(3)
+        grid.setColumnStretch(0, 3)
+        grid.setColumnStretch(1, 4)
+        self.column.addLayout(grid)
+        self.targets = {
+            target: TargetRow(target, grid) for target in axis_targets(tuple(workbench.robot.axes))
+        }
+        self.actions = {action: ActionRow(action, grid) for action in ACTIONS}
+        for row in self._rows:
+            row.asked.connect(lambda row=row: self._ask(row))
+        for target, row in self.targets.items():
+            row.cleared.connect(lambda t=target: self._apply(lambda e: e.without_axis(t)))
+            row.changed.connect(lambda turn, t=target: self._invert(t, bool(turn)))
+        for action, row in self.actions.items():
+            row.cleared.connect(lambda a=action: self._apply(lambda e: e.without_action(a)))
+            row.changed.connect(lambda at, a=row: self._use_threshold(a, float(at)))
+
+    @property
+    def _rows(self) -> tuple[Row, ...]:
+        return (*self.targets.values(), *self.actions.values())
+
+    @property
+    def _edited(self) -> Edited:
+        assert self._device is not None
+        plugged = tuple(one.device for one in self._view.devices)
+        return Edited(self._devices.profile, self._device.device, plugged)
+
+    # --- what is shown ----------------------------------------------------------------------------
+
+    def refresh(self, view: DevicesView, device: DeviceView | None, now_s: float) -> None:
+        """Show the mapping of a device."""
+        if _key(device) != _key(self._device):
+            self.cancel()
+        self._view, self._device = view, device
+        if device is None:
+            return
+        self.heading.show_text(f"Mapping of {device.device.identity.name}")
+        self._look(now_s)
+        edited = self._edited
+        self.seat.select(None if edited.mapping is None else edited.mapping.seat)
+        profile = self._devices.profile
+        seats = {each.seat for each in profile.devices} if profile is not None else set()
+        alone = None if len(seats) > 1 else "all devices of the profile are at one seat"
+        allow(self.exchange, alone, "The trainer's devices become the trainee's, and theirs his")
+        for row in self._rows:
+            row.show_edited(edited, self.message.text() if row is self._row else None)
+
+    def hear(self, heard: Heard) -> None:
+        """Take in what the devices have said."""
+        if self._finding is not None:
+            self._finding.hear(heard)
+
+    # --- finding a control ------------------------------------------------------------------------
+
+    def cancel(self) -> None:
+        """Look for no control any more."""
+        self._finding = self._row = None
+        self._tell(HINT)
+
+    def _ask(self, row: Row) -> None:
+        again = row is self._row
+        self.cancel()
+        if not again and self._device is not None:
+            self._row = row
+            self._finding = Finding(self._device, axis=isinstance(row, TargetRow))
+
+    def _look(self, now_s: float) -> None:
+        if self._finding is None or self._row is None:
+            return
+        row, found = self._row, self._finding.look(now_s)
+        if found.detected is not None:
+            self.cancel()
+            self._take(row, found.detected)
+        elif isinstance(row, TargetRow):
+            self._tell(f"{row.name}: {found.message}, {way_of(row.target)}. Press again to cancel.")
+        else:
+            self._tell(f"{row.name}: {found.message}. Press again to cancel.")
+
+    def _take(self, row: Row, found: Detected) -> None:
+        assert self._device is not None
+        calibration = self._device.calibration
+        if isinstance(row, TargetRow):
+            inverted = turned(found, calibration)
+            self._apply(lambda e: e.with_axis(row.target, found.control, inverted=inverted))
+        elif isinstance(row, ActionRow):
+            at = threshold(found, calibration)
+            self._apply(lambda e: e.with_action(row.action, found.control, at))
+
+    # --- changes ----------------------------------------------------------------------------------
+
+    def _invert(self, target: str, inverted: bool) -> None:
+        mapping = self._edited.axis(target)
+        if mapping is not None:
+            control = mapping.control
+            self._apply(lambda e: e.with_axis(target, control, inverted=inverted))
+
+    def _use_threshold(self, row: ActionRow, percent: float) -> None:
+        mappings = self._edited.actions(row.action)
+        if len(mappings) == 1 and mappings[0].at is not None:
+            before = mappings[0]
+            if not self._apply(lambda e: e.with_threshold(row.action, percent / 100.0)):
+                row.at.reset(100.0 * (before.at or 0.0))
+
+    def _choose_seat(self) -> None:
+        seat = self.seat.currentData()
+        edited = self._edited
+        if seat is not (None if edited.mapping is None else edited.mapping.seat):
+            self._apply(lambda e: e.with_seat(seat))
+
+    def _exchange(self) -> None:
+        profile = self._devices.profile
+        if profile is not None:
+            self._apply(lambda _: exchanged(profile))
+
+    def _apply(self, change: Callable[[Edited], Profile]) -> bool:
+        """Use a changed profile; what is refused is told here and as a notice."""
+        try:
+            self._profiles.edit(change(self._edited))
+        except InputError as error:
+            self._tell(f"Refused: {error}")
+            self._workbench.notify(Level.ERROR, str(error))
+            return False
+        self._tell(HINT)
+        return True
+
+    def _tell(self, words: str) -> None:
+        if words != self.message.text():
+            self.message.setText(words)
+
+
+def _key(device: DeviceView | None) -> str:
+    return "" if device is None else device.device.identity.key

@@ -1,0 +1,121 @@
+"""The steps of measuring a device: which axes, at rest, to all ends, what came of it."""
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QVBoxLayout, QWidget
+
+from rotemina.app.motion.teleoperation.operator_desk import DeviceView
+from rotemina.app.shell.controls import allow
+from rotemina.app.shell.workbench import Workbench
+from rotemina.plugins.inputs.calibrating import Calibrating, Step
+from rotemina.plugins.inputs.section import button, clear, quiet_text, show_text
+
+_TEXTS = {
+    Step.EDIT: "Choose the axes to measure. Tick those that rest at an end: triggers, pedals.",
+    Step.REST: "1 of 2: let go of the device, and leave it alone.",
+    Step.SWEEP: "2 of 2: move each axis to all its ends, some times.",
+}
+
+
+class Measuring(QWidget):
+    """Measures the axes of a device.
+
+    Signals
+    -------
+    measured() : there is something new in the draft.
+    """
+
+    measured = Signal()
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__()
+        self._workbench = workbench
+        self._now: Calibrating | None = None
+        self._device: DeviceView | None = None
+        self._now_s = 0.0
+        self.text = quiet_text()
+        self.wanted: dict[str, QCheckBox] = {}
+        self.one_sided: dict[str, QCheckBox] = {}
+        self.choice = QWidget()
+        self._grid = QGridLayout(self.choice)
+        self._grid.setContentsMargins(0, 0, 0, 0)
+        self._grid.setVerticalSpacing(2)
+        self.problems = quiet_text()
+        self.next = button("Measure …", self._next)
+        self.cancel = button("Cancel", self._cancel)
+        row = QHBoxLayout()
+        row.setSpacing(6)
+        row.addWidget(self.next, 1)
+        row.addWidget(self.cancel)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(4)
+        for widget in (self.text, self.choice, self.problems):
+            column.addWidget(widget)
+        column.addLayout(row)
+
+    def refresh(self, now: Calibrating, device: DeviceView, now_s: float) -> None:
+        """Show where the measurement of a device is."""
+        if now is not self._now:
+            self._now = now
+            self._offer(now)
+        self._device, self._now_s = device, now_s
+        self.setVisible(bool(device.device.axes))
+        show_text(self.text, _TEXTS[now.step])
+        self.choice.setVisible(now.step is Step.EDIT)
+        self.cancel.setVisible(now.step is not Step.EDIT)
+        self._show_problems(now)
+        self._show_next(now, now_s)
+
+    def _show_problems(self, now: Calibrating) -> None:
+        problems = now.missing if now.step is Step.SWEEP else now.problems
+        lead = "" if now.step is Step.SWEEP or not problems else "Left as they were:\n"
+        show_text(self.problems, lead + "\n".join(problems.values()) if problems else "")
+
+    def _show_next(self, now: Calibrating, now_s: float) -> None:
+        if now.step is Step.EDIT:
+            why = None if any(box.isChecked() for box in self.wanted.values()) else "none is ticked"
+            self.next.setText("Measure …")
+            allow(self.next, why, "Measure rest and ends of the ticked axes")
+        elif now.step is Step.REST:
+            left_s = now.rest_left_s(now_s)
+            self.next.setText("It rests: next" if left_s == 0.0 else f"{left_s:.1f} s …")
+            allow(
+                self.next, None if left_s == 0.0 else "its noise is measured", "Go on to the ends"
+            )
+        else:
+            good = len(now.ranges) and not now.missing
+            self.next.setText("Done" if good else "Done, without these")
+            allow(self.next, None, "Take over what was measured well")
+
+    def _next(self) -> None:
+        now, device = self._now, self._device
+        if now is None or device is None:
+            return
+        if now.step is Step.EDIT:
+            wanted = [axis for axis, box in self.wanted.items() if box.isChecked()]
+            sides = [axis for axis, box in self.one_sided.items() if box.isChecked()]
+            last, now_s = device.newest, self._now_s
+            self._workbench.ask(lambda: now.begin(wanted, sides, last, now_s))
+        elif now.step is Step.REST:
+            now.sweep()
+        else:
+            now.finish()
+            self.measured.emit()
+
+    def _cancel(self) -> None:
+        if self._now is not None:
+            self._now.cancel()
+
+    def _offer(self, now: Calibrating) -> None:
+        clear(self._grid)
+        self.wanted, self.one_sided = {}, {}
+        for row, axis in enumerate(now.device.axes):
+            wanted, side = QCheckBox(axis), QCheckBox("rests at an end")
+            wanted.setChecked(axis in now.measurable)
+            wanted.setAccessibleName(f"Measure axis {axis}")
+            side.setChecked(axis in now.one_sided)
+            side.setAccessibleName(f"Axis {axis} rests at an end")
+            self._grid.addWidget(wanted, row, 0)
+            self._grid.addWidget(side, row, 1, Qt.AlignmentFlag.AlignLeft)
+            self.wanted[axis], self.one_sided[axis] = wanted, side
+        self._grid.setColumnStretch(1, 1)

@@ -1,0 +1,91 @@
+"""A field for one number with its unit; what is no number in bounds is refused and marked."""
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QLineEdit, QWidget
+
+from rotemina.app.display import PLAIN_NUMBER
+from rotemina.app.shell.controls import plain_tip
+
+
+class NumberField(QLineEdit):
+    """A field for one number.
+
+    Parameters
+    ----------
+    name, unit, about : str
+        Its accessible name, and what its tooltip says.
+    low, high : float
+        In the shown unit.
+    optional : bool
+        Whether it may be empty.
+
+    Signals
+    -------
+    entered(object) : somebody has typed another number; None: it was emptied.
+    """
+
+    entered = Signal(object)
+
+    def __init__(
+        self,
+        name: str,
+        unit: str,
+        about: str,
+        low: float,
+        high: float,
+        *,
+        optional: bool = False,
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._unit, self._low, self._high, self._optional = unit, low, high, optional
+        self._bounds = f"{low:g} to {high:g} {unit}".rstrip()
+        self._about = f"{about}: {self._bounds}" + (", or nothing" if optional else "")
+        self._value: float | None = None
+        self._wrong = ""
+        self.setAccessibleName(f"{name}, {unit}" if unit else name)
+        self.setAlignment(Qt.AlignmentFlag.AlignRight)
+        self.setToolTip(plain_tip(self._about))
+        self.editingFinished.connect(self._commit)
+
+    def show_number(self, value: float | None) -> None:
+        """Show a number; what somebody is typing stays."""
+        self._value = value
+        if not self.hasFocus() and not self._wrong:
+            self.setText(self._shown())
+
+    def reset(self, value: float | None) -> None:
+        """Show a number, whatever was typed."""
+        self._value = value
+        self._mark("")
+        self.setText(self._shown())
+
+    def _shown(self) -> str:
+        return "" if self._value is None else f"{self._value:.4g}"
+
+    def _commit(self) -> None:
+        text = self.text().strip()
+        if text == self._shown():
+            self._mark("")
+            return
+        if not text and self._optional:
+            self._take(None)
+        elif PLAIN_NUMBER.fullmatch(text) is None:
+            self._mark(f"{text!r} is no number; type one with a decimal point, {self._bounds}")
+        elif not self._low <= float(text) <= self._high:
+            self._mark(f"{text} {self._unit}".rstrip() + f" is refused: must be {self._bounds}")
+        else:
+            self._take(float(text))
+
+    def _take(self, value: float | None) -> None:
+        self._value = value
+        self._mark("")
+        self.entered.emit(value)
+
+    def _mark(self, wrong: str) -> None:
+        self._wrong = wrong
+        if self.property("bad") != bool(wrong):
+            self.setProperty("bad", bool(wrong))
+            self.style().unpolish(self)
+            self.style().polish(self)
+        self.setToolTip(plain_tip(self._about, wrong))

@@ -1,0 +1,209 @@
+"""Input devices: what is plugged in, what it says and does, and setting it up."""
+
+from collections import deque
+from collections.abc import Callable
+from enum import StrEnum
+
+from PySide6.QtCore import Qt, QTimer
+from PySide6.QtGui import QHideEvent
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QPushButton,
+    QScrollArea,
+    QTabBar,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.motion.teleoperation.devices_view import DevicesView
+from rotemina.app.motion.teleoperation.input_devices import Heard
+from rotemina.app.motion.teleoperation.operator_desk import DeviceView
+from rotemina.app.panel import STALE_S, Area, Panel
+from rotemina.app.shell.phase import Tone, set_tone
+from rotemina.app.shell.theme import Theme
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.plugins.inputs.calibration_section import CalibrationSection
+from rotemina.plugins.inputs.device_list import DeviceList, Troubles
+from rotemina.plugins.inputs.live import LiveSection
+from rotemina.plugins.inputs.mapping_section import MappingSection
+from rotemina.plugins.inputs.profile_section import ProfileSection
+from rotemina.plugins.inputs.profiles import ProfileChoice
+from rotemina.plugins.inputs.section import quiet_text
+from rotemina.plugins.inputs.words import NOTHING_SENT, entries, headline, troubles
+
+_MOST_HEARD = 2000  # steps between two frames: some seconds
+
+
+class Page(StrEnum):
+    """What is in sight while the devices are set up."""
+
+    DEVICES = "Devices"
+    MAPPING = "Mapping"
+    CALIBRATION = "Calibration"
+
+
+class InputsPanel(Panel):
+    """Devices, profile, live bars; while it is set up, mapping and calibration."""
+
+    title = "Input devices"
+    area = Area.RIGHT
+    order = 25
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__(workbench)
+        self._devices = workbench.operation.devices
+        self._heard: deque[Heard] = deque(maxlen=_MOST_HEARD)
+        self._leave_listening: Callable[[], None] | None = None
+        axes = tuple(workbench.robot.axes)
+        self.profiles = ProfileChoice(self._devices, workbench.settings, axes)
+        wrong = self.profiles.begin()
+        if wrong is not None:  # told when the window is there to show it
+            QTimer.singleShot(0, self, lambda: workbench.notify(Level.WARNING, wrong))
+        self._make_parts()
+        self._lay_out()
+        workbench.refreshed.connect(lambda _: self.refresh())
+        workbench.theme_changed.connect(self._use_theme)
+        workbench.closing.connect(self.leave)
+        self.refresh()
+
+    def _make_parts(self) -> None:
+        bench = self.workbench
+        self.headline = quiet_text()
+        self.banner = quiet_text()
+        self.banner.setText(NOTHING_SENT)
+        set_tone(self.banner, Tone.WARNING)
+        self.set_up = QPushButton("Set up …")
+        self.set_up.setCheckable(True)
+        self.set_up.setToolTip("Map and calibrate; meanwhile nothing is sent but stops")
+        self.set_up.toggled.connect(self._toggle)
+        self.tabs = QTabBar()
+        self.tabs.setAccessibleName("What is set up")
+        self.tabs.setDrawBase(False)
+        for page in Page:
+            self.tabs.addTab(page)
+        self.tabs.currentChanged.connect(lambda _: self.refresh())
+        self.troubles = Troubles()
+        self.list = DeviceList()
+        self.live = LiveSection(bench.theme)
+        self.profile = ProfileSection(bench, self.profiles)
+        self.mapping = MappingSection(bench, self.profiles)
+        self.calibration = CalibrationSection(bench)
+
+    def _lay_out(self) -> None:
+        head = QVBoxLayout()
+        head.setContentsMargins(10, 8, 10, 4)
+        head.setSpacing(6)
+        row = QHBoxLayout()
+        row.setSpacing(8)
+        row.addWidget(self.headline, 1)
+        row.addWidget(self.set_up)
+        head.addWidget(self.banner)
+        head.addLayout(row)
+        head.addWidget(self.tabs)
+        head.addWidget(self.mapping.message)
+        content = QWidget()
+        column = QVBoxLayout(content)
+        column.setContentsMargins(10, 0, 10, 8)
+        column.setSpacing(4)
+        for part in (self.list, self.live, self.troubles):
+            column.addWidget(part)
+        for part in (self.mapping, self.calibration, self.profile):
+            column.addWidget(part)
+        column.addStretch(1)
+        self._scroll = QScrollArea()
+        self._scroll.setObjectName("panelScroll")
+        self._scroll.setFrameShape(QFrame.Shape.NoFrame)
+        self._scroll.setWidgetResizable(True)
+        self._scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self._scroll.setWidget(content)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        outer.setSpacing(0)
+        outer.addLayout(head)
+        outer.addWidget(self._scroll, 1)
+        bar = self._scroll.verticalScrollBar().sizeHint().width()
+        self.setMinimumWidth(max(content.minimumSizeHint().width() + bar, 300))
+        self._show_page(None)
+
+    # --- what is shown ----------------------------------------------------------------------------
+
+    def refresh(self) -> None:
+        """Show the devices as they were at their latest step."""
+        if not self.isVisible() and self._leave_listening is None and self.list.list.count():
+            return
+        view, now_s = self._devices.view, self.workbench.operation.clock()
+        while self._heard:
+            heard = self._heard.popleft()
+            self.mapping.hear(heard)
+            self.calibration.hear(heard)
+        hub = self._devices.hub
+        wrong = troubles(view, hub)
+        self.headline.setText(headline(view, len(wrong)))
+        self.troubles.show_troubles(wrong)
+        self.list.show_entries(entries(view, hub))
+        device = next((d for d in view.devices if d.device.identity.key == self.list.key), None)
+        self._show_page(device)
+        if self.live.isVisibleTo(self):
+            self.live.show_device(device, _age(view, now_s))
+        self.profile.refresh(view)
+        if self.set_up.isChecked():
+            self.mapping.refresh(view, device, now_s)
+            self.calibration.refresh(device, now_s)
+
+    @property
+    def page(self) -> Page:
+        """What is in sight."""
+        return list(Page)[self.tabs.currentIndex()] if self.set_up.isChecked() else Page.DEVICES
+
+    def _show_page(self, device: DeviceView | None) -> None:
+        setting_up, page = self.set_up.isChecked(), self.page
+        self.headline.setVisible(not setting_up)
+        self.banner.setVisible(setting_up)
+        self.tabs.setVisible(setting_up)
+        self.list.setVisible(page is Page.DEVICES)
+        self.live.setVisible(page is Page.DEVICES and device is not None)
+        self.troubles.setVisible(page is Page.DEVICES and bool(self.troubles.text))
+        self.mapping.setVisible(page is Page.MAPPING and device is not None)
+        self.mapping.message.setVisible(self.mapping.isVisibleTo(self))
+        self.calibration.setVisible(page is Page.CALIBRATION and device is not None)
+        self.profile.setVisible(page is not Page.CALIBRATION)
+
+    def _use_theme(self, theme: Theme) -> None:
+        self.live.set_theme(theme)
+        self.calibration.set_theme(theme)
+
+    # --- setting up -------------------------------------------------------------------------------
+
+    def leave(self) -> None:
+        """Set up no more: what the devices ask for is sent again, after all were at rest."""
+        self.set_up.setChecked(False)
+
+    def hideEvent(self, event: QHideEvent) -> None:  # noqa: N802 (Qt's name)
+        """Leave what nobody can see: a stick that does nothing must have its reason in sight."""
+        self.leave()
+        super().hideEvent(event)
+
+    def _toggle(self, on: bool) -> None:
+        self.set_up.setText("Leave the set-up" if on else "Set up …")
+        if on:
+            self.tabs.setCurrentIndex(list(Page).index(Page.MAPPING))
+            self._heard.clear()
+            self._devices.open_mapping()
+            self._leave_listening = self._devices.listen(self._heard.append)
+            self.refresh()
+            return
+        if self._leave_listening is not None:
+            self._leave_listening()
+            self._leave_listening = None
+        self._heard.clear()
+        self.mapping.cancel()
+        self.calibration.leave()
+        self._devices.close_mapping()
+        self.refresh()
+
+
+def _age(view: DevicesView, now_s: float) -> float | None:
+    """Return how old a view is, where it is too old."""
+    age_s = now_s - view.host_time_s
+    return age_s if age_s > STALE_S else None

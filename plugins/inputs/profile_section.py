@@ -1,0 +1,144 @@
+"""Which profile is used; keeping a changed one."""
+
+from PySide6.QtGui import QStandardItemModel
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLineEdit, QToolButton, QVBoxLayout, QWidget
+
+from rotemina.app.motion.teleoperation.devices_view import DevicesView
+from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.plugins.inputs.profiles import AUTOMATIC, Offer, ProfileChoice
+from rotemina.plugins.inputs.section import Section, SteadyChoice, button, quiet_text, show_text
+
+_FIRST = "save or discard the changes first"
+
+
+class ProfileSection(Section):
+    """The choice of a profile and, while input devices are set up, what becomes of changes."""
+
+    def __init__(self, workbench: Workbench, profiles: ProfileChoice) -> None:
+        super().__init__("Profile")
+        self._workbench = workbench
+        self.profiles = profiles
+        self.choice = SteadyChoice("Profile")
+        self.again = QToolButton()
+        self.again.setText("⟳")
+        self.again.setAccessibleName("Look for profiles again")
+        self.again.setToolTip("Look into the folder of profiles again")
+        self.add_row(self.choice, self.again)
+        self.state = self.add_text()
+        self.name = QLineEdit()
+        self.name.setAccessibleName("Name to keep the profile under")
+        self.name.setToolTip("Letters, digits, blanks and ( ) . , + - _; at most 60")
+        self.name.setMaxLength(60)
+        self.save = button("Save", self._ask_save)
+        self.discard = button("Discard", self._discard)
+        self.keeping = QWidget()
+        row = QHBoxLayout(self.keeping)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(6)
+        row.addWidget(self.name, 1)
+        row.addWidget(self.save)
+        row.addWidget(self.discard)
+        self.column.addWidget(self.keeping)
+        self.question = _Overwrite()
+        self.question.yes.clicked.connect(lambda _: self._save())
+        self.column.addWidget(self.question)
+        self._offers: tuple[Offer, ...] = ()
+        self.choice.activated.connect(lambda _: self._choose())
+        self.again.clicked.connect(lambda _: self._fill(profiles.look()))
+        self.name.returnPressed.connect(self._ask_save)
+        self._suggested = ""
+        self._fill(profiles.offers)
+
+    def refresh(self, view: DevicesView) -> None:
+        """Show what is used."""
+        profiles = self.profiles
+        self._fill(profiles.offers)
+        self.choice.select(profiles.chosen)
+        allow(self.choice, _FIRST if profiles.changed else None, "What the controls do")
+        show_text(self.state, _state(view, profiles))
+        self.keeping.setVisible(view.setting_up)
+        if not view.setting_up:
+            self.question.hide()
+            return
+        self._suggest()
+        nothing = None if view.profile is not None else "there is no profile: map a control first"
+        allow(self.save, nothing, "Keep the profile under this name, and use it from now on")
+        unchanged = None if profiles.changed else "nothing was changed"
+        allow(self.discard, unchanged, "Go back to the profile as it was chosen")
+
+    def _suggest(self) -> None:
+        """Write a name, unless somebody has written one."""
+        suggestion = self.profiles.suggestion()
+        if suggestion != self._suggested and self.name.text() == self._suggested:
+            self.name.setText(suggestion)
+            self._suggested = suggestion
+
+    def _fill(self, offers: tuple[Offer, ...]) -> None:
+        if offers == self._offers:
+            return
+        self._offers = offers
+        self.choice.clear()
+        model = self.choice.model()
+        assert isinstance(model, QStandardItemModel)
+        for offer in offers:
+            self.choice.addItem(offer.text, offer.name)
+            item = model.item(self.choice.count() - 1)
+            item.setEnabled(offer.problem is None)
+            item.setToolTip(plain_tip(offer.problem or ""))
+        self.choice.select(self.profiles.chosen)
+
+    def _choose(self) -> None:
+        name = str(self.choice.currentData())
+        if not self._workbench.ask(lambda: self.profiles.choose(name)):
+            self.choice.select(self.profiles.chosen)
+
+    def _ask_save(self) -> None:
+        name = self.name.text().strip()
+        if name != self.profiles.chosen and self.profiles.exists(name):
+            self.question.ask(name)
+        else:
+            self._save()
+
+    def _save(self) -> None:
+        self.question.hide()
+        name = self.name.text().strip()
+        if self._workbench.ask(lambda: self.profiles.save(name)):
+            self._suggested = name
+            self._workbench.notify(Level.GOOD, f"Input devices: profile {name!r} is kept.")
+
+    def _discard(self) -> None:
+        self._workbench.ask(self.profiles.discard)
+
+
+class _Overwrite(QFrame):
+    """Asks whether another profile is to be overwritten."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setObjectName("question")
+        self.text = quiet_text()
+        self.yes = button("Overwrite", self.hide)
+        self.no = button("Cancel", self.hide)
+        row = QHBoxLayout()
+        row.addWidget(self.yes, 1)
+        row.addWidget(self.no, 1)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(8, 6, 8, 8)
+        column.addWidget(self.text)
+        column.addLayout(row)
+        self.hide()
+
+    def ask(self, name: str) -> None:
+        """Ask about a name."""
+        self.text.setText(f"There is a profile {name!r} already. Overwrite it?")
+        self.show()
+        self.no.setFocus()  # what Enter chooses
+
+
+def _state(view: DevicesView, profiles: ProfileChoice) -> str:
+    if profiles.changed:
+        return "Changed, and not kept: save it, or it is lost when the program ends."
+    if profiles.chosen == AUTOMATIC and view.profile is not None:
+        return f"In use: {view.profile.name}"
+    return ""
