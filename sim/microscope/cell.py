@@ -158,7 +158,7 @@ def _pierced_on_the_way(cell: Cell, state: CellState, tip_m: FloatArray) -> Vect
         return None
     start = np.array(state.tip_m)
     found = _crossings(cell, start, tip_m)
-    if found is None or not (0.0 <= found[0] and found[1] <= 1.0):
+    if found is None or found[0] < 0.0 or found[1] > 1.0:
         return None
     length = (found[1] - found[0]) * float(np.linalg.norm(tip_m - start))
     return _vector(start + found[0] * (tip_m - start)) if length > cell.breaking_m else None

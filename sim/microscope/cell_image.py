@@ -141,9 +141,7 @@ def _nucleus(
     centre_m = np.array(cell.centre_m) + np.array(cell.nucleus_m)
     at = optics.pixel_of(centre_m)
     flat = np.array(cell.radii_m) / max(cell.radii_m)  # as flat as the cell
-    outline = optics.pixel_of(
-        _outline(optics, tuple(centre_m), cell.nucleus_radius_m * flat)  # type: ignore[arg-type]
-    )
+    outline = optics.pixel_of(_outline(optics, tuple(centre_m), cell.nucleus_radius_m * flat))
     centre = (at - corner).astype(np.float32)
     distance = kernels.outside_of(_polar(outline - at), centre, shape)
     blur = _blur(optics, centre_m, focus_m)

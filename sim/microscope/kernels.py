@@ -11,7 +11,7 @@ Numbers = NDArray[np.uint16]
 REACH = 4.0
 
 _ROOT_HALF = np.float32(0.7071067811865476)
-_ONE, _HALF, _ZERO = np.float32(1.0), np.float32(0.5), np.float32(0.0)
+_ONE, _HALF, _ZERO, _FAR = np.float32(1.0), np.float32(0.5), np.float32(0.0), np.float32(4.0)
 # Abramowitz and Stegun, Handbook of Mathematical Functions (1964), 7.1.28: within 3e-7.
 _A = tuple(
     np.float32(a)
@@ -22,7 +22,7 @@ _A = tuple(
 @numba.njit(cache=True, inline="always", error_model="numpy", fastmath=True)
 def _erf(x: np.float32) -> np.float32:
     """Return the error function; without a branch, so that the loop around it is vectorised."""
-    y = abs(x)
+    y = min(abs(x), _FAR)  # beyond it nothing changes, and powers of it stay finite
     p = y * (_A[0] + y * (_A[1] + y * (_A[2] + y * (_A[3] + y * (_A[4] + y * _A[5])))))
     p = p + _ONE
     p2 = p * p
@@ -41,6 +41,7 @@ def _between(across: np.float32, radius: np.float32, share: np.float32) -> np.fl
 @numba.njit(cache=True, error_model="numpy", fastmath=True)
 def draw_tube(
     light: Image,
+    box: tuple[int, int, int, int],
     tip: Image,
     way: Image,
     radius: Image,
@@ -53,6 +54,8 @@ def draw_tube(
     Parameters
     ----------
     light : (rows, columns)
+    box : tuple of int
+        First and last row, and column, in which there is anything to draw; the last left out.
     tip : (2,)
         Column and row of the tip.
     way : (2,)
@@ -67,13 +70,14 @@ def draw_tube(
         Share lost in the tube, less through its bore, and the bore's radius over the tube's.
     """
     # Read once: were they arrays in the loop, the compiler could not rule out that it writes them.
-    u0, v0, eu, ev = tip[0], tip[1], way[0], way[1]
+    u0, v0, eu, ev = tip[0] - np.float32(box[2]), tip[1], way[0], way[1]
     narrow, growth, widest = radius[0], radius[1], radius[2]
     away, rise, airy, pixel = depth[0], depth[1], blur[0], blur[1]
     wall, lumen, hollow = absorbed[0], absorbed[1], absorbed[2]
-    for row in range(light.shape[0]):
+    for row in range(box[0], box[1]):
         dv = np.float32(row) - v0
-        for column in range(light.shape[1]):
+        line = light[row][box[2] : box[3]]  # whole rows are contiguous, a block is not
+        for column in range(line.shape[0]):
             du = np.float32(column) - u0
             along = du * eu + dv * ev
             across = dv * eu - du * ev
@@ -84,19 +88,25 @@ def draw_tube(
             whole = _between(across, wide, share)
             bore = _between(across, wide * hollow, share)
             end = _HALF * (_ONE + _erf(along * share))
-            light[row, column] *= _ONE - end * (wall * whole - lumen * bore)
+            line[column] *= _ONE - end * (wall * whole - lumen * bore)
 
 
 @numba.njit(cache=True, error_model="numpy", fastmath=True)
-def draw_radial(light: Image, centre: Image, profile: Image, per_px: np.float32) -> None:
+def draw_radial(
+    light: Image,
+    box: tuple[int, int, int, int],
+    centre: Image,
+    profile: Image,
+    per_px: np.float32,
+) -> None:
     """Darken ``light`` (rows, columns) by ``profile`` (n,) over the distance from ``centre``.
 
-    ``profile`` has ``per_px`` values a px and ends with what holds beyond.
+    ``box`` is as for :func:`draw_tube`; ``profile`` has ``per_px`` values a px and ends with what holds beyond.
     """
     last = np.float32(profile.shape[0] - 2)
-    for row in range(light.shape[0]):
+    for row in range(box[0], box[1]):
         dv = np.float32(row) - centre[1]
-        for column in range(light.shape[1]):
+        for column in range(box[2], box[3]):
             du = np.float32(column) - centre[0]
             place = min(np.sqrt(du * du + dv * dv) * per_px, last)
             at = np.int32(place)

@@ -24,7 +24,8 @@ WAVELENGTH_M = 550e-9
 # Standard deviation of the Gaussian nearest to the Airy disc, over wavelength / aperture: Zhang,
 # Zerubia and Olivo-Marin, Appl. Opt. 46 (2007) 1819, for a wide field and a small aperture.
 _AIRY_SIGMA = 0.225
-_PIXEL_VARIANCE = 1.0 / 12.0  # of light that falls anywhere on a pixel, px²
+#: Of light that falls anywhere on a pixel, px².
+PIXEL_VARIANCE = 1.0 / 12.0
 
 #: The camera and objective where a robot file names none: AxioCam HRm behind 20× / 0.4.
 WIDTH, HEIGHT = 1300, 1030
@@ -160,7 +161,7 @@ class Optics:
         of a disc in geometrical optics.
         """
         spread = 2.0 * np.asarray(distance_m, dtype=np.float64) / self.depth_of_field_m
-        return np.asarray(np.sqrt(self.sharpest_px**2 * (1.0 + spread**2) + _PIXEL_VARIANCE))
+        return np.asarray(np.sqrt(self.sharpest_px**2 * (1.0 + spread**2) + PIXEL_VARIANCE))
 
     @property
     def sharpest_px(self) -> float:

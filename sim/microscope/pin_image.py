@@ -1,17 +1,18 @@
 """The pin as it is seen: a tapering tube, blurred by how far each part is from focus."""
 
-from math import cos, erf, exp, hypot, sin, sqrt
+from math import cos, exp, hypot, sin, sqrt
 
 import numpy as np
+from scipy.special import erf
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.microscope import kernels
 from rotemina.sim.microscope.kernels import Image
-from rotemina.sim.microscope.optics import Optics
+from rotemina.sim.microscope.optics import PIXEL_VARIANCE, Optics
 from rotemina.sim.microscope.scene import Pin
 
 _END_ON = 0.05  # sine of the angle between pin and view below which it is drawn as rings
-_SECTIONS_M = (0.0, 5e-6, 10e-6, 20e-6, 40e-6, 80e-6, 160e-6, 320e-6)
+_SECTIONS_M = (0.0, 5e-6, 10e-6, 20e-6, 40e-6)  # farther ones are no more than a shade
 _FINE = 4  # values of the rings' profile per px
 
 
@@ -50,12 +51,13 @@ def draw_pin(
         return
     half_depth = optics.depth_of_field_m / 2.0
     kernels.draw_tube(
-        light[box],
-        _row(tip[0] - box[1].start, tip[1] - box[0].start),
-        _row(*direction),
+        light,
+        box,
+        _row(float(tip[0]), float(tip[1])),
+        _row(float(direction[0]), float(direction[1])),
         _row(ends[0], growth, ends[1]),
         _row(away / half_depth, rise / half_depth),
-        _row(optics.sharpest_px**2, optics.blur_px(0.0) ** 2 - optics.sharpest_px**2),
+        _row(optics.sharpest_px**2, PIXEL_VARIANCE),
         _row(pin.wall, pin.lumen, pin.bore),
     )
 
@@ -67,8 +69,8 @@ def _box(
     way: FloatArray,
     radius: tuple[float, float, float],
     depth: tuple[float, float],
-) -> tuple[slice, slice] | None:
-    """Return rows and columns that the pin may darken, or None."""
+) -> tuple[int, int, int, int] | None:
+    """Return first and last row, and column, that the pin may darken, or None."""
     height, width = light.shape
     farthest = float(np.abs(tip).max()) + width + height  # px along the body, out of every picture
     along = np.linspace(0.0, farthest, 256)
@@ -85,9 +87,15 @@ def _box(
     if not touched.any():
         return None
     middle, reach = middle[touched], reach[touched, None]
-    low = np.floor((middle - reach).min(axis=0)).clip(0.0, [width, height]).astype(int)
-    high = np.ceil((middle + reach).max(axis=0) + 1.0).clip(0.0, [width, height]).astype(int)
-    return slice(low[1], high[1]), slice(low[0], high[0])
+    return _clipped(light, (middle - reach).min(axis=0), (middle + reach).max(axis=0))
+
+
+def _clipped(light: Image, first: FloatArray, last: FloatArray) -> tuple[int, int, int, int]:
+    """Return what of a box between two places (u, v) is in the picture: rows and columns."""
+    most = light.shape[::-1]
+    low = np.floor(first).clip(0, most).astype(int)
+    high = np.ceil(last + 1.0).clip(0, most).astype(int)
+    return int(low[1]), int(high[1]), int(low[0]), int(high[0])
 
 
 def _draw_rings(
@@ -104,7 +112,13 @@ def _draw_rings(
     )
     bore = _disc(distance, float(radii[0]) * pin.bore, float(blurs[0]))
     profile = np.append(1.0 - pin.wall * covered + pin.lumen * bore, [1.0, 1.0])
-    kernels.draw_radial(light, _row(*tip), profile.astype(np.float32), np.float32(_FINE))
+    kernels.draw_radial(
+        light,
+        _clipped(light, tip - reach, tip + reach),
+        _row(float(tip[0]), float(tip[1])),
+        profile.astype(np.float32),
+        np.float32(_FINE),
+    )
 
 
 def _disc(distance: FloatArray, radius: float, blur: float) -> FloatArray:
@@ -113,10 +127,7 @@ def _disc(distance: FloatArray, radius: float, blur: float) -> FloatArray:
     Exact in the middle, ``1 − exp(−R²/2σ²)``, and the edge of a half plane for R ≫ σ.
     """
     share = 1.0 / (sqrt(2.0) * blur)
-    edges = [
-        np.array([erf(float(x)) for x in (radius + sign * distance) * share]) for sign in (-1, 1)
-    ]
-    strip = 0.5 * (edges[0] + edges[1])
+    strip = 0.5 * (erf((radius - distance) * share) + erf((radius + distance) * share))
     return np.asarray(strip * (1.0 - exp(-((radius * share) ** 2))) / erf(radius * share))
 
 

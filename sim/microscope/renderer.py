@@ -1,7 +1,5 @@
 """A scene made into pictures: what stays is prepared once, and only what moves is drawn anew."""
 
-from typing import Self
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter, zoom
@@ -38,11 +36,6 @@ class Renderer:
         self._still = self._field.copy()  # with the cell, without the pin
         self._drawn: CellImage | None = None
         self._known: tuple[CellState, float] | None = None
-
-    @classmethod
-    def of(cls, scene: Scene) -> Self:
-        """Prepare a scene."""
-        return cls(scene)
 
     def light(
         self, tip_m: FloatArray, tool_axis: FloatArray, focus_m: float, state: CellState = UNTOUCHED
@@ -85,7 +78,7 @@ class Renderer:
     ) -> Numbers:
         """Return what the camera makes of ``light`` (height, width)."""
         sensor = self.scene.sensor
-        begins = rng.integers(0, _NOISE, size=light.shape[0])
+        begins = np.asarray(rng.integers(0, _NOISE, size=light.shape[0]))
         return kernels.expose(
             light,
             self._noise,

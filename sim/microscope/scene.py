@@ -9,7 +9,7 @@ from rotemina.sim.microscope.errors import SceneError
 from rotemina.sim.microscope.optics import Optics
 from rotemina.sim.robot.model import Robot
 
-_APPROACH_RAD = pi / 4  # where a robot file says nothing
+_APPROACH_RAD = pi / 6  # where a robot file says nothing
 
 
 @dataclass(frozen=True, slots=True)
