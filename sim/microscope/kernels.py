@@ -101,7 +101,8 @@ def draw_radial(
 ) -> None:
     """Darken ``light`` (rows, columns) by ``profile`` (n,) over the distance from ``centre``.
 
-    ``box`` is as for :func:`draw_tube`; ``profile`` has ``per_px`` values a px and ends with what holds beyond.
+    ``box`` is as for :func:`draw_tube`; ``profile`` has ``per_px`` values a px and ends
+    with what holds beyond.
     """
     last = np.float32(profile.shape[0] - 2)
     for row in range(box[0], box[1]):
