@@ -77,3 +77,24 @@ def speed_changes(before: Record, after: Record) -> str:
         values = (f"{to_unit(speeds[axis], unit):.4g}" for speeds in (old, new))
         lines.append(f"{label(axis)}: {' → '.join(values)} {symbol(unit)}/s")
     return "\n".join(lines)
+
+
+def duration_text(seconds: float, decimals: int = 0) -> str:
+    """Return a duration as clocks write it, such as ``1:02:03`` or ``0:07.5``."""
+    step = 10**decimals
+    parts = math.floor(seconds * step + 1e-6)  # a moment that has not come is not shown
+    whole, fraction = divmod(parts, step)
+    minutes, rest = divmod(whole, 60)
+    hours, minutes = divmod(minutes, 60)
+    digits = f"{rest:02d}" + (f".{fraction:0{decimals}d}" if decimals else "")
+    return f"{hours}:{minutes:02d}:{digits}" if hours else f"{minutes}:{digits}"
+
+
+def size_text(size: int) -> str:
+    """Return an amount of data with three digits, in decimal units as disks are sold."""
+    amount = float(size)
+    for unit in ("bytes", "kB", "MB", "GB"):
+        if amount < 999.5:
+            return f"{amount:.0f} {unit}" if unit == "bytes" else f"{amount:.3g} {unit}"
+        amount /= 1000.0
+    return f"{amount:.3g} TB"

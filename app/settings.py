@@ -32,6 +32,11 @@ class Settings:
         """Where the user's own files are kept, this one among them."""
         return self._path.parent
 
+    @property
+    def values(self) -> dict[str, object]:
+        """All preferences that were ever set, by key."""
+        return dict(self._values)
+
     def get(self, key: str, default: Value) -> Value:
         """Return a preference, or ``default`` where it is missing or of another type."""
         value = self._values.get(key, default)

@@ -85,6 +85,47 @@ def window(make_robot_window):
 
 
 @pytest.fixture
+def make_recording():
+    """Record a session of 1.2 s: x moves from 0.2 s on, at 1 s somebody notes something."""
+    from rotemina.app.motion.recording.session_recorder import SessionRecorder
+    from rotemina.app.motion.session import MotionSession
+    from rotemina.drivers.clock import VirtualClock
+    from rotemina.drivers.simulator.driver import Simulator
+    from rotemina.sim.robot.file import load_robot
+
+    left = []
+
+    def make(path, robot="rotemina", *, ended=True):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        clock = VirtualClock(7.0)
+        session = MotionSession(Simulator(load_robot(robot), clock=clock))
+        session.connect()
+        session.run_once()
+        began = "2026-03-04T05:06:07+01:00"
+        recorder = SessionRecorder(session, path, began=began, clock=clock)
+        recorder.start(thread=False)
+        axis = session.driver.axes[0]
+        for step in range(60):
+            if step == 10:
+                session.jog(axis, 5e-4 if robot == "rotemina" else 1e-6)
+            if step == 50:
+                recorder.note("a note")
+            clock.advance(0.02)
+            session.run_once()
+        recorder.writer.run_once()
+        if ended:
+            recorder.close()
+        else:
+            left.append(recorder.writer._file)
+        session.close()
+        return path
+
+    yield make
+    for file in left:
+        file.close()
+
+
+@pytest.fixture
 def made_diagnosis():
     """A diagnosis made by hand: hysteresis on thx, something unknown on y, nothing on zn."""
     import numpy as np

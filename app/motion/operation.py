@@ -19,6 +19,7 @@ from rotemina.app.motion.penetration.run_log import RunLog
 from rotemina.app.motion.recording.errors import RecordingError
 from rotemina.app.motion.recording.merging import unfinished
 from rotemina.app.motion.recording.session_recorder import SessionRecorder
+from rotemina.app.motion.recording.tables import prepare
 from rotemina.app.motion.recording.writer import RecorderNotice
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.teleoperation.input_devices import Heard, InputDevices
@@ -262,6 +263,7 @@ class Operation:
                 raise RefusedError("the program is being closed")
             if self._recorder is not None:
                 raise RefusedError("a recording is running; end it first")
+            prepare()  # it takes a while the first time, in which nothing is recorded yet
             began = datetime.now().astimezone()
             path = self.recordings / f"{began:%Y-%m-%d_%H-%M-%S-%f}.arrows"
             try:

@@ -26,6 +26,8 @@ from rotemina.app.shell.column_mapping import ask_columns
 from rotemina.app.shell.host import make_panels
 from rotemina.app.shell.motion_bar import MotionBar, StopWatch
 from rotemina.app.shell.notices import NoticeBar
+from rotemina.app.shell.recording_sign import RecordingSign
+from rotemina.app.shell.replay_bar import ReplayBar
 from rotemina.app.shell.status import StatusText
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.drivers.samples import DeviceState
@@ -66,6 +68,7 @@ class MainWindow(QMainWindow):
         workbench.setParent(self)  # so that Qt ends it with the window, on this thread
         self.setWindowTitle(f"RoTeMiNa – {workbench.robot.name}")
         self.notices = NoticeBar()
+        self.replay_bar = ReplayBar(workbench)
         self.panels, broken = make_panels(workbench)
         self.docks: dict[str, QDockWidget] = {}
         self._menus: dict[str, QMenu] = {}
@@ -94,6 +97,7 @@ class MainWindow(QMainWindow):
         centre = QWidget()
         column = QVBoxLayout(centre)
         column.setContentsMargins(6, 6, 6, 6)
+        column.addWidget(self.replay_bar)
         column.addWidget(self.notices)
         column.addWidget(self._central_panels(), 1)
         self.setCentralWidget(centre)
@@ -183,6 +187,8 @@ class MainWindow(QMainWindow):
     def _make_status_bar(self) -> None:
         self._status = StatusText(self.workbench)
         self.statusBar().addWidget(self._status, 1)
+        self.recording_sign = RecordingSign(self.workbench)
+        self.statusBar().addPermanentWidget(self.recording_sign)
         self.statusBar().setSizeGripEnabled(False)
 
     # --- files ------------------------------------------------------------------------------------

@@ -45,7 +45,7 @@ class AxisPlot(QWidget):
         self.plot.add_curve("model", "model", width=3)  # seen on both sides of the measured line
         self.plot.add_curve("measured", "real")
         self.plot.show_times(times)
-        self.plot.setMinimumHeight(90)
+        self.plot.setMinimumHeight(60)  # notices and the banner of a replay need room, too
         head = QHBoxLayout()
         head.setContentsMargins(4, 0, 4, 0)
         head.setSpacing(6)

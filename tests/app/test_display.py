@@ -2,7 +2,14 @@
 
 import pytest
 
-from rotemina.app.display import axis_scale, label, stages, step_presets
+from rotemina.app.display import (
+    axis_scale,
+    duration_text,
+    label,
+    size_text,
+    stages,
+    step_presets,
+)
 from rotemina.sim.robot.file import load_robot, parse_robot
 
 ROBOT = load_robot("rotemina")
@@ -36,3 +43,27 @@ def test_steps_go_from_fine_to_a_tenth_of_the_range():
 def test_names_are_written_as_operators_do():
     assert label("thx") == "θx"
     assert label("m1") == "m1"
+
+
+@pytest.mark.parametrize(
+    ("seconds", "decimals", "text"),
+    [
+        (0.0, 0, "0:00"),
+        (59.999, 0, "0:59"),
+        (7.5, 1, "0:07.5"),
+        (0.3, 1, "0:00.3"),
+        (3599.99, 1, "59:59.9"),
+        (3723.0, 0, "1:02:03"),
+        (90_000.25, 2, "25:00:00.25"),
+    ],
+)
+def test_a_duration_reads_as_on_a_clock_and_never_runs_ahead(seconds, decimals, text):
+    assert duration_text(seconds, decimals) == text
+
+
+@pytest.mark.parametrize(
+    ("size", "text"),
+    [(0, "0 bytes"), (999, "999 bytes"), (1000, "1 kB"), (2_345_678, "2.35 MB"), (10**13, "10 TB")],
+)
+def test_sizes_have_three_digits(size, text):
+    assert size_text(size) == text

@@ -83,6 +83,7 @@ class RecordingWriter:
             raise RecordingError(f"{path}: it is there already; record to another name")
         self.path = path
         self._schema = samples_schema(units)
+        prepare()  # neither motion nor the first second is to wait for that
         #: Host time, s.
         self.began_s = clock()
         self._clock = clock
@@ -107,7 +108,6 @@ class RecordingWriter:
             "units": json.dumps(dict(units)),
             **metadata,
         }
-        prepare()  # neither motion nor the first second is to wait for that
         self._file = SegmentFile(path.with_name(path.name + UNFINISHED), opener)
         try:
             self._file.append(header(about))

@@ -18,7 +18,7 @@ from rotemina.sim.records.writing import write_record
 
 LONG_MS = 30_000
 BUILT_IN = ["control", "plots", "trajectory", "comparison", "connection", "identification"]
-BUILT_IN += ["effects", "gap", "faults"]
+BUILT_IN += ["effects", "gap", "faults", "recorder"]
 
 
 def short_trajectory(path, seconds=0.4, height=2e-4):

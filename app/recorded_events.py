@@ -1,0 +1,61 @@
+"""What happened in a recording, in the words of operators. Free of Qt."""
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+from rotemina.app.motion.recording.backlog import RecordedEvent
+
+
+class Weight(StrEnum):
+    """How much an event matters to somebody who looks for what happened."""
+
+    GRAVE = "grave"
+    WARNING = "warning"
+    REMARK = "remark"
+    DETAIL = "detail"
+
+
+@dataclass(frozen=True, slots=True)
+class Happening:
+    """An event at a time of the recording, s from its begin."""
+
+    at_s: float
+    word: str
+    text: str
+    weight: Weight
+
+
+_KINDS = {
+    "fault": ("Fault", Weight.GRAVE),
+    "stop": ("Stop", Weight.WARNING),
+    "refused": ("Refused", Weight.WARNING),
+    "recorder": ("Recorder", Weight.WARNING),
+    "note": ("Note", Weight.REMARK),
+    "action": ("Action", Weight.REMARK),
+    "playback_begin": ("Playback begins", Weight.REMARK),
+    "playback_end": ("Playback ends", Weight.REMARK),
+    "connection": ("Connection", Weight.REMARK),
+    "state": ("State", Weight.DETAIL),
+}
+_COMPLAINTS = ("WARNING", "ERROR", "CRITICAL")
+
+
+def happenings(events: Sequence[RecordedEvent], began_s: float) -> tuple[Happening, ...]:
+    """Return events in words; what is logged of a fault or refusal beside it is left out."""
+    said = {event.text for event in events if event.kind in ("fault", "refused")}
+    return tuple(
+        _in_words(event, began_s)
+        for event in events
+        if not (event.kind == "log" and event.text in said)
+    )
+
+
+def _in_words(event: RecordedEvent, began_s: float) -> Happening:
+    at_s = max(event.host_time_s - began_s, 0.0)
+    if event.kind == "log":
+        complaint = json.loads(event.details).get("level") in _COMPLAINTS
+        return Happening(at_s, "Log", event.text, Weight.WARNING if complaint else Weight.DETAIL)
+    word, weight = _KINDS.get(event.kind, (event.kind, Weight.REMARK))
+    return Happening(at_s, word, event.text, weight)

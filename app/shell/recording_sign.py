@@ -1,0 +1,40 @@
+"""A sign that a recording runs, which no closed panel hides."""
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QLabel, QSizePolicy
+
+from rotemina.app.display import duration_text, size_text
+from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.phase import Tone, set_tone
+from rotemina.app.shell.workbench import Workbench
+
+
+class RecordingSign(QLabel):
+    """Since when it is recorded and how much, or that the disk takes nothing; else unseen."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__()
+        self._operation = workbench.operation
+        self.setTextFormat(Qt.TextFormat.PlainText)
+        self.setAccessibleName("Recording")
+        self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+        set_tone(self, Tone.BUSY)
+        self.setVisible(False)
+        workbench.refreshed.connect(lambda _: self.refresh())
+
+    def refresh(self) -> None:
+        """Show how the recording stands."""
+        recorder = self._operation.recording
+        self.setVisible(recorder is not None)
+        if recorder is None:
+            return
+        writer = recorder.writer
+        if writer.failure is not None:
+            set_tone(self, Tone.DANGER)
+            self.setText("● Not recording: disk")
+            self.setToolTip(plain_tip(f"{writer.path}: {writer.failure}"))
+            return
+        set_tone(self, Tone.BUSY)
+        since_s = self._operation.clock() - writer.began_s
+        self.setText(f"● Recording {duration_text(since_s)}  {size_text(writer.bytes_written)}")
+        self.setToolTip(plain_tip(str(writer.path)))

@@ -1,0 +1,137 @@
+"""The banner over the panels while a recording is shown, with the controls of the replay."""
+
+from dataclasses import replace
+
+from PySide6.QtCore import QSignalBlocker
+from PySide6.QtWidgets import (
+    QComboBox,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QVBoxLayout,
+)
+
+from rotemina.app.display import duration_text
+from rotemina.app.motion.recording.pacing import SPEEDS
+from rotemina.app.motion.state import SessionState
+from rotemina.app.recorded_events import happenings
+from rotemina.app.shell.controls import ElidedLabel
+from rotemina.app.shell.phase import PhaseLabel, Tone, set_tone
+from rotemina.app.shell.timeline import Timeline
+from rotemina.app.shell.workbench import Workbench
+from rotemina.drivers.samples import DeviceState
+
+
+class ReplayBar(QFrame):
+    """Says that this is not the machine; play, pause, speed, time, and the way back to live."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__()
+        self.setObjectName("replay")
+        self._workbench = workbench
+        self._replaying = workbench.replaying
+        self.title = ElidedLabel()
+        self.title.setProperty("heading", True)
+        self.phase = PhaseLabel()
+        self.phase.setAccessibleName("Phase in the recording")
+        self.phase.setToolTip("How the machine stood then; how it stands now is in the tool bar")
+        self.machine = QLabel("The machine moves now")
+        set_tone(self.machine, Tone.DANGER)
+        self.live = QPushButton("Back to live")
+        self.live.setProperty("primary", True)
+        self.live.setToolTip("Show the machine again, and let it be moved")
+        self.live.clicked.connect(workbench.replaying.end)
+        self.play = QPushButton()
+        self.play.setMinimumWidth(70)
+        self.play.setToolTip("Go on with the replay, or hold it")
+        self.play.clicked.connect(self._toggle)
+        self.speed = _speeds()
+        self.speed.currentIndexChanged.connect(self._set_speed)
+        self.timeline = Timeline(workbench.theme)
+        self.timeline.setToolTip(
+            "Time of the recording. Marks: faults, then stops, refusals and warnings, then the rest"
+        )
+        self.timeline.valueChanged.connect(lambda value: self._seek(value / 1000.0))
+        self.time = QLabel()
+        self.time.setAccessibleName("Time of the replay and its length")
+        self._lay_out()
+        self.setVisible(False)
+        workbench.replaying.changed.connect(self._begin)
+        workbench.shown.connect(self._refresh)
+        workbench.refreshed.connect(self._watch_machine)
+        workbench.theme_changed.connect(self.timeline.use_theme)
+
+    def _lay_out(self) -> None:
+        head, foot = QHBoxLayout(), QHBoxLayout()
+        head.addWidget(self.title, 1)
+        head.addWidget(self.phase)
+        head.addWidget(self.machine)
+        head.addWidget(self.live)
+        foot.addWidget(self.play)
+        foot.addWidget(self.speed)
+        foot.addWidget(self.timeline, 1)
+        foot.addWidget(self.time)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(10, 4, 8, 4)
+        column.setSpacing(2)
+        column.addLayout(head)
+        column.addLayout(foot)
+
+    def _begin(self) -> None:
+        """Show the controls of another recording, or none."""
+        paced = self._replaying.paced
+        self.setVisible(paced is not None)
+        if paced is None:
+            return
+        recording = paced.replay.recording
+        self.title.show_text(f"Replay, not the machine: {recording.path.stem}")
+        with QSignalBlocker(self.timeline):
+            self.timeline.show_recording(
+                paced.duration_s, happenings(paced.replay.events, recording.began_s)
+            )
+        with QSignalBlocker(self.speed):
+            self.speed.setCurrentIndex(SPEEDS.index(paced.speed))
+        self._refresh(paced.replay.snapshot())
+
+    def _refresh(self, state: SessionState) -> None:
+        paced = self._replaying.paced
+        if paced is None:
+            return
+        self.phase.show_state(replace(state, locked=None))  # that it is a replay is said already
+        self.play.setText("Pause" if paced.playing else "Play")
+        if not self.timeline.isSliderDown():
+            with QSignalBlocker(self.timeline):
+                self.timeline.setValue(round(1000.0 * paced.at_s))
+        at, whole = duration_text(paced.at_s, 1), duration_text(paced.duration_s, 1)
+        self.time.setText(f"{at} / {whole}")
+
+    def _watch_machine(self, state: SessionState) -> None:
+        at_rest = state.activity in (DeviceState.IDLE, DeviceState.CLOSED)
+        self.machine.setVisible(not at_rest)
+
+    def _toggle(self) -> None:
+        paced = self._replaying.paced
+        if paced is None:
+            return
+        if paced.playing:
+            paced.pause()
+        else:
+            paced.play()
+
+    def _set_speed(self) -> None:
+        if self._replaying.paced is not None:
+            self._replaying.paced.speed = self.speed.currentData()
+
+    def _seek(self, at_s: float) -> None:
+        if self._replaying.paced is not None:
+            self._replaying.paced.seek(at_s)
+
+
+def _speeds() -> QComboBox:
+    box = QComboBox()
+    box.setAccessibleName("Speed of the replay")
+    box.setToolTip("How many times as fast as it happened")
+    for speed in SPEEDS:
+        box.addItem(f"{speed:g} ×", speed)
+    return box

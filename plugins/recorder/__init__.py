@@ -1,0 +1,1 @@
+"""Recorder: sessions recorded, recovered, listed, exported and shown again."""

@@ -1,0 +1,159 @@
+"""The events of the recording that is shown; a click on one jumps there."""
+
+from bisect import bisect_right
+from collections.abc import Sequence
+
+from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt
+from PySide6.QtGui import QColor
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QCheckBox,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QTableView,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.display import duration_text
+from rotemina.app.recorded_events import Happening, Weight, happenings
+from rotemina.app.shell.theme import Theme
+from rotemina.app.shell.workbench import Workbench
+
+COLUMNS = ("Time", "What", "Text")
+Index = QModelIndex | QPersistentModelIndex
+_NONE = QModelIndex()
+_AFTER_S = 1e-6
+_EMPTY = "Open a recording to see what happened in it."
+
+
+class EventsModel(QAbstractTableModel):
+    """Events by time; made for many thousands."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self.events: tuple[Happening, ...] = ()
+        self.use_theme(theme)
+
+    def use_theme(self, theme: Theme) -> None:
+        """Change the colours."""
+        self.beginResetModel()
+        self._colours = {
+            Weight.GRAVE: QColor(theme.danger_text),
+            Weight.WARNING: QColor(theme.warning),
+            Weight.REMARK: QColor(theme.accent),
+            Weight.DETAIL: QColor(theme.quiet),
+        }
+        self.endResetModel()
+
+    def show_events(self, events: Sequence[Happening]) -> None:
+        """Show others."""
+        self.beginResetModel()
+        self.events = tuple(events)
+        self.endResetModel()
+
+    def rowCount(self, parent: Index = _NONE) -> int:  # noqa: N802 (Qt's name)
+        """Return how many there are."""
+        return 0 if parent.isValid() else len(self.events)
+
+    def columnCount(self, parent: Index = _NONE) -> int:  # noqa: N802 (Qt's name)
+        """Return how many columns there are."""
+        return 0 if parent.isValid() else len(COLUMNS)
+
+    def headerData(  # noqa: N802 (Qt's name)
+        self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
+    ) -> object:
+        """Return what a column is called."""
+        shown = role == Qt.ItemDataRole.DisplayRole and orientation is Qt.Orientation.Horizontal
+        return COLUMNS[section] if shown else None
+
+    def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> object:
+        """Return text, tooltip and colour of a cell."""
+        one = self.events[index.row()]
+        if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
+            return (duration_text(one.at_s, 2), one.word, one.text)[index.column()]
+        if role == Qt.ItemDataRole.ForegroundRole and index.column() == 1:
+            return self._colours[one.weight]
+        return None
+
+
+class EventsView(QWidget):
+    """The table, the row of the moment chosen, and a choice of how much is listed."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__()
+        self._replaying = workbench.replaying
+        self._all: tuple[Happening, ...] = ()
+        self.model = EventsModel(workbench.theme)
+        self.table = _table(self.model)
+        self.table.clicked.connect(lambda index: self.jump(index.row()))
+        self.table.activated.connect(lambda index: self.jump(index.row()))
+        self.details = QCheckBox("with states and log lines")
+        self.details.toggled.connect(self._choose)
+        self.title = QLabel(_EMPTY)
+        self.title.setProperty("quiet", True)
+        self.title.setTextFormat(Qt.TextFormat.PlainText)
+        head = QHBoxLayout()
+        head.addWidget(self.title, 1)
+        head.addWidget(self.details)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(4)
+        column.addLayout(head)
+        column.addWidget(self.table, 1)
+        workbench.replaying.changed.connect(self._begin)
+        workbench.shown.connect(lambda _: self._follow())
+        workbench.theme_changed.connect(self.model.use_theme)
+
+    def jump(self, row: int) -> None:
+        """Let the replay go on from just after an event."""
+        if self._replaying.paced is not None:
+            self._replaying.paced.seek(self.model.events[row].at_s + _AFTER_S)
+
+    def _begin(self) -> None:
+        paced = self._replaying.paced
+        if paced is None:
+            self._all = ()
+        else:
+            self._all = happenings(paced.replay.events, paced.replay.recording.began_s)
+        self._choose()
+
+    def _choose(self) -> None:
+        details = self.details.isChecked()
+        chosen = [one for one in self._all if details or one.weight is not Weight.DETAIL]
+        self.model.show_events(chosen)
+        if self._replaying.paced is None:
+            self.title.setText(_EMPTY)
+        else:
+            name = self._replaying.paced.replay.recording.path.name
+            self.title.setText(f"{name}: {len(chosen)} of {len(self._all)} events; click to jump")
+
+    def _follow(self) -> None:
+        """Choose the row of what happened last."""
+        paced = self._replaying.paced
+        if paced is None or not self.isVisible():
+            return
+        row = bisect_right(self.model.events, paced.at_s, key=lambda one: one.at_s) - 1
+        if row < 0:
+            self.table.clearSelection()
+        elif row != self.table.currentIndex().row() or not self.table.selectedIndexes():
+            self.table.selectRow(row)
+
+
+def _table(model: EventsModel) -> QTableView:
+    table = QTableView()
+    table.setModel(model)
+    table.setAccessibleName("Events of the recording that is shown")
+    table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+    table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+    table.setTabKeyNavigation(False)
+    table.setWordWrap(False)
+    table.verticalHeader().hide()
+    table.verticalHeader().setDefaultSectionSize(22)
+    header = table.horizontalHeader()
+    header.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
+    header.setStretchLastSection(True)
+    table.setColumnWidth(0, 90)
+    table.setColumnWidth(1, 120)
+    return table

@@ -1,0 +1,74 @@
+"""What a crash has left, and the button that makes recordings of it."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton
+
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.plugins.recorder.listing import Left, recovered
+from rotemina.plugins.recorder.words import left_text, listed
+
+
+class LeftBox(QFrame):
+    """Names what was not ended; unseen where there is nothing.
+
+    Signals
+    -------
+    recovered() : what could be recovered is there now.
+    """
+
+    recovered = Signal()
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__()
+        self.setObjectName("question")
+        self._workbench = workbench
+        self._waiting: tuple[Path, ...] = ()
+        self._doing = False
+        self.text = QLabel()
+        self.text.setWordWrap(True)
+        self.text.setTextFormat(Qt.TextFormat.PlainText)
+        self.recover = QPushButton("Recover")
+        self.recover.setToolTip("Make finished recordings of all that was recorded of them")
+        self.recover.clicked.connect(self._recover)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(8, 4, 8, 4)
+        row.addWidget(self.text, 1)
+        row.addWidget(self.recover)
+        self.hide()
+
+    def show_left(self, left: Sequence[Left]) -> None:
+        """Show what was left."""
+        self._waiting = tuple(one.path for one in left if not one.busy)
+        self.text.setText(left_text(left))
+        self.setVisible(bool(left))
+        self._show()
+
+    def _show(self) -> None:
+        self.recover.setVisible(bool(self._waiting))
+        self.recover.setEnabled(not self._doing)
+        self.recover.setText("Recovering …" if self._doing else "Recover")
+
+    def _recover(self) -> None:
+        self._doing = True
+        self._show()
+        waiting = self._waiting
+        names = listed([path.name for path in waiting])
+        doing = f"Recovering {names} …"
+        self._workbench.work("recover", doing, lambda: recovered(waiting), self._take, self._end)
+
+    def _take(self, answer: tuple[tuple[Path, ...], tuple[str, ...]]) -> None:
+        done, refused = answer
+        if done:
+            names = listed([path.name for path in done])
+            self._workbench.notify(Level.GOOD, f"Recovered {names}")
+        for reason in refused:
+            self._workbench.notify(Level.ERROR, reason)
+        self._end()
+
+    def _end(self) -> None:
+        self._doing = False
+        self._show()
+        self.recovered.emit()

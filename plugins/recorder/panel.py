@@ -1,0 +1,110 @@
+"""The recorder: record a session, recover what a crash left, show recordings again."""
+
+from pathlib import Path
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QShowEvent
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QScrollArea,
+    QStackedWidget,
+    QTabBar,
+    QVBoxLayout,
+)
+
+from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.background import Background
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.plugins.recorder.events import EventsView
+from rotemina.plugins.recorder.left import LeftBox
+from rotemina.plugins.recorder.listing import Found, Listed, look
+from rotemina.plugins.recorder.recording import RecordingSection
+from rotemina.plugins.recorder.recordings import RecordingsView
+
+_WIDTH = 272  # of the recording's own part, px
+_CLOSING_S = 2.0  # that closing waits for a look into a folder that hangs
+
+
+class RecorderPanel(Panel):
+    """The recording beside the list of recordings and the events of the one that is shown."""
+
+    title = "Recorder"
+    area = Area.BOTTOM
+    order = 70
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__(workbench)
+        # Looks that nobody waits for, so that they keep no dry run waiting.
+        self._background = Background(self)
+        self._known: dict[Path, Listed] = {}
+        self.recording = RecordingSection(workbench, self._background)
+        self.left = LeftBox(workbench)
+        self.recordings = RecordingsView(workbench, self.left)
+        self.events = EventsView(workbench)
+        self.views = QStackedWidget()
+        self.tabs = QTabBar()
+        self.tabs.setAccessibleName("What is shown")
+        self.tabs.setExpanding(False)
+        self.tabs.setDrawBase(False)
+        for view, name in ((self.recordings, "Recordings"), (self.events, "Events")):
+            self.views.addWidget(view)
+            self.tabs.addTab(name)
+        self.tabs.currentChanged.connect(self.views.setCurrentIndex)
+        self._lay_out()
+        self.recording.changed.connect(self.look)
+        self.left.recovered.connect(self.look)
+        self.recordings.looked_for.connect(self.look)
+        workbench.replaying.changed.connect(self._bring_up)
+        workbench.refreshed.connect(lambda _: self.recording.refresh())
+        workbench.closing.connect(lambda: self._background.wait(_CLOSING_S))
+        self.look()
+
+    def look(self) -> None:
+        """Look into the folder of recordings, in the background."""
+        if self.recording.busy:  # it looks as if another program did that; soon it is known
+            return
+        folder, own = self.workbench.operation.recordings, self.recording.own
+        known = dict(self._known)
+        self._background.run(
+            "look",
+            lambda: look(folder, own, known),
+            self._take,
+            lambda message: self.workbench.notify(Level.ERROR, message),
+        )
+
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
+        """Look again: other programs record, too."""
+        super().showEvent(event)
+        self.look()
+
+    def _take(self, found: Found) -> None:
+        self._known = {one.path: one for one in found.recordings}
+        self.recordings.show_recordings(found.recordings)
+        self.left.show_left(found.left)
+
+    def _bring_up(self) -> None:
+        shown = self.workbench.replaying.paced is not None
+        self.tabs.setCurrentIndex(1 if shown else 0)
+
+    def _lay_out(self) -> None:
+        scroll = QScrollArea()
+        scroll.setObjectName("panelScroll")
+        scroll.setFrameShape(QFrame.Shape.NoFrame)
+        scroll.setWidgetResizable(True)
+        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        scroll.setWidget(self.recording)
+        scroll.setFixedWidth(_WIDTH)
+        head = QHBoxLayout()
+        head.addWidget(self.tabs)
+        head.addStretch(1)
+        head.addWidget(self.recordings.other)
+        head.addWidget(self.recordings.again)
+        right = QVBoxLayout()
+        right.setSpacing(4)
+        right.addLayout(head)
+        right.addWidget(self.views, 1)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(10, 6, 10, 6)
+        row.addWidget(scroll)
+        row.addLayout(right, 1)

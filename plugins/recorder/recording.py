@@ -1,0 +1,233 @@
+"""The recording itself: begin and end it, how it stands, remarks."""
+
+import time
+from pathlib import Path
+
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.display import duration_text, size_text
+from rotemina.app.motion.recording.merging import UNFINISHED
+from rotemina.app.shell.background import Background
+from rotemina.app.shell.controls import ElidedLabel, allow
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.plugins.recorder.listing import free_bytes
+from rotemina.plugins.recorder.words import room_text, scarce
+
+AT_START = "recorder.at_start"
+_LOOK_S = 5.0  # between looks at how much room there is
+_SCREEN = "window."  # preferences of the screen tell nothing about a session
+
+
+class RecordingSection(QWidget):
+    """Record button, elapsed time, file, size, free room, and a field for remarks.
+
+    Signals
+    -------
+    changed() : a recording has begun or ended, or could not.
+    """
+
+    changed = Signal()
+
+    def __init__(self, workbench: Workbench, background: Background) -> None:
+        super().__init__()
+        self._workbench, self._background = workbench, background
+        self._operation = workbench.operation
+        self._doing = ""
+        self._part: Path | None = None
+        self._free: int | None = None
+        self._looked_s: float | None = None
+        self._looking = False
+        self._wanted = workbench.settings.get(AT_START, False)
+        self._make_widgets()
+        self._lay_out()
+
+    def _make_widgets(self) -> None:
+        self.record = QPushButton("● Record")
+        self.record.setMinimumHeight(32)
+        self.record.clicked.connect(self.toggle)
+        self.elapsed = QLabel("–")
+        self.elapsed.setProperty("readout", True)
+        self.elapsed.setAccessibleName("Time since the recording began")
+        self.file, self.size, self.room = ElidedLabel(), ElidedLabel(), ElidedLabel()
+        self.complaint = QLabel()
+        self.complaint.setWordWrap(True)
+        self.complaint.setTextFormat(Qt.TextFormat.PlainText)
+        self.complaint.setProperty("bad", True)
+        self.complaint.hide()
+        self.note = QLineEdit()
+        self.note.setPlaceholderText("remark")
+        self.note.setAccessibleName("Remark for the recording")
+        self.note.returnPressed.connect(self.remark)
+        self.keep = QPushButton("Note")
+        self.keep.clicked.connect(self.remark)
+        self.at_start = QCheckBox("Record from every start on")
+        self.at_start.setToolTip("Begin a recording by itself when the program is started")
+        with QSignalBlocker(self.at_start):
+            self.at_start.setChecked(self._wanted)
+        self.at_start.toggled.connect(lambda on: self._workbench.settings.set(AT_START, on))
+        self.folder = QLineEdit(str(self._operation.recordings))
+        self.folder.setReadOnly(True)
+        self.folder.setCursorPosition(0)
+        self.folder.setAccessibleName("Folder of recordings")
+        self.folder.setToolTip("The folder of recordings, to be copied")
+
+    def _lay_out(self) -> None:
+        top = QHBoxLayout()
+        top.addWidget(self.record, 1)
+        top.addWidget(self.elapsed)
+        figures = QGridLayout()
+        figures.setHorizontalSpacing(10)
+        figures.setVerticalSpacing(2)
+        figures.setColumnStretch(1, 1)
+        named = {"File": self.file, "Size": self.size, "Free": self.room}
+        for row, (name, value) in enumerate(named.items()):
+            title = QLabel(name)
+            title.setProperty("quiet", True)
+            value.setAccessibleName(f"Recording: {name.lower()}")
+            figures.addWidget(title, row, 0)
+            figures.addWidget(value, row, 1)
+        remark = QHBoxLayout()
+        remark.addWidget(self.note, 1)
+        remark.addWidget(self.keep)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 8, 0)
+        column.setSpacing(5)
+        column.addLayout(top)
+        column.addLayout(figures)
+        column.addWidget(self.complaint)
+        column.addLayout(remark)
+        column.addWidget(self.at_start)
+        column.addWidget(self.folder)
+        column.addStretch(1)
+
+    @property
+    def busy(self) -> bool:
+        """Whether a recording is just begun or ended."""
+        return bool(self._doing)
+
+    @property
+    def own(self) -> frozenset[Path]:
+        """What this program records into."""
+        return frozenset() if self._part is None else frozenset({self._part})
+
+    # --- what is asked for ------------------------------------------------------------------------
+
+    def toggle(self) -> None:
+        """Begin a recording, or end the one that runs."""
+        if self._doing:
+            return
+        if self._operation.recording is None:
+            self._begin()
+        else:
+            self._end()
+
+    def remark(self) -> None:
+        """Put what was typed into the recording."""
+        recorder, text = self._operation.recording, self.note.text().strip()
+        if recorder is not None and text:
+            recorder.note(text)
+            self.note.clear()
+
+    def refresh(self) -> None:
+        """Show how the recording stands; begin it where that is wanted of every start."""
+        if self._wanted:
+            self._wanted = False
+            if self._operation.recording is None:
+                self._begin()
+        self._look()
+        recorder = self._operation.recording
+        running = recorder is not None and not self._doing
+        self.record.setText(self._doing or ("■ End recording" if running else "● Record"))
+        tip = "End it and keep it in one file" if running else "Record everything from now on"
+        allow(self.record, "wait until that is done" if self._doing else None, tip)
+        why_not = None if running else "nothing is being recorded"
+        allow(self.note, why_not, "Enter puts it into the recording, at this time")
+        allow(self.keep, why_not, "Put the remark into the recording, at this time")
+        if recorder is None:
+            self._show("–", "–", "–", room_text(self._free, 0, 0.0), None)
+            return
+        writer = recorder.writer
+        self._part = writer.path.with_name(f"{writer.path.name}{UNFINISHED}")
+        since_s, written = self._operation.clock() - writer.began_s, writer.bytes_written
+        failure = writer.failure
+        self._show(
+            duration_text(since_s),
+            writer.path.name,
+            size_text(written),
+            room_text(self._free, written, since_s),
+            scarce(self._free, written)
+            if failure is None
+            else f"Nothing is recorded now: {failure}. Make room; motion goes on.",
+        )
+
+    # --- inside -----------------------------------------------------------------------------------
+
+    def _begin(self) -> None:
+        self._doing = "Beginning …"
+        preferences = self._workbench.settings.values
+        told = {key: each for key, each in preferences.items() if not key.startswith(_SCREEN)}
+        self._workbench.work(
+            "recording",
+            "Beginning to record …",
+            lambda: self._operation.start_recording(told),
+            lambda _: self._settle(),
+            self._settle,
+        )
+
+    def _end(self) -> None:
+        recorder = self._operation.recording
+        if recorder is None:
+            return
+        self._doing = "Ending …"
+        size = size_text(recorder.writer.bytes_written)
+        self._workbench.work(
+            "recording",
+            f"Ending the recording: {size} are put together …",
+            self._operation.stop_recording,
+            self._kept,
+            self._settle,
+        )
+
+    def _kept(self, path: Path) -> None:
+        self._workbench.notify(Level.GOOD, f"Recorded {path}")
+        self._settle()
+
+    def _settle(self) -> None:
+        """Show how it stands once that was begun or ended."""
+        self._doing, self._part, self._looked_s = "", None, None
+        self.refresh()
+        self.changed.emit()
+
+    def _show(self, elapsed: str, file: str, size: str, room: str, complaint: str | None) -> None:
+        if elapsed != self.elapsed.text():
+            self.elapsed.setText(elapsed)
+        self.file.show_text(file)
+        self.size.show_text(size)
+        self.room.show_text(room)
+        self.complaint.setText(complaint or "")
+        self.complaint.setVisible(complaint is not None)
+
+    def _look(self) -> None:
+        """Ask how much room there is, now and then and not on this thread: disks may hang."""
+        now_s = time.monotonic()
+        due = self._looked_s is None or now_s - self._looked_s > _LOOK_S
+        if self._looking or not due or not self.isVisible():
+            return
+        self._looking, self._looked_s = True, now_s
+        folder = self._operation.recordings
+        self._background.run(
+            "room", lambda: free_bytes(folder), self._take_room, lambda _: self._take_room(None)
+        )
+
+    def _take_room(self, free: int | None) -> None:
+        self._looking, self._free = False, free

@@ -1,0 +1,69 @@
+"""The words of the recorder panel."""
+
+from datetime import datetime
+from pathlib import Path
+
+import pytest
+
+from rotemina.plugins.recorder.listing import Left, Listed
+from rotemina.plugins.recorder.words import SpanError, cells, left_text, room_text, scarce, span
+
+
+def test_a_recording_in_a_row():
+    one = Listed(
+        Path("a/run.arrows"), 2_000_000, 0, datetime(2026, 3, 4, 5, 6, 7), 61.25, "RoTeMiNa", 12
+    )
+    assert cells(one) == ("2026-03-04 05:06:07", "1:01.2", "2 MB", "12", "RoTeMiNa", "run.arrows")
+    spoilt = Listed(Path("a/run.arrows"), 7, 0, problem="no recording")
+    assert cells(spoilt) == ("cannot be opened", "–", "7 bytes", "–", "–", "run.arrows")
+
+
+def test_room_lasts_half_as_long_as_what_is_put_together_takes_twice():
+    assert room_text(None, 0, 0.0) == "unknown"
+    assert room_text(5_000_000_000, 1000, 1.0) == "5 GB"  # too early for a rate
+    # 1 MB/s: 100 MB are written, which take 100 MB more when they are put together.
+    assert room_text(7_300_000_000, 100_000_000, 100.0) == "7.3 GB, for 1.0 h"
+
+
+def test_scarce_room_is_said_in_time():
+    assert scarce(None, 10**9) is None
+    assert scarce(2 * 10**9, 10**9) is None
+    assert "make room" in scarce(10**9, 10**9)
+
+
+def test_what_was_left_is_named_and_what_others_record_is_said_so():
+    assert left_text([]) == ""
+    text = left_text(
+        [Left(Path(f"{n}.part"), 1000, False) for n in "abcde"] + [Left(Path("z.part"), 1, True)]
+    )
+    assert "a.part (1 kB), b.part (1 kB), c.part (1 kB) and 2 more" in text
+    assert "z.part is being recorded by another program" in text
+
+
+@pytest.mark.parametrize(
+    ("begin", "end", "stretch"),
+    [
+        ("", "", (0.0, 10.0)),
+        (" 2.5 ", "", (2.5, 10.0)),
+        ("", "4", (0.0, 4.0)),
+        ("9", "99", (9, 99)),
+    ],
+)
+def test_a_stretch_as_typed(begin, end, stretch):
+    assert span(begin, end, 10.0) == stretch
+
+
+@pytest.mark.parametrize(
+    ("begin", "end", "why"),
+    [
+        ("1,5", "", "'1,5' is no begin"),
+        ("-1", "", "is no begin"),
+        ("", "nan", "'nan' is no end"),
+        ("", "1e999", "is no end"),
+        ("5", "5", "must be later"),
+        ("10", "20", "lasts 10.000 s"),
+    ],
+)
+def test_what_is_no_stretch_is_refused(begin, end, why):
+    with pytest.raises(SpanError, match=why):
+        span(begin, end, 10.0)
