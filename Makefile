@@ -27,7 +27,7 @@ run: system $(VENV)/.run  ## open the program with the built-in simulator
 	@$(BIN)/rotemina
 
 test: system $(VENV)/.test  ## run the quick tests
-	@$(PYTEST) -m "not slow"
+	@$(PYTEST) --numprocesses auto --maxprocesses 4 --dist loadfile -m "not slow"
 
 # pytest fails when it selects nothing, which is right as soon as one slow test is written.
 test-slow: system $(VENV)/.test  ## run the long tests

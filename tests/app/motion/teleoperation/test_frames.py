@@ -201,7 +201,7 @@ def test_pivoting_leaves_the_tip(joints, shares):
     turned = frame.joints(somewhere(frame, shares))
     # Where both z and zn stand at an end, nothing can make up for what a tilt lifts.
     strayed = tip_at(joints, turned) - tip_at(joints, {})
-    assert np.abs(strayed).max() < (3e-8 if joints["z"] in (0.0, 0.08) else 1e-10)
+    assert np.abs(strayed).max() < (6e-8 if joints["z"] in (0.0, 0.08) else 1e-10)
 
 
 def test_pivoting_needs_no_step_of_the_table_z():
