@@ -111,6 +111,11 @@ class SimulatedDevice:
         return self._command.copy()
 
     @property
+    def true_position(self) -> FloatArray:
+        """Where the axes (axes,) are, m or rad, with every effect and without a sensor's."""
+        return np.asarray(self._state.position[-1])
+
+    @property
     def moving(self) -> bool:
         """Whether a single move, or the halt after a stop, is under way."""
         return self._setpoints.moving

@@ -31,6 +31,7 @@ from rotemina.drivers.simulator.homing import Homing
 from rotemina.drivers.simulator.profile_motion import ProfileMotion
 from rotemina.drivers.simulator.setpoints import SetpointLimits
 from rotemina.drivers.simulator.tool import SimulatedTool
+from rotemina.drivers.simulator.true_positions import TruePositions
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.plant.errors import PlantError
@@ -53,6 +54,7 @@ class Simulator(
     ProfileRunner,
     FrontPanel,
     SimulatedTool,
+    TruePositions,
     EffectCarrier,
 ):
     """A machine that behaves as its robot file says.
@@ -99,6 +101,7 @@ class Simulator(
                     "controller holds; give it one in the robot file"
                 )
         self._position = self._start_position(self._number("start_fraction", 0.0, 1.0))
+        self._are_at(self._position)
         start_homed = self.settings["start_homed"]
         self._homing = Homing(() if start_homed else map(self.axes.index, self.homing_axes))
         self._capturing: Capturing | None = None
@@ -310,6 +313,7 @@ class Simulator(
                 self._keep(device.advance(end_s))
                 self._end(device, end_s)
             self._keep(device.advance(now_s))
+            self._are_at(device.true_position)
         except PlantError as error:
             self._fault = str(error)
 

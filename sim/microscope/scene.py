@@ -110,7 +110,7 @@ class Scene:
     seed: int = 0
 
     @classmethod
-    def of(cls, robot: Robot, **mounting: object) -> Self:
+    def of(cls, robot: Robot, *, seed: int = 0, **mounting: object) -> Self:
         """Return the scene of a robot file, with a cell beside the middle of the view.
 
         ``mounting`` are fields of :class:`Optics`.
@@ -118,4 +118,4 @@ class Scene:
         optics = Optics.of(robot, **mounting)
         angle = robot.tool.approach_angle
         pin = Pin(_APPROACH_RAD if angle is None else angle)
-        return cls(optics, pin, Cell.beside(optics.centre_m))
+        return cls(optics, pin, Cell.beside(optics.centre_m), seed=seed)
