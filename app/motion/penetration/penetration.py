@@ -526,7 +526,9 @@ class Penetration:
 
     def _show(self, attempt: Attempt, state: SessionState) -> None:
         way = abs(state.command[attempt.parameters.axis] - attempt.start)
-        self._status = replace(self._status, way=way, deviation=attempt.deviation())
+        self._status = replace(
+            self._status, way=way, deviation=attempt.deviation(), load=attempt.load()
+        )
 
     def _hear(self, event: Event) -> None:
         if isinstance(event, CommandRefused):

@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass, fields
 from enum import StrEnum
 from os import PathLike, fspath
 from pathlib import Path
+from types import NoneType
 from typing import Any, Self
 
 from rotemina.app.motion.penetration.errors import PenetrationError
@@ -92,7 +93,7 @@ class PenetrationRun:
             table["phases"] = tuple((str(name), float(at)) for name, at in table["phases"])
             if table.get("thrust") is not None:
                 table["thrust"] = ThrustMeasured(**table["thrust"])
-            return cls(**table)
+            return _sound(cls(**table))
         except (ValueError, TypeError, KeyError, RecursionError) as error:
             raise PenetrationError(f"no penetration's run: {error}") from error
 
@@ -150,6 +151,24 @@ class RunLog:
             except PenetrationError as error:
                 problems.append(f"{self.path}, line {number}: {error}")
         return tuple(runs), tuple(problems)
+
+
+def _sound(run: PenetrationRun) -> PenetrationRun:
+    """Return a run whose texts are texts and whose figures are figures; else a TypeError."""
+    kinds: dict[str, tuple[type, ...]] = {
+        **dict.fromkeys(("started", "robot", "driver", "reason"), (str,)),
+        **{"parameters": (dict,), "verdict": (Verdict,), "phases": (tuple,)},
+        "thrust": (ThrustMeasured, NoneType),
+    }
+    parts: list[tuple[Any, tuple[type, ...]]] = [(run, (float, int, NoneType))]
+    if run.thrust is not None:
+        parts.append((run.thrust, (float, int)))
+    for part, figure in parts:
+        for one in fields(part):
+            value = getattr(part, one.name)
+            if not isinstance(value, kinds.get(one.name, figure)):
+                raise TypeError(f"{one.name} = {str(value)[:40]!r}: of the wrong kind")
+    return run
 
 
 def as_table(parameters: Any) -> dict[str, Any]:

@@ -54,6 +54,8 @@ class PenetrationStatus:
         How far the axis is commanded from where the run began, m.
     deviation : float or None
         Change of ``meas − model`` since the run began, against the motion, m.
+    load : float or None
+        How far the axis is from where it should be, m; ``overload`` of the parameters ends the run.
     average_speed, peak_speed : float or None
         Of the thrust that is planned, m/s.
     run : PenetrationRun or None
@@ -69,6 +71,7 @@ class PenetrationStatus:
     armed_left_s: float | None = None
     way: float | None = None
     deviation: float | None = None
+    load: float | None = None
     average_speed: float | None = None
     peak_speed: float | None = None
     run: PenetrationRun | None = None

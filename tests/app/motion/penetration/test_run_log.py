@@ -1,7 +1,7 @@
 """The log of runs: appended, read back, and read in spite of a line that was cut off."""
 
 import json
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import pytest
 
@@ -59,6 +59,22 @@ def test_what_is_no_run_is_told_with_its_line(tmp_path, line):
     runs, problems = RunLog(path).read()
     assert runs == ()
     assert "line 1: no penetration's run" in problems[0]
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("contact", "58 µm"),
+        ("reason", 3),
+        ("parameters", [1]),
+        ("thrust", {**asdict(RUN.thrust), "depth": None}),
+        ("phases", [["approach", "late"]]),
+        ("thrust", 5),
+    ],
+)
+def test_a_figure_that_is_none_is_told(key, value):
+    with pytest.raises(PenetrationError, match="no penetration's run"):
+        PenetrationRun.parsed(json.dumps({**json.loads(RUN.line()), key: value}))
 
 
 def test_a_place_that_cannot_be_written_or_read_is_told(tmp_path):

@@ -1,0 +1,106 @@
+"""Fields of the form: numbers with units, and choices that the wheel leaves alone."""
+
+from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtGui import QWheelEvent
+from PySide6.QtWidgets import QComboBox, QLabel, QLineEdit
+
+from rotemina.app.shell.controls import plain_tip
+from rotemina.plugins.penetration.quantities import Quantity, TypedError
+
+
+def mark(widget: QLineEdit, bad: bool) -> None:
+    """Mark a field whose text is not taken, or take the mark away."""
+    if bool(widget.property("bad")) != bad:
+        widget.setProperty("bad", bad)
+        widget.style().unpolish(widget)
+        widget.style().polish(widget)
+
+
+class SteadyChoice(QComboBox):
+    """A choice that the wheel does not change."""
+
+    def __init__(self, name: str, *tip: str) -> None:
+        super().__init__()
+        self.setAccessibleName(name)
+        self.setToolTip(plain_tip(*tip))
+        self.setMinimumContentsLength(8)
+        self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+
+    def choose(self, data: str) -> None:
+        """Choose what stands for some data; offer it if it was not."""
+        if self.findData(data) < 0:
+            self.addItem(data, data)
+        self.setCurrentIndex(self.findData(data))
+
+    def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
+        """Leave the wheel to what scrolls."""
+        event.ignore()
+
+
+class NumberField(QObject):
+    """One number: its title, its field and its unit.
+
+    Signals
+    -------
+    changed() : another text was entered.
+    """
+
+    changed = Signal()
+
+    def __init__(self, quantity: Quantity, parent: QObject) -> None:
+        super().__init__(parent)
+        self.quantity = quantity
+        self._value: float | None = None
+        self._read = ""
+        self.title, self.unit = QLabel(quantity.title), QLabel(quantity.unit)
+        self.unit.setProperty("quiet", True)
+        self.edit = QLineEdit()
+        self.edit.setAlignment(Qt.AlignmentFlag.AlignRight)
+        self.edit.setMinimumWidth(54)
+        self.edit.setMaximumWidth(90)
+        self.edit.setAccessibleName(quantity.name)
+        self.title.setBuddy(self.edit)
+        for widget in (self.title, self.edit, self.unit):
+            widget.setToolTip(plain_tip(*quantity.tip))
+        self.edit.editingFinished.connect(self._enter)
+
+    @property
+    def value(self) -> float:
+        """What the field means, SI.
+
+        Raises
+        ------
+        TypedError
+            If that is no number within the bounds.
+        """
+        text = self.edit.text()
+        if self._value is not None and text == self._read:
+            return self._value  # what is shown has fewer digits than what is meant
+        return self.quantity.value(text)
+
+    def show_value(self, value: float) -> None:
+        """Show a value, SI."""
+        self._value, self._read = value, self.quantity.number(value)
+        self.edit.setText(self._read)
+        self.edit.setCursorPosition(0)
+        self.complaint()
+
+    def complaint(self) -> str | None:
+        """Return what is wrong with the text, and mark the field; None: nothing."""
+        wrong = None
+        try:
+            self.value  # noqa: B018 (whether it can be read)
+        except TypedError as error:
+            wrong = str(error)
+        mark(self.edit, wrong is not None)
+        self.edit.setToolTip(plain_tip(*self.quantity.tip, wrong or ""))
+        return wrong
+
+    def set_visible(self, visible: bool) -> None:
+        """Show the row, or hide it."""
+        for widget in (self.title, self.edit, self.unit):
+            widget.setVisible(visible)
+
+    def _enter(self) -> None:
+        if self.edit.text() != self._read:
+            self.changed.emit()

@@ -1,0 +1,46 @@
+"""Names and values in two columns, each with what it means."""
+
+from collections.abc import Mapping
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
+
+from rotemina.app.shell.controls import plain_tip
+
+
+class Figures(QWidget):
+    """Values by name, ``names`` with a sentence for each; there is room for the ``widest``."""
+
+    def __init__(self, names: Mapping[str, str], widest: str) -> None:
+        super().__init__()
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setHorizontalSpacing(10)
+        grid.setVerticalSpacing(1)
+        grid.setColumnStretch(1, 1)
+        self.values: dict[str, QLabel] = {}
+        for row, (name, about) in enumerate(names.items()):
+            title, value = QLabel(name), QLabel("–")
+            title.setProperty("quiet", True)
+            value.setTextFormat(Qt.TextFormat.PlainText)
+            value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+            value.setAccessibleName(name)
+            value.setMinimumWidth(value.fontMetrics().horizontalAdvance(widest))
+            for widget in (title, value):
+                widget.setToolTip(plain_tip(about))
+            grid.addWidget(title, row, 0)
+            grid.addWidget(value, row, 1)
+            self.values[name] = value
+
+    def show_values(self, *texts: str) -> None:
+        """Show texts in the order of the names."""
+        for value, text in zip(self.values.values(), texts, strict=True):
+            value.setText(text)
+
+    def set_stale(self, stale: bool) -> None:
+        """Grey values that are too old."""
+        for value in self.values.values():
+            if bool(value.property("stale")) != stale:
+                value.setProperty("stale", stale)
+                value.style().unpolish(value)
+                value.style().polish(value)

@@ -1,0 +1,236 @@
+"""The parameters of a penetration as a form; typing in it moves nothing."""
+
+from typing import Any
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QFrame,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QPlainTextEdit,
+    QPushButton,
+    QScrollArea,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.display import label
+from rotemina.app.motion.penetration.parameters import (
+    Direction,
+    PenetrationParameters,
+    Shaping,
+    ThrustShape,
+)
+from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.plugins.penetration.fields import NumberField, SteadyChoice
+from rotemina.plugins.penetration.quantities import QUANTITIES, Group, TypedError, in_group
+from rotemina.plugins.penetration.table_text import EXAMPLE, read_table, table_text
+from rotemina.sim.errors import InputError
+from rotemina.sim.robot.model import Robot
+
+_SHAPES = {
+    ThrustShape.S_CURVE: "S-curve",
+    ThrustShape.MINIMUM_JERK: "minimum jerk",
+    ThrustShape.TABLE: "table",
+}
+_SHAPINGS = {
+    Shaping.NONE: "none",
+    Shaping.ZV: "ZV",
+    Shaping.ZVD: "ZVD",
+    Shaping.ZVDD: "ZVDD",
+    Shaping.INVERSE: "inverse model",
+}
+_TABLE_TIP = (
+    "The thrust as points, a line each: time share, depth share.",
+    "From 0, 0 to 1, 1; 2 to 200 points.",
+)
+
+
+class ParameterForm(QScrollArea):
+    """Fields by group; what they hold is taken when a field is left or Enter is pressed.
+
+    Signals
+    -------
+    changed() : ``parameters`` or ``complaint`` did.
+    """
+
+    changed = Signal()
+
+    def __init__(self, robot: Robot, parameters: PenetrationParameters) -> None:
+        super().__init__()
+        self.parameters, self.complaint = parameters, ""
+        self.setObjectName("panelScroll")
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setWidgetResizable(True)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self._body = QWidget()
+        self.load, self.save = QPushButton("Load …"), QPushButton("Save …")
+        self.fields = {key: NumberField(one, self) for key, one in QUANTITIES.items()}
+        self._make_choices(robot)
+        self._make_more()
+        self._lay_out()
+        self.show_parameters(parameters)
+        self._connect()
+
+    def show_parameters(self, parameters: PenetrationParameters) -> None:
+        """Put parameters into the fields."""
+        self.parameters, self.complaint = parameters, ""
+        for key, field in self.fields.items():
+            field.show_value(getattr(parameters, key))
+        for key, choice in self.choices.items():
+            choice.choose(str(getattr(parameters, key)))
+        self.table.blockSignals(True)
+        self.table.setPlainText(table_text(parameters.table or EXAMPLE))
+        self.table.blockSignals(False)
+        self._show_what_counts()
+
+    def take(self) -> None:
+        """Read every field; also one that is still being edited."""
+        before = self.parameters, self.complaint
+        wrong = [field.complaint() for field in self.fields.values()]
+        self.complaint = next((one for one in wrong if one is not None), "")
+        if not self.complaint:
+            try:
+                self.parameters = self._read()
+            except InputError as error:
+                self.complaint = str(error)
+        self._show_what_counts()
+        if (self.parameters, self.complaint) != before:
+            self.changed.emit()
+
+    def allow(self, why_not: str | None) -> None:
+        """Let the fields be changed, or say why not; they can be read all the same."""
+        self._body.setEnabled(why_not is None)
+        self._body.setToolTip(plain_tip(f"Not now: {why_not}") if why_not else "")
+        allow(self.load, why_not, "Take parameters from a TOML file in place of these")
+
+    # --- parts ------------------------------------------------------------------------------------
+
+    def _lay_out(self) -> None:
+        body = QVBoxLayout(self._body)
+        body.setContentsMargins(0, 0, 0, 0)
+        body.setSpacing(2)
+        for group in Group:
+            body.addWidget(self._section(group))
+        files = QHBoxLayout()
+        files.setSpacing(6)
+        for button in (self.load, self.save):
+            files.addWidget(button, 1)
+        content = QWidget()
+        column = QVBoxLayout(content)
+        column.setContentsMargins(0, 0, 8, 4)
+        column.addWidget(self._body)
+        column.addLayout(files)
+        column.addStretch(1)
+        self.setWidget(content)
+        self.setMinimumWidth(content.minimumSizeHint().width() + 12)
+
+    def _make_choices(self, robot: Robot) -> None:
+        axis = SteadyChoice("Axis of the penetration", "The axis that goes into the cell")
+        for name in robot.axes:
+            if robot.unit(name) == "m":
+                axis.addItem(label(name), name)
+        direction = SteadyChoice(
+            "Direction", "Where the cell is along the axis; down: towards smaller positions"
+        )
+        shape = SteadyChoice("Shape of the thrust", "Its profile of speed")
+        shaping = SteadyChoice(
+            "Input shaping",
+            "Against the axis' resonance, as of the robot file. ZV, ZVD, ZVDD: impulses, each "
+            "slower and surer; inverse model: follows best",
+        )
+        for direct in Direction:
+            direction.addItem(str(direct), str(direct))
+        for form, text in _SHAPES.items():
+            shape.addItem(text, str(form))
+        for kind, text in _SHAPINGS.items():
+            shaping.addItem(text, str(kind))
+        self.choices = {"axis": axis, "direction": direction, "shape": shape, "shaping": shaping}
+        self.table = QPlainTextEdit()
+        self.table.setAccessibleName("Table of the thrust: time share, depth share")
+        self.table.setToolTip(plain_tip(*_TABLE_TIP))
+        self.table.setTabChangesFocus(True)
+        self.table.setFixedHeight(86)
+
+    def _make_more(self) -> None:
+        self.more = QToolButton()
+        self.more.setText("More ▸")
+        self.more.setCheckable(True)
+        self.more.setAccessibleName("More of the contact detection")
+        self.more.setToolTip("How the contact is told from noise, hysteresis and creep")
+        self._detection = QWidget()
+        self._detection.hide()
+
+    def _section(self, group: Group) -> QWidget:
+        section, body = QWidget(), QWidget()
+        column = QVBoxLayout(section)
+        column.setContentsMargins(0, 0, 0, 2)
+        column.setSpacing(2)
+        heading = QLabel(str(group))
+        heading.setProperty("heading", True)
+        column.addWidget(heading)
+        if group is Group.CONTACT:
+            body = self._detection
+            column.addWidget(self.more, 0, Qt.AlignmentFlag.AlignLeft)
+        column.addWidget(body)
+        grid = QGridLayout(body)
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setVerticalSpacing(3)
+        grid.setHorizontalSpacing(8)
+        grid.setColumnStretch(0, 1)
+        if group is Group.APPROACH:
+            self._add_choice(grid, "Axis", "axis")
+            self._add_choice(grid, "Cell is", "direction")
+        if group is Group.THRUST:
+            self._add_choice(grid, "Shape", "shape")
+            self._add_choice(grid, "Shaping", "shaping")
+        for quantity in in_group(group):
+            field, row = self.fields[quantity.key], grid.rowCount()
+            for place, widget in enumerate((field.title, field.edit, field.unit)):
+                grid.addWidget(widget, row, place)
+        if group is Group.THRUST:
+            self._table_title = QLabel("Time share, depth share")
+            grid.addWidget(self._table_title, grid.rowCount(), 0, 1, 3)
+            grid.addWidget(self.table, grid.rowCount(), 0, 1, 3)
+        return section
+
+    def _add_choice(self, grid: QGridLayout, title: str, key: str) -> None:
+        name, row = QLabel(title), grid.rowCount()
+        name.setBuddy(self.choices[key])
+        grid.addWidget(name, row, 0)
+        grid.addWidget(self.choices[key], row, 1, 1, 2)
+
+    def _connect(self) -> None:
+        for field in self.fields.values():
+            field.changed.connect(self.take)
+        for choice in self.choices.values():
+            choice.activated.connect(lambda _: self.take())
+        self.table.textChanged.connect(self.take)
+        self.more.toggled.connect(self._show_more)
+
+    # --- inside -----------------------------------------------------------------------------------
+
+    def _read(self) -> PenetrationParameters:
+        asked: dict[str, Any] = {key: field.value for key, field in self.fields.items()}
+        asked |= {key: choice.currentData() for key, choice in self.choices.items()}
+        tabled = asked["shape"] == ThrustShape.TABLE
+        asked["table"] = read_table(self.table.toPlainText()) if tabled else ()
+        return PenetrationParameters(**asked)
+
+    def _show_what_counts(self) -> None:
+        shape = self.choices["shape"].currentData()
+        self.fields["ramp"].set_visible(shape == ThrustShape.S_CURVE)
+        for widget in (self._table_title, self.table):
+            widget.setVisible(shape == ThrustShape.TABLE)
+        try:
+            read_table(self.table.toPlainText())
+            wrong = ""
+        except TypedError as error:
+            wrong = str(error)
+        self.table.setToolTip(plain_tip(*_TABLE_TIP, wrong))
+
+    def _show_more(self, shown: bool) -> None:
+        self.more.setText("Less ▾" if shown else "More ▸")
+        self._detection.setVisible(shown)

@@ -1,0 +1,279 @@
+"""Automatic cell penetration: what it is to be like, the run, and the log of runs."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from PySide6.QtCore import Qt, QTimer
+from PySide6.QtWidgets import (
+    QFileDialog,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QScrollArea,
+    QStackedWidget,
+    QTabBar,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.motion.penetration.parameters import PenetrationParameters
+from rotemina.app.motion.penetration.run_log import PenetrationRun, as_table
+from rotemina.app.motion.penetration.status import PenetrationStatus
+from rotemina.app.motion.state import SessionState
+from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.plugins.penetration.cell_view import CellView
+from rotemina.plugins.penetration.form import ParameterForm
+from rotemina.plugins.penetration.log_view import LogView
+from rotemina.plugins.penetration.preview import ThrustPreview
+from rotemina.plugins.penetration.prospect import Prospect
+from rotemina.plugins.penetration.readouts import Readouts
+from rotemina.plugins.penetration.run_bar import RunBar
+from rotemina.plugins.penetration.words import FIXED, message
+
+FILES = "Penetrations (*.toml);;All files (*)"
+KEEP_MS = 500  # after the latest change the parameters are kept
+
+
+class PenetrationPanel(Panel):
+    """Buttons and phases above; below the thrust, the log, and a simulated cell."""
+
+    title = "Penetration"
+    area = Area.BOTTOM
+    order = 35
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__(workbench)
+        self._operation = workbench.operation
+        self._penetration = self._operation.penetration
+        self._why_not: str | None = None
+        self._looked_at: object = ()
+        self._problem = ""
+        self.bar = RunBar(workbench)
+        self.message = QLabel()
+        self.message.setWordWrap(True)
+        self.message.setTextFormat(Qt.TextFormat.PlainText)
+        self.message.setAccessibleName("What the penetration does")
+        self.form = ParameterForm(workbench.robot, self._operation.penetration_parameters)
+        self._plan()
+        self.readouts, self.preview = Readouts(workbench), ThrustPreview(workbench.theme)
+        self.log = LogView(self._operation.penetration_log.path)
+        self.cell = CellView(workbench)
+        self._keep = QTimer(self, interval=KEEP_MS, singleShot=True)
+        self._shown_trace: object = ()
+        self._lay_out()
+        self._connect()
+        self._read_log()
+        self._refresh(workbench.session.snapshot())
+
+    # --- parts ------------------------------------------------------------------------------------
+
+    def _lay_out(self) -> None:
+        thrust = QWidget()
+        row = QHBoxLayout(thrust)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(12)
+        row.addWidget(_scrolled(self.readouts))
+        row.addWidget(self.preview, 1)
+        row.addWidget(self.form)
+        self.tabs, self.views = QTabBar(), QStackedWidget()
+        for name, view in (("Thrust", thrust), ("Runs", self.log), ("Simulated cell", self.cell)):
+            self.tabs.addTab(name)
+            self.views.addWidget(view)
+        self.tabs.currentChanged.connect(self.views.setCurrentIndex)
+        head = QHBoxLayout()
+        head.setSpacing(10)
+        head.addWidget(self.message, 1)
+        head.addWidget(self.tabs, 0, Qt.AlignmentFlag.AlignTop)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(10, 6, 10, 6)
+        column.setSpacing(4)
+        column.addWidget(self.bar)
+        column.addLayout(head)
+        column.addWidget(self.views, 1)
+
+    def _connect(self) -> None:
+        self.bar.arm_asked.connect(self.arm)
+        self.form.changed.connect(self._change)
+        self.form.load.clicked.connect(lambda _: self._ask_load())
+        self.form.save.clicked.connect(lambda _: self._ask_save())
+        self._keep.timeout.connect(self._keep_parameters)
+        self.workbench.refreshed.connect(self._refresh)
+        self.workbench.theme_changed.connect(self.preview.set_theme)
+        self.workbench.closing.connect(self._close)
+
+    # --- what the operator does -------------------------------------------------------------------
+
+    def arm(self) -> None:
+        """Arm the parameters as they are shown, or say why not."""
+        self.form.take()  # a field that is still being edited counts too
+        if self.form.complaint:
+            self.workbench.notify(Level.ERROR, self.form.complaint)
+            return
+        parameters = self.form.parameters
+        self.workbench.ask(lambda: self._operation.arm_penetration(parameters))
+
+    def load_parameters(self, path: Path) -> None:
+        """Take parameters from a file."""
+
+        def done(parameters: PenetrationParameters) -> None:
+            if self._penetration.status.phase in FIXED:
+                self.workbench.notify(
+                    Level.WARNING, f"{path.name} is not taken: a penetration is armed or runs."
+                )
+                return
+            self.form.show_parameters(parameters)
+            self._change()
+
+        self.workbench.work(
+            "penetration", f"Reading {path.name} …", lambda: PenetrationParameters.load(path), done
+        )
+
+    def save_parameters(self, path: Path) -> None:
+        """Write the parameters to a file."""
+        self.form.take()
+        if self.form.complaint:
+            self.workbench.notify(Level.ERROR, f"Nothing is saved: {self.form.complaint}")
+            return
+        parameters = self.form.parameters
+        self.workbench.work(
+            "save penetration",
+            f"Writing {path.name} …",
+            lambda: parameters.save(path),
+            lambda _: self.workbench.notify(Level.GOOD, f"Saved {path}"),
+        )
+
+    def _ask_load(self) -> None:
+        dialog = self._file_dialog("Load parameters", self.load_parameters)
+        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
+        dialog.show()
+
+    def _ask_save(self) -> None:
+        dialog = self._file_dialog("Save parameters", self.save_parameters)
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setDefaultSuffix("toml")
+        dialog.selectFile("penetration.toml")
+        dialog.show()
+
+    def _file_dialog(self, title: str, use: Callable[[Path], None]) -> QFileDialog:
+        """Return a dialog beside which the window, and its stop button, can still be used."""
+        settings = self.workbench.settings
+        dialog = QFileDialog(self, title, settings.get("files.folder", ""), FILES)
+        dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.fileSelected.connect(
+            lambda name: settings.set("files.folder", str(Path(name).parent))
+        )
+        dialog.fileSelected.connect(lambda name: use(Path(name)))
+        return dialog
+
+    # --- parameters -------------------------------------------------------------------------------
+
+    def _change(self) -> None:
+        """Plan anew, and keep the parameters a little later."""
+        if not self.form.complaint and self.form.parameters != self.prospect.parameters:
+            self._plan()
+            self._keep.start()
+        self._refresh(self.workbench.session.snapshot())
+
+    def _plan(self) -> None:
+        session = self.workbench.session
+        self._planned_for = session.driver
+        self.prospect = Prospect.of(session, self.form.parameters)
+
+    def _keep_parameters(self) -> None:
+        parameters = self.prospect.parameters
+        self.workbench.ask(lambda: self._operation.keep_penetration(parameters))
+
+    def _close(self) -> None:
+        if self._keep.isActive():
+            self._keep.stop()
+            self._keep_parameters()
+
+    # --- what is shown ----------------------------------------------------------------------------
+
+    def _refresh(self, state: SessionState) -> None:
+        status = self._penetration.status
+        self._look(status, state)
+        self.bar.refresh(status, state, self._why_not)
+        text = message(status, self._why_not)
+        if self.message.text() != text:
+            self.message.setText(text)
+        self.readouts.refresh(status, state, self.prospect.parameters)
+        self.cell.refresh(state, self.prospect.parameters)
+        self._draw(status)
+        fixed = "it is armed or runs; disarm it first" if status.phase in FIXED else None
+        self.form.allow(fixed)
+        self.log.take_latest(status.run)
+        if status.problem != self._problem:
+            self._problem = status.problem
+            if status.problem:
+                self.workbench.notify(Level.WARNING, f"The run was not logged: {status.problem}")
+
+    def _look(self, status: PenetrationStatus, state: SessionState) -> None:
+        """Find out why it cannot be armed now, when anything has changed that counts."""
+        session = self.workbench.session
+        if session.driver is not self._planned_for:  # another one may hold its set-points longer
+            self._plan()
+        looked_at = (
+            self.prospect,
+            self.form.complaint,
+            status.phase,
+            dict(state.command),
+            state.locked,
+            state.activity,
+            state.queued > 0,
+            dict(state.owners),
+            session.keep_out,
+        )
+        if looked_at == self._looked_at:
+            return
+        self._looked_at = looked_at
+        self.readouts.show_plan(self.prospect, state)
+        if self.form.complaint or self.prospect.plan is None:
+            self._why_not = self.form.complaint or self.prospect.problem
+        elif state.locked is not None:
+            self._why_not = f"motion is locked: {state.locked}"
+        else:
+            self._why_not = self._penetration.why_not(self.prospect.parameters, self.prospect.plan)
+
+    def _draw(self, status: PenetrationStatus) -> None:
+        """Draw the plan; beside it the latest run, where that was by these parameters."""
+        shown = (self.prospect, status.trace, status.run)
+        if shown == self._shown_trace:
+            return
+        self._shown_trace = shown
+        self.preview.show_plan(
+            self.prospect.plan,
+            status.trace if _by(status.run, self.prospect.parameters) else None,
+        )
+
+    def _read_log(self) -> None:
+        log = self._operation.penetration_log
+        if not Path(log.path).exists():
+            return
+
+        def done(read: tuple[tuple[PenetrationRun, ...], tuple[str, ...]]) -> None:
+            runs, problems = read
+            self.log.take_file(runs)
+            if problems:
+                self.workbench.notify(
+                    Level.WARNING, f"{len(problems)} lines of the log are none: {problems[0]}"
+                )
+
+        self.workbench.work("penetration log", "Reading the log …", log.read, done)
+
+
+def _by(run: PenetrationRun | None, parameters: PenetrationParameters) -> bool:
+    return run is not None and run.parameters == as_table(parameters)
+
+
+def _scrolled(widget: QWidget) -> QScrollArea:
+    scroll = QScrollArea()
+    scroll.setObjectName("panelScroll")
+    scroll.setFrameShape(QFrame.Shape.NoFrame)
+    scroll.setWidgetResizable(True)
+    scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+    scroll.setWidget(widget)
+    scroll.setFixedWidth(widget.minimumSizeHint().width() + 12)
+    return scroll

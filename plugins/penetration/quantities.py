@@ -1,0 +1,211 @@
+"""The numbers of a penetration as an operator types them: unit, bounds, what they do. No Qt."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from rotemina.app.display import PLAIN_NUMBER
+from rotemina.app.motion.penetration.parameters import BOUNDS, PenetrationParameters
+from rotemina.sim.errors import InputError
+
+_PRESETS = PenetrationParameters()
+
+
+class Group(StrEnum):
+    """What belongs together on the screen."""
+
+    APPROACH = "Approach"
+    CONTACT = "Contact detection"
+    THRUST = "Thrust"
+    HOLD = "Hold and inject"
+    RETRACT = "Retract"
+    LIMITS = "Limits"
+
+
+class TypedError(InputError):
+    """What was typed is no number, or out of bounds."""
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """One number.
+
+    Attributes
+    ----------
+    key : str
+        Its name among the parameters.
+    title, unit : str
+        As the screen has them.
+    per_si : float
+        How many of the unit make one SI unit.
+    group : Group
+    about : str
+        What it does, in a sentence without its full stop.
+    """
+
+    key: str
+    title: str
+    unit: str
+    per_si: float
+    group: Group
+    about: str
+
+    @property
+    def name(self) -> str:
+        """Title and unit, for those who hear the screen."""
+        return f"{self.title}, {self.unit}" if self.unit else self.title
+
+    @property
+    def tip(self) -> tuple[str, str]:
+        """What it does, and its bounds and preset."""
+        bound, preset = BOUNDS[self.key], getattr(_PRESETS, self.key)
+        least, most = self.number(bound.least), self.text(bound.most)
+        return f"{self.about}.", f"{least} to {most}; preset {self.text(preset)}"
+
+    def number(self, value: float) -> str:
+        """Return a value (SI) as digits in the unit."""
+        return f"{value * self.per_si:.6g}"
+
+    def text(self, value: float) -> str:
+        """Return a value (SI) with its unit."""
+        return f"{self.number(value)} {self.unit}".rstrip()
+
+    def value(self, typed: str) -> float:
+        """Return what a text means, SI.
+
+        Raises
+        ------
+        TypedError
+            With the text and the bounds.
+        """
+        text = typed.strip()
+        if PLAIN_NUMBER.fullmatch(text) is None:
+            unit = f" in {self.unit}" if self.unit else ""
+            raise TypedError(
+                f"{self.title}: {text!r} is no number; type one{unit}, with a decimal point"
+            )
+        value, bound = float(text) / self.per_si, BOUNDS[self.key]
+        for end in bound.least, bound.most:
+            if self.number(value) == self.number(end):
+                value = end  # typed as it is shown: rounding must not put it beyond
+        if not bound.least <= value <= bound.most:
+            raise TypedError(
+                f"{self.title}: {text} {self.unit}".rstrip() + " is refused: must be "
+                f"{self.number(bound.least)} to {self.text(bound.most)}"
+            )
+        return value
+
+
+_UM, _MS, _PERCENT = 1e6, 1e3, 1e2
+
+QUANTITIES = {
+    one.key: one
+    for one in (
+        Quantity(
+            "approach_speed", "Speed", "µm/s", _UM, Group.APPROACH, "How fast the tip comes near"
+        ),
+        Quantity(
+            "approach_distance",
+            "At most",
+            "µm",
+            _UM,
+            Group.APPROACH,
+            "Without a contact by then the tip goes back, and the run has failed",
+        ),
+        Quantity(
+            "false_alarms_per_hour",
+            "False alarms",
+            "1/h",
+            1.0,
+            Group.CONTACT,
+            "Of the detector, on noise alone; fewer make it slower",
+        ),
+        Quantity(
+            "drift",
+            "Drift",
+            "%",
+            _PERCENT,
+            Group.CONTACT,
+            "Slope of measured − model that hysteresis, creep and gain may cause; less finds "
+            "softer membranes",
+        ),
+        Quantity(
+            "drift_length",
+            "Drift over",
+            "µm",
+            _UM,
+            Group.CONTACT,
+            "Way over which that slope may change by as much",
+        ),
+        Quantity(
+            "contact_pause_s",
+            "Pause",
+            "ms",
+            _MS,
+            Group.CONTACT,
+            "At rest on the membrane before the thrust",
+        ),
+        Quantity(
+            "depth",
+            "Depth",
+            "µm",
+            _UM,
+            Group.THRUST,
+            "Of the thrust, from where the approach came to rest on the membrane",
+        ),
+        Quantity(
+            "duration_s", "Duration", "ms", _MS, Group.THRUST, "Of the thrust, shaping included"
+        ),
+        Quantity(
+            "ramp",
+            "Ramp",
+            "%",
+            _PERCENT,
+            Group.THRUST,
+            "Of an S-curve: share of the time to speed up, and again to slow down",
+        ),
+        Quantity(
+            "hold_s", "Hold", "ms", _MS, Group.HOLD, "At depth, before the tool is switched on"
+        ),
+        Quantity(
+            "inject_s",
+            "Inject",
+            "ms",
+            _MS,
+            Group.HOLD,
+            "With the tool on; 0: the tool stays off",
+        ),
+        Quantity(
+            "hold_after_s",
+            "Hold after",
+            "ms",
+            _MS,
+            Group.HOLD,
+            "At depth, after the tool was switched off",
+        ),
+        Quantity(
+            "retract_speed", "Speed back", "µm/s", _UM, Group.RETRACT, "How fast the tip goes back"
+        ),
+        Quantity(
+            "depth_tolerance",
+            "Depth off by",
+            "%",
+            _PERCENT,
+            Group.LIMITS,
+            "How far the measured depth may miss the asked one; else the run has failed",
+        ),
+        Quantity(
+            "overload",
+            "Overload",
+            "µm",
+            _UM,
+            Group.LIMITS,
+            "How far the axis may be from where it should be; beyond, the tip goes back at once",
+        ),
+        Quantity("armed_s", "Armed for", "s", 1.0, Group.LIMITS, "Then it disarms by itself"),
+    )
+}
+
+
+def in_group(group: Group) -> tuple[Quantity, ...]:
+    """Return the numbers of a group, in order."""
+    return tuple(one for one in QUANTITIES.values() if one.group is group)

@@ -1,0 +1,116 @@
+"""What is read while it runs, what the plan gives before, and the tool's switch."""
+
+from PySide6.QtWidgets import (
+    QHBoxLayout,
+    QLabel,
+    QProgressBar,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.motion.penetration.parameters import PenetrationParameters
+from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
+from rotemina.app.motion.state import SessionState
+from rotemina.app.panel import STALE_S
+from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.workbench import Workbench
+from rotemina.plugins.penetration.figures import Figures
+from rotemina.plugins.penetration.prospect import UNKNOWN, Prospect, way_text
+
+_PLAN = {
+    "Average speed": "Depth over duration",
+    "Peak speed": "Greatest instantaneous speed of the thrust",
+    "End depth": "Where the thrust is commanded to end, from where the approach came to rest",
+    "Room needed": "Approach, halt and thrust together",
+    "Room left": "From where the axis stands to the end of its range, in the cell's direction",
+}
+_RUN = {
+    "Way": "How far the axis is commanded from where the run began",
+    "Deviation": "Change of measured − model since the run began, against the motion",
+}
+
+
+class Readouts(QWidget):
+    """Figures of the run and of the plan."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__()
+        self._workbench = workbench
+        self.plan, self.run = Figures(_PLAN, "50000 µm/s"), Figures(_RUN, "−2000.00 µm")
+        self.load = QProgressBar()
+        self.load.setRange(0, 1000)
+        self.load.setMinimumWidth(144)
+        self.load.setAccessibleName("Load, up to the overload")
+        self.tool = QPushButton()
+        self.tool.setCheckable(True)
+        self.tool.clicked.connect(self._toggle)
+        column = QVBoxLayout()
+        column.setSpacing(4)
+        for widget in (_heading("Run"), self.run, self.load, self.tool):
+            column.addWidget(widget)
+        column.addStretch(1)
+        beside = QVBoxLayout()
+        beside.setSpacing(4)
+        for widget in (_heading("Plan"), self.plan):
+            beside.addWidget(widget)
+        beside.addStretch(1)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(14)
+        row.addLayout(column, 1)
+        row.addLayout(beside, 1)
+
+    def show_plan(self, prospect: Prospect, state: SessionState) -> None:
+        """Show what a plan gives from where the axis stands."""
+        start = state.command.get(prospect.parameters.axis) if state.position_known else None
+        self.plan.show_values(*prospect.figures(self._workbench.robot, start))
+
+    def refresh(
+        self, status: PenetrationStatus, state: SessionState, parameters: PenetrationParameters
+    ) -> None:
+        """Show a moment of a run by some parameters."""
+        running, held = status.phase in UNDER_WAY, status.phase is Phase.HELD
+        way = status.way if running or held else None
+        deviation, load = (status.deviation, status.load) if running else (None, None)
+        self.run.show_values(
+            UNKNOWN if way is None else way_text(way),
+            UNKNOWN if deviation is None else way_text(deviation),
+        )
+        self.run.set_stale(state.age_s is None or state.age_s > STALE_S)
+        most = parameters.overload
+        share = 0.0 if load is None else min(load / most, 1.0)
+        self.load.setValue(round(1000 * share))
+        value = UNKNOWN if load is None else f"{1e6 * load:.2f}"
+        self.load.setFormat(f"load {value} of {1e6 * most:.4g} µm")
+        self.load.setToolTip(
+            plain_tip(
+                "How far the axis is from where it should be.",
+                f"Beyond {1e6 * most:.4g} µm the run has failed, and the tip goes back.",
+            )
+        )
+        self._show_tool(status, state)
+
+    def _show_tool(self, status: PenetrationStatus, state: SessionState) -> None:
+        on = self._workbench.session.tool_on
+        self.tool.setChecked(bool(on))
+        self.tool.setText("Tool is on" if on else "Tool is off")
+        why = None
+        if on is None:
+            self.tool.setText("No tool")
+            why = f"{self._workbench.session.driver.name} has no tool that could be switched"
+        elif not on and status.phase in UNDER_WAY:
+            why = "the penetration switches it by itself while it runs"
+        elif not on:
+            why = state.locked
+        allow(self.tool, why, f"Switch the tool {'off' if on else 'on'}")
+
+    def _toggle(self) -> None:
+        self._workbench.ask(self._workbench.operation.toggle_tool)
+        self.tool.setChecked(bool(self._workbench.session.tool_on))  # as it is, not as asked
+
+
+def _heading(text: str) -> QLabel:
+    heading = QLabel(text)
+    heading.setProperty("heading", True)
+    return heading

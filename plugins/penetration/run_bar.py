@@ -1,0 +1,133 @@
+"""Arm, the one big button, and the strip of phases: always in sight."""
+
+import time
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QWidget
+
+from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.controls import allow
+from rotemina.app.shell.phase import Tone, set_tone
+from rotemina.app.shell.workbench import Workbench
+from rotemina.drivers.clock import Clock
+from rotemina.plugins.penetration.words import (
+    STRIP,
+    Light,
+    against_button,
+    arm_tip,
+    arm_word,
+    button_tip,
+    button_word,
+    counts,
+    headline,
+    lights,
+)
+
+_TONES = {
+    Light.OFF: Tone.QUIET,
+    Light.PASSED: Tone.GOOD,
+    Light.PRESENT: Tone.BUSY,
+    Light.HELD: Tone.WARNING,
+}
+_HEADLINES = {
+    Phase.DISARMED: Tone.QUIET,
+    Phase.ARMED: Tone.WARNING,
+    Phase.DONE: Tone.GOOD,
+    Phase.ABORTED: Tone.WARNING,
+    Phase.FAILED: Tone.DANGER,
+    Phase.HELD: Tone.DANGER,
+}
+
+
+class RunBar(QWidget):
+    """Two buttons whose words follow the phase.
+
+    Signals
+    -------
+    arm_asked() : the parameters are to be armed.
+    """
+
+    arm_asked = Signal()
+
+    def __init__(self, workbench: Workbench, clock: Clock = time.monotonic) -> None:
+        super().__init__()
+        self._workbench, self._operation = workbench, workbench.operation
+        self._clock, self._pressed_s = clock, float("-inf")
+        self._shown = Phase.DISARMED
+        self.arm = QPushButton("Arm")
+        self.arm.setMinimumWidth(104)
+        self.arm.clicked.connect(lambda _: self._arm())
+        self.button = QPushButton("Start")
+        self.button.setObjectName("penetration")
+        self.button.setProperty("primary", True)
+        self.button.setMinimumSize(140, 34)
+        # By Tab alone: no space bar that follows a click may start or end anything.
+        self.button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        # On pressing, not on release: what stops must not wait for the finger to lift.
+        self.button.pressed.connect(self._press)
+        self.phase = QLabel()
+        self.phase.setMinimumWidth(self.phase.fontMetrics().horizontalAdvance("armed, 600 s") + 30)
+        self.phase.setAccessibleName("Phase of the penetration")
+        self.phase.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.strip = {one: _chip(str(one)) for one in STRIP}
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(4)
+        for widget in (self.arm, self.button, self.phase):
+            row.addWidget(widget)
+        row.addStretch(1)
+        for number, chip in enumerate(self.strip.values()):
+            if number:
+                row.addWidget(_arrow())
+            row.addWidget(chip)
+        row.addStretch(1)
+
+    def refresh(self, status: PenetrationStatus, state: SessionState, why_not: str | None) -> None:
+        """Show a moment; ``why_not`` is why it cannot be armed now."""
+        self._shown = phase = status.phase
+        self.arm.setText(arm_word(phase))
+        against = f"it is in {phase}; stop it first" if phase in UNDER_WAY else None
+        if arm_word(phase) == "Arm" and against is None:
+            against = why_not
+        allow(self.arm, against, arm_tip(phase))
+        self.button.setText(button_word(phase))
+        allow(self.button, against_button(status, state), button_tip(phase))
+        self.phase.setText(headline(status))
+        set_tone(self.phase, _HEADLINES.get(phase, Tone.BUSY))
+        for chip, light in zip(self.strip.values(), lights(status), strict=True):
+            set_tone(chip, _TONES[light])
+            chip.setAccessibleDescription(str(light))
+
+    def _arm(self) -> None:
+        penetration = self._operation.penetration
+        word = arm_word(self._shown)
+        if word != arm_word(penetration.status.phase):
+            return  # it acts as it was labelled, or not at all
+        if word == "Arm":
+            self.arm_asked.emit()
+        else:
+            self._workbench.ask(penetration.disarm)
+
+    def _press(self) -> None:
+        now_s = self._clock()
+        phase, since_s = self._operation.penetration.status.phase, now_s - self._pressed_s
+        self._pressed_s = now_s
+        if counts(self._shown, phase, since_s):
+            self._workbench.ask(self._operation.press_penetration)
+
+
+def _chip(text: str) -> QLabel:
+    chip = QLabel(text)
+    chip.setTextFormat(Qt.TextFormat.PlainText)
+    chip.setStyleSheet("padding: 1px 5px;")  # six of them in one row
+    chip.setMinimumWidth(16)  # in a narrow dock they are cut; the phase stands before them
+    chip.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
+    return chip
+
+
+def _arrow() -> QLabel:
+    arrow = QLabel("→")
+    arrow.setProperty("quiet", True)
+    arrow.setMinimumWidth(4)
+    return arrow

@@ -1,0 +1,164 @@
+"""Runs of the log as rows and in full, and which of them are shown. Free of Qt."""
+
+import json
+from collections.abc import Iterable
+from datetime import datetime
+from typing import Any
+
+from rotemina.app.motion.penetration.parameters import BOUNDS
+from rotemina.app.motion.penetration.run_log import PenetrationRun
+from rotemina.plugins.penetration.prospect import UNKNOWN, speed_text, way_text
+from rotemina.plugins.penetration.quantities import QUANTITIES
+
+MOST = 50
+COLUMNS = ("Time", "Verdict", "Contact", "Depth", "Average", "Peak", "Error", "Reason")
+COLUMN_TIPS = (
+    "When the run was started",
+    "Done, aborted by the button, failed, or held by a stop; the tip is back but when held",
+    "Height of the tip where the contact was told; where the axis was, without a tip",
+    "How far the axis went in the thrust, by its own sensor",
+    "Average speed of the thrust, measured",
+    "Greatest speed of the thrust, measured over five samples",
+    "Greatest distance from the profile, a constant delay taken off",
+    "Why it ended as it did",
+)
+
+
+class RunList:
+    """The latest runs, the latest first; those of this start and of the file, each once."""
+
+    def __init__(self) -> None:
+        self.runs: tuple[PenetrationRun, ...] = ()
+        self._latest: PenetrationRun | None = None
+        self.of_this_start = 0
+
+    def take_file(self, runs: Iterable[PenetrationRun]) -> None:
+        """Put the file's runs behind those that are known."""
+        known = {_key(run) for run in self.runs}
+        older = [run for run in reversed(tuple(runs)) if _key(run) not in known]
+        self.runs = (*self.runs, *older)[:MOST]
+
+    def take_latest(self, run: PenetrationRun | None) -> bool:
+        """Put a run in front, if it is another than the last; return whether it is."""
+        if run is None or run is self._latest:
+            return False
+        self._latest = run
+        if _key(run) not in {_key(one) for one in self.runs}:
+            self.runs = (run, *self.runs)[:MOST]
+        self.of_this_start += 1
+        return True
+
+
+def row(run: PenetrationRun, now: datetime) -> tuple[str, ...]:
+    """Return a run's texts in the order of :data:`COLUMNS`; ``now`` knows its zone."""
+    thrust = run.thrust
+    figures = (UNKNOWN,) * 4
+    if thrust is not None:
+        figures = (
+            way_text(thrust.depth),
+            speed_text(thrust.average_speed),
+            speed_text(thrust.peak_speed),
+            way_text(thrust.error),
+        )
+    return when(run.started, now), str(run.verdict), _height(run), *figures, run.reason
+
+
+def when(started: str, now: datetime) -> str:
+    """Return a time as the operator's clock has it; with its date unless that is today's."""
+    try:
+        at = datetime.fromisoformat(started).astimezone(now.tzinfo)
+    except (ValueError, OverflowError):
+        return started
+    return f"{at:%H:%M:%S}" if at.date() == now.date() else f"{at:%Y-%m-%d %H:%M}"
+
+
+def in_full(run: PenetrationRun) -> str:
+    """Return all that is known of a run, a line each."""
+    lines = [
+        f"{run.started}  {run.verdict}" + (f": {run.reason}" if run.reason else ""),
+        f"robot {run.robot}, driver {run.driver}",
+        "",
+        *(f"{at:8.3f} s  {name}" for name, at in run.phases),
+        "",
+        *_found(run),
+        "",
+        *(_parameter(key, value) for key, value in run.parameters.items()),
+    ]
+    return "\n".join(lines)
+
+
+def _found(run: PenetrationRun) -> list[str]:
+    rows: list[tuple[str, str | None]] = [
+        ("began at", _way(run.start)),
+        ("contact at", _way(run.contact)),
+        ("contact, as measured", _way(run.contact_measured)),
+        ("contact, height of the tip", None if run.contact_height is None else _height(run)),
+        ("contact told after", _ms(run.contact_delay_s)),
+        ("leant on it from the start", _yes(run.contact_from_start)),
+        ("noise, rms", _nm(run.noise_rms)),
+        ("detector's threshold", _plain(run.threshold)),
+        ("planned average speed", _speed(run.planned_average_speed)),
+        ("planned peak speed", _speed(run.planned_peak_speed)),
+        ("cubics miss the profile by", _nm(run.fit_error)),
+    ]
+    if run.thrust is not None:
+        thrust = run.thrust
+        rows += [
+            ("depth", _way(thrust.depth)),
+            ("average speed", _speed(thrust.average_speed)),
+            ("peak speed", _speed(thrust.peak_speed)),
+            ("error against the profile", _way(thrust.error)),
+            ("delay taken off", _ms(thrust.delay_s)),
+            ("samples", f"{thrust.rate_hz:.0f} Hz"),
+        ]
+    rows += [
+        ("deviation, peak", _way(run.peak_deviation)),
+        ("deviation, at the end", _way(run.final_deviation)),
+        ("membrane gave way", _yes(run.gave_way)),
+    ]
+    return [f"{name}: {text}" for name, text in rows if text is not None]
+
+
+def _parameter(key: str, value: Any) -> str:
+    one = QUANTITIES.get(key)
+    if one is not None and key in BOUNDS and isinstance(value, int | float):
+        return f"{str(one.group).lower()}, {one.title.lower()}: {one.text(value)}"
+    if isinstance(value, list | tuple):  # a table; from a file and of this start it reads alike
+        value = json.dumps(value) if value else ""
+    return f"{key.replace('_', ' ')}: {value or UNKNOWN}"
+
+
+def _key(run: PenetrationRun) -> tuple[str, str, int]:
+    """Tell runs apart: one that was held and then retracted has a line for each."""
+    return run.started, str(run.verdict), len(run.phases)
+
+
+def _height(run: PenetrationRun) -> str:
+    if run.contact_height is not None:
+        height = run.contact_height
+        return f"{1e3 * height:.4f} mm" if abs(height) >= 1e-3 else way_text(height)
+    return UNKNOWN if run.contact is None else way_text(run.contact)
+
+
+def _way(value: float | None) -> str | None:
+    return None if value is None else way_text(value)
+
+
+def _nm(value: float | None) -> str | None:
+    return None if value is None else f"{1e9 * value:.1f} nm"
+
+
+def _ms(value: float | None) -> str | None:
+    return None if value is None else f"{1e3 * value:.1f} ms"
+
+
+def _speed(value: float | None) -> str | None:
+    return None if value is None else speed_text(value)
+
+
+def _plain(value: float | None) -> str | None:
+    return None if value is None else f"{value:.3g}"
+
+
+def _yes(value: bool | None) -> str | None:
+    return None if value is None else "yes" if value else "no"

@@ -1,0 +1,56 @@
+"""The table of a thrust as text: a line a point, time share and depth share. Free of Qt."""
+
+from itertools import pairwise
+
+from rotemina.app.display import PLAIN_NUMBER
+from rotemina.app.motion.penetration.parameters import MOST_POINTS
+from rotemina.plugins.penetration.quantities import TypedError
+
+Table = tuple[tuple[float, float], ...]
+
+#: What a table begins with: slow first, fast in the middle.
+EXAMPLE: Table = ((0.0, 0.0), (0.3, 0.1), (0.7, 0.9), (1.0, 1.0))
+
+
+def table_text(table: Table) -> str:
+    """Return a table as lines."""
+    return "\n".join(f"{at:g}, {depth:g}" for at, depth in table)
+
+
+def read_table(text: str) -> Table:
+    """Return the table of some lines; empty ones do not count.
+
+    Raises
+    ------
+    TypedError
+        With the line that is none.
+    """
+    points = []
+    for number, line in enumerate(text.splitlines(), 1):
+        if line.strip():
+            points.append(_point(number, line.strip()))
+    if not 2 <= len(points) <= MOST_POINTS:
+        raise TypedError(
+            f"table: {len(points)} points; must be 2 to {MOST_POINTS}, a line each, from 0, 0 to "
+            "1, 1"
+        )
+    for number, ((at, _), (later, _)) in enumerate(pairwise(points), 2):
+        if later <= at:
+            raise TypedError(f"table, point {number}: time {later:g} must be after {at:g}")
+    if points[0] != (0.0, 0.0) or points[-1] != (1.0, 1.0):
+        raise TypedError("table: must go from 0, 0 to 1, 1")
+    return tuple(points)
+
+
+def _point(number: int, line: str) -> tuple[float, float]:
+    parts = [part.strip() for part in line.split(",")]
+    if len(parts) != 2 or not all(PLAIN_NUMBER.fullmatch(part) for part in parts):
+        raise TypedError(
+            f"table, line {number}: {line[:40]!r}; type a time share, a comma and a depth share, "
+            "such as 0.3, 0.1"
+        )
+    at, depth = (float(part) for part in parts)
+    for name, value in (("time", at), ("depth", depth)):
+        if not 0.0 <= value <= 1.0:
+            raise TypedError(f"table, line {number}: {name} {value:g} must be 0 to 1")
+    return at, depth

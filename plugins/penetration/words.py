@@ -1,0 +1,150 @@
+"""What the panel says of a penetration, and what its two buttons do now. Free of Qt."""
+
+from enum import StrEnum
+
+from rotemina.app.motion.penetration.run_log import Verdict
+from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
+from rotemina.app.motion.state import SessionState
+from rotemina.plugins.penetration.prospect import speed_text, way_text
+
+#: The phases of the strip, in their order.
+STRIP = (
+    Phase.APPROACH,
+    Phase.CONTACT,
+    Phase.THRUST,
+    Phase.HOLD,
+    Phase.INJECT,
+    Phase.RETRACT,
+)
+SETTLE_S = 0.5  # a second press in alarm must not stop the way back, nor begin one
+#: Phases in which the parameters are those of a run.
+FIXED = UNDER_WAY | {Phase.ARMED, Phase.HELD}
+
+_DOING = {
+    Phase.APPROACH: "The tip comes near and feels for the membrane.",
+    Phase.CONTACT: "Contact. The tip rests on the membrane; the thrust follows.",
+    Phase.THRUST: "The device runs the thrust by itself.",
+    Phase.HOLD: "The tip holds at its depth.",
+    Phase.INJECT: "The tool is on.",
+    Phase.HOLD_AFTER: "The tool is off; the tip holds at its depth.",
+    Phase.RETRACT: "The tip goes back to where it began.",
+}
+
+
+class Light(StrEnum):
+    """How a phase of the strip is lit."""
+
+    OFF = "off"
+    PASSED = "passed"
+    PRESENT = "present"
+    HELD = "held"
+
+
+def button_word(phase: Phase) -> str:
+    """Return what the one button does in a phase."""
+    if phase is Phase.RETRACT:
+        return "Hold"
+    if phase is Phase.HELD:
+        return "Retract"
+    return "Stop and retract" if phase in UNDER_WAY else "Start"
+
+
+def button_tip(phase: Phase) -> str:
+    """Return what that means."""
+    return {
+        "Hold": "Halt the way back; the tip stays where it is then",
+        "Retract": "Bring the tip back to where the run began",
+        "Stop and retract": "Halt, switch the tool off, and bring the tip back along its axis",
+        "Start": "Begin to approach the cell",
+    }[button_word(phase)]
+
+
+def against_button(status: PenetrationStatus, state: SessionState) -> str | None:
+    """Return why the button cannot act now; None: it can."""
+    if status.phase is Phase.HELD:
+        return state.locked
+    return None if status.phase in FIXED else "it is not armed; arm it first"
+
+
+def counts(shown: Phase, now: Phase, since_press_s: float) -> bool:
+    """Whether a press on the button is to act: as it was labelled, and not by a second click.
+
+    What stops a run always acts.
+    """
+    if button_word(shown) != button_word(now):
+        return False
+    return button_word(now) == "Stop and retract" or since_press_s >= SETTLE_S
+
+
+def arm_word(phase: Phase) -> str:
+    """Return what the other button does in a phase."""
+    return {Phase.ARMED: "Disarm", Phase.HELD: "Free the axes"}.get(phase, "Arm")
+
+
+def arm_tip(phase: Phase) -> str:
+    """Return what that means."""
+    return {
+        "Arm": "Check everything and reserve every axis; nothing moves until Start",
+        "Disarm": "Set the axes free; nothing has moved",
+        "Free the axes": "Leave the tip where it is, and let the axes be moved by hand",
+    }[arm_word(phase)]
+
+
+def lights(status: PenetrationStatus) -> tuple[Light, ...]:
+    """Return how each phase of the strip is lit."""
+    phase = status.phase
+    if phase in UNDER_WAY:
+        present = Phase.HOLD if phase is Phase.HOLD_AFTER else phase
+        return tuple(Light.PRESENT if one is present else Light.OFF for one in STRIP)
+    run = status.run
+    if run is None or phase in (Phase.DISARMED, Phase.ARMED):
+        return (Light.OFF,) * len(STRIP)
+    passed = [name for name, _ in run.phases]
+    last = next((one for one in reversed(passed) if one != str(Phase.HELD)), "")
+    last = str(Phase.HOLD) if last == str(Phase.HOLD_AFTER) else last
+    found = []
+    for one in STRIP:
+        light = Light.PASSED if str(one) in passed else Light.OFF
+        found.append(Light.HELD if phase is Phase.HELD and str(one) == last else light)
+    return tuple(found)
+
+
+def headline(status: PenetrationStatus) -> str:
+    """Return the phase in a word or two, with the time that is left when armed."""
+    if status.phase is Phase.ARMED and status.armed_left_s is not None:
+        return f"armed, {status.armed_left_s:.0f} s"
+    return str(status.phase)
+
+
+def message(status: PenetrationStatus, why_not: str | None) -> str:
+    """Return what goes on, or what came of the latest run and whether it may be armed."""
+    phase = status.phase
+    if phase in UNDER_WAY:
+        return _DOING[phase] + (f" Why: {status.reason}." if status.reason else "")
+    if phase is Phase.HELD:
+        return (
+            f"Held: {status.reason}. The tip stays where it is; press Retract to bring it back, "
+            "or Free the axes to move it by hand."
+        )
+    if phase is Phase.ARMED:
+        return "Armed: every axis is reserved. Press Start; nothing moves before."
+    came = _came_of(status)
+    may = "Ready to be armed." if why_not is None else f"Cannot be armed now: {_stopped(why_not)}"
+    return f"{came} {may}".lstrip()
+
+
+def _came_of(status: PenetrationStatus) -> str:
+    run = status.run
+    if status.phase is Phase.DISARMED or run is None:
+        return f"Disarmed: {_stopped(status.reason)}" if status.reason else ""
+    if run.verdict is Verdict.DONE and run.thrust is not None:
+        thrust = run.thrust
+        return (
+            f"Done: {way_text(thrust.depth)} deep, {speed_text(thrust.peak_speed)} at most, "
+            f"{way_text(thrust.error)} off its profile."
+        )
+    return f"{str(run.verdict).capitalize()}: {_stopped(run.reason)} The tip is back."
+
+
+def _stopped(sentence: str) -> str:
+    return sentence if sentence.endswith(".") else f"{sentence}."
