@@ -1,18 +1,18 @@
-"""The contract of cameras: what stands there is found by a source, opened, set and grabbed from.
+"""The contract of cameras: made by a source, opened, set and grabbed from.
 
-A source is a plugin (``rotemina.cameras``). A camera is made without touching anything; then it is
-opened, configured, grabbed from and closed by one thread, which may wait. Nobody else waits for it:
+A camera is made without touching anything; then it is opened, configured, grabbed from and closed
+by one thread, which may wait. Nobody else waits for it:
 :class:`rotemina.app.cameras.feed.CameraFeed` hands its newest picture to everybody.
 """
 
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import ClassVar, final
+from typing import final
 
-from rotemina.drivers.cameras.errors import CameraLostError, CameraRefusedError
+from rotemina.drivers.cameras.errors import CameraLostError
 from rotemina.drivers.cameras.frame import Frame, Pixels, Region, Remark
 from rotemina.drivers.cameras.pixels import as_mono8, pixel_type_of
 from rotemina.drivers.cameras.settings import (
@@ -270,46 +270,3 @@ class FocusDrive(Camera, ABC):
         CameraSettingError
             If it is out of range; then it stays.
         """
-
-
-class CameraSource(ABC):
-    """Finds cameras of one kind; what an entry point of ``rotemina.cameras`` names.
-
-    Parameters
-    ----------
-    clock, wait : callable
-        As of :class:`Camera`. An entry point's class is made with these alone.
-    """
-
-    api_version: ClassVar[int] = 1
-    #: How screens call this kind of camera.
-    name: ClassVar[str] = "camera"
-    #: What can be typed to name a camera that no list shows; empty: nothing.
-    address_hint: ClassVar[str] = ""
-
-    def __init__(self, *, clock: Clock = time.monotonic, wait: Wait = time.sleep) -> None:
-        self.clock = clock
-        self.wait = wait
-
-    @property
-    def problem(self) -> str | None:
-        """Why it can find nothing at the moment, in words for the operator; None if it can."""
-        return None
-
-    @abstractmethod
-    def devices(self) -> Sequence[CameraIdentity]:
-        """Return what is there now; may take some ms, never raises for none."""
-
-    def addressed(self, address: str) -> CameraIdentity:
-        """Return which camera an operator means; whether it is there is found out by opening it.
-
-        Raises
-        ------
-        CameraRefusedError
-            If no camera can be named like this.
-        """
-        raise CameraRefusedError(f"{self.name}: {address!r}: choose one that is listed")
-
-    @abstractmethod
-    def camera(self, identity: CameraIdentity) -> Camera:
-        """Return the camera of an identity, not yet open."""

@@ -8,7 +8,6 @@ import numpy as np
 
 from rotemina.drivers.cameras.camera import (
     CameraIdentity,
-    CameraSource,
     FocusDrive,
     Picture,
     Wait,
@@ -21,6 +20,7 @@ from rotemina.drivers.cameras.settings import (
     PixelType,
     Trigger,
 )
+from rotemina.drivers.cameras.source import CameraSource
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.simulator.true_positions import TruePositions

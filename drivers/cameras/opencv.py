@@ -1,0 +1,272 @@
+"""Cameras that OpenCV reads: USB cameras (UVC), video files, streams of the network."""
+
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import cv2
+
+from rotemina.drivers.cameras.camera import (
+    Camera,
+    CameraIdentity,
+    Picture,
+    Wait,
+)
+from rotemina.drivers.cameras.errors import CameraLostError, CameraRefusedError, CameraSettingError
+from rotemina.drivers.cameras.frame import Pixels
+from rotemina.drivers.cameras.pace import Pace
+from rotemina.drivers.cameras.settings import CameraDescription, CameraSettings, PixelType
+from rotemina.drivers.cameras.source import CameraSource
+from rotemina.drivers.clock import Clock
+
+_USUAL_HZ = 25.0  # of a file that does not tell
+_RATES_HZ = (0.1, 1000.0)
+_EXPOSURES_S, _V4L_EXPOSURE_S = (1e-4, 1.0), 1e-4  # Video4Linux counts in 100 µs
+_MANUAL, _MOST_GAIN = 1.0, 1000.0
+_TIMEOUT_MS = 3000
+_TEXT = int.from_bytes(b"ansi", "little")  # FFmpeg makes a film of any text file
+_SYSTEM = Path("/sys/class/video4linux")
+
+Capture = Callable[..., Any]
+
+
+def plugged_in(system: Path = _SYSTEM) -> Mapping[str, str]:
+    """Return the names of cameras by their number, as Linux lists them; none elsewhere."""
+    found = {}
+    for folder in sorted(system.glob("video*"), key=lambda path: (len(path.name), path.name)):
+        try:  # a camera has further nodes, for what comes with its pictures
+            if (folder / "index").read_text().strip() == "0":
+                found[folder.name.removeprefix("video")] = (folder / "name").read_text().strip()
+        except OSError:  # unplugged at this very moment
+            continue
+    return found
+
+
+class OpenCvSource(CameraSource):
+    """Cameras of OpenCV.
+
+    Parameters
+    ----------
+    clock, wait : callable
+        As of :class:`Camera`.
+    listed : callable
+        Returns names by number.
+    capture : callable
+        Makes a ``cv2.VideoCapture``.
+    """
+
+    name = "USB camera, video file or stream"
+    address_hint = "number of a device, path of a video file, or address such as rtsp://…"
+
+    def __init__(
+        self,
+        *,
+        clock: Clock = time.monotonic,
+        wait: Wait = time.sleep,
+        listed: Callable[[], Mapping[str, str]] = plugged_in,
+        capture: Capture = cv2.VideoCapture,
+    ) -> None:
+        super().__init__(clock=clock, wait=wait)
+        self._listed = listed
+        self._capture = capture
+
+    def devices(self) -> Sequence[CameraIdentity]:
+        """Return what is plugged in, where the system tells."""
+        return tuple(
+            CameraIdentity(f"opencv:{number}", name, "opencv")
+            for number, name in self._listed().items()
+        )
+
+    def addressed(self, address: str) -> CameraIdentity:
+        """Return the camera of a number, file or address; see :class:`CameraSource`."""
+        address = address.strip()
+        if not address:
+            raise CameraRefusedError(f"{self.name}: nothing was named; type a {self.address_hint}")
+        if address.isdecimal():
+            return CameraIdentity(f"opencv:{int(address)}", f"Camera {int(address)}", "opencv")
+        return CameraIdentity(f"opencv:{address}", address.rstrip("/").split("/")[-1], "opencv")
+
+    def camera(self, identity: CameraIdentity) -> Camera:
+        """Return it; see :class:`CameraSource`."""
+        kind = Device if identity.address.isdecimal() else Film
+        return kind(identity, self._capture, clock=self.clock, wait=self.wait)
+
+
+class _OpenCvCamera(Camera):
+    """What devices and films have in common."""
+
+    def __init__(
+        self,
+        identity: CameraIdentity,
+        capture: Capture = cv2.VideoCapture,
+        *,
+        clock: Clock = time.monotonic,
+        wait: Wait = time.sleep,
+    ) -> None:
+        super().__init__(identity, clock=clock, wait=wait)
+        self._capture = capture
+        self._stream: Any = None
+
+    def _opened(self, *arguments: object) -> Any:
+        """Return an open stream, or None."""
+        with _silence():
+            stream = self._capture(*arguments)
+        if stream.isOpened():
+            return stream
+        stream.release()
+        return None
+
+    def _described(self, pixels: Pixels, **abilities: Any) -> CameraDescription:
+        height, width = pixels.shape[:2]
+        own = (PixelType.MONO8,) if pixels.ndim == 2 else (PixelType.COLOUR, PixelType.MONO8)
+        return CameraDescription(width, height, own, **abilities)
+
+    def _next(self) -> Pixels | None:
+        """Return the next picture of the stream, or None if there is none any more."""
+        with _silence():
+            there, pixels = self._stream.read()
+        if not there or pixels is None:
+            return None
+        if pixels.ndim == 3:
+            pixels = cv2.cvtColor(pixels, cv2.COLOR_BGR2RGB)
+        return pixels  # type: ignore[no-any-return]  # OpenCV's arrays have no types of use
+
+    def _picture(self, pixels: Pixels) -> Picture:
+        return Picture(pixels, 8, self.clock(), exposure_s=self.settings.exposure_s)
+
+    def _close(self) -> None:
+        stream, self._stream = self._stream, None
+        if stream is not None:
+            stream.release()
+
+
+class Device(_OpenCvCamera):
+    """A camera that is plugged in. OpenCV waits up to some seconds for its next picture."""
+
+    def _open(self) -> CameraDescription:
+        stream = self._opened(int(self.identity.address))
+        if stream is None:
+            raise CameraLostError(
+                f"{self.name}: there is no camera {self.identity.address}, or another program uses "
+                "it, or you may not read it (group 'video' on Linux)"
+            )
+        self._stream = stream
+        stream.set(cv2.CAP_PROP_BUFFERSIZE, 1)  # the newest, never a backlog
+        pixels = self._next()
+        if pixels is None:
+            self._close()
+            raise CameraLostError(f"{self.name}: it gives no picture; unplug it and plug it in")
+        return self._described(
+            pixels,
+            exposure_s=_EXPOSURES_S if stream.getBackendName() == "V4L2" else None,
+            gain=(0.0, _MOST_GAIN) if stream.get(cv2.CAP_PROP_GAIN) >= 0.0 else None,
+        )
+
+    def _configure(self, settings: CameraSettings) -> CameraSettings:
+        if settings.exposure_s is not None and settings.exposure_s != self.settings.exposure_s:
+            self._set(cv2.CAP_PROP_AUTO_EXPOSURE, _MANUAL, "a manual exposure")
+            steps = round(settings.exposure_s / _V4L_EXPOSURE_S)
+            self._set(cv2.CAP_PROP_EXPOSURE, steps, f"an exposure of {settings.exposure_s:g} s")
+        if settings.gain is not None and settings.gain != self.settings.gain:
+            self._set(cv2.CAP_PROP_GAIN, settings.gain, f"a gain of {settings.gain:g}")
+        return settings
+
+    def _set(self, which: int, value: float, what: str) -> None:
+        if not self._stream.set(which, value):
+            raise CameraSettingError(f"{self.name}: it does not take {what}; leave it as it is")
+
+    def _grab(self, timeout_s: float) -> Picture | None:
+        pixels = self._next()
+        if pixels is None:
+            raise CameraLostError(
+                f"{self.name}: it gives no picture any more; was it unplugged? Open it again"
+            )
+        return self._picture(pixels)
+
+
+class Film(_OpenCvCamera):
+    """A video file, at its own rate, or a stream of the network.
+
+    No picture of a file is left out: a reader that is too slow makes it slower.
+    """
+
+    @property
+    def _is_file(self) -> bool:
+        return "://" not in self.identity.address
+
+    def _open(self) -> CameraDescription:
+        address = self.identity.address
+        if self._is_file and not Path(address).is_file():
+            raise CameraLostError(f"{address}: there is no such file; choose another one")
+        self._stream = self._opened_film()
+        pixels = self._first()
+        self._pace: Pace | None = None
+        if self._is_file:
+            told = self._stream.get(cv2.CAP_PROP_FPS)
+            self._own_hz = told if _RATES_HZ[0] <= told <= _RATES_HZ[1] else _USUAL_HZ
+            self._pace = Pace(self._own_hz, clock=self.clock, wait=self.wait)
+        return self._described(pixels, rate_hz=_RATES_HZ if self._is_file else None)
+
+    def _opened_film(self) -> Any:
+        limits = [cv2.CAP_PROP_OPEN_TIMEOUT_MSEC, _TIMEOUT_MS]
+        limits += [cv2.CAP_PROP_READ_TIMEOUT_MSEC, _TIMEOUT_MS]
+        stream = self._opened(self.identity.address, cv2.CAP_FFMPEG, limits)
+        if stream is not None:
+            return stream
+        if self._is_file:
+            raise CameraRefusedError(
+                f"{self.identity.address}: it is no video, or one that was cut off or is of an "
+                "unknown kind; choose another file"
+            )
+        raise CameraLostError(
+            f"{self.identity.address}: no video came from there within {_TIMEOUT_MS / 1e3:g} s; "
+            "check the address and the network"
+        )
+
+    def _first(self) -> Pixels:
+        """Return the first picture, of at least two, and begin before it."""
+        pixels = self._next()
+        reason = ""
+        if pixels is None:
+            reason = "it is no video: it has no picture"
+        elif self._is_file and int(self._stream.get(cv2.CAP_PROP_FOURCC)) == _TEXT:
+            reason = "it is no video but a text"
+        elif self._is_file and self._next() is None:
+            reason = "it is no video but one picture; open pictures as an image sequence"
+        if reason or pixels is None:
+            self._close()
+            raise CameraRefusedError(f"{self.identity.address}: {reason}; choose another file")
+        if self._is_file:
+            self._stream.set(cv2.CAP_PROP_POS_FRAMES, 0)
+        return pixels
+
+    def _configure(self, settings: CameraSettings) -> CameraSettings:
+        if self._pace is not None:
+            self._pace.change(1.0 / (settings.rate_hz or self._own_hz))
+        return settings
+
+    def _grab(self, timeout_s: float) -> Picture | None:
+        if self._pace is not None and not self._pace.beats(timeout_s):
+            return None
+        pixels = self._next()
+        if pixels is None and self._is_file and self.settings.repeat:
+            self._stream.set(cv2.CAP_PROP_POS_FRAMES, 0)
+            pixels = self._next()
+        if pixels is None:
+            raise CameraLostError(
+                f"{self.name}: it has ended; open it again"
+                + (", or let it repeat" if self._is_file else "")
+            )
+        return self._picture(pixels)
+
+
+@contextmanager
+def _silence() -> Iterator[None]:
+    """Keep OpenCV from writing to the terminal what is told by an error."""
+    before = cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
+    try:
+        yield
+    finally:
+        cv2.utils.logging.setLogLevel(before)
