@@ -1,0 +1,1 @@
+"""Cameras in use: one thread each, and its newest picture for everybody."""

@@ -1,0 +1,101 @@
+"""All cameras there are, of every source, and making one by its key."""
+
+import time
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Self
+
+from rotemina.drivers.cameras.camera import Camera, CameraIdentity, Wait
+from rotemina.drivers.cameras.errors import CameraRefusedError
+from rotemina.drivers.cameras.source import CameraSource
+from rotemina.drivers.clock import Clock
+from rotemina.drivers.registry import discover
+
+CAMERAS = "rotemina.cameras"
+
+
+class CameraHub:
+    """Asks all sources; may wait some ms for them, and has no thread.
+
+    Parameters
+    ----------
+    sources : mapping of str to CameraSource
+        By the name of their entry point, or one that the program gives.
+    broken : mapping of str to str
+        Sources that could not be loaded, and why.
+    """
+
+    def __init__(
+        self,
+        sources: Mapping[str, CameraSource],
+        broken: Mapping[str, str] = MappingProxyType({}),
+    ) -> None:
+        self.sources = MappingProxyType(dict(sources))
+        self._broken = dict(broken)
+        self._failed: dict[str, str] = {}
+
+    @classmethod
+    def installed(
+        cls,
+        own: Mapping[str, CameraSource] = MappingProxyType({}),
+        *,
+        clock: Clock = time.monotonic,
+        wait: Wait = time.sleep,
+    ) -> Self:
+        """Return a hub of all installed sources and those that the program makes itself."""
+        discovery = discover(CAMERAS, CameraSource)
+        sources, broken = dict(own), dict(discovery.broken)
+        for name, source in discovery.found.items():
+            if name in sources:
+                broken[name] = "the program has a source of this name itself"
+                continue
+            try:
+                sources[name] = source(clock=clock, wait=wait)
+            except Exception as error:  # a plugin may raise anything
+                broken[name] = f"it cannot be made: {type(error).__name__}: {error}"
+        return cls(sources, broken)
+
+    @property
+    def problems(self) -> Mapping[str, str]:
+        """What is wrong, by name of the source, as of the latest :meth:`look`."""
+        return MappingProxyType({**self._broken, **self._failed})
+
+    def look(self) -> tuple[CameraIdentity, ...]:
+        """Return the cameras that are there; a bad source is named and left out."""
+        found: dict[str, CameraIdentity] = {}
+        failed: dict[str, str] = {}
+        for name, source in self.sources.items():
+            try:
+                for identity in source.devices():
+                    found.setdefault(identity.key, identity)
+                problem = source.problem
+            except Exception as error:  # a plugin may raise anything; the others are to be found
+                problem = f"it cannot look for cameras: {type(error).__name__}: {error}"
+            if problem is not None:
+                failed[name] = problem
+        self._failed = failed
+        return tuple(found.values())
+
+    def camera(self, identity: CameraIdentity) -> Camera:
+        """Return a camera, not yet open.
+
+        Raises
+        ------
+        CameraRefusedError
+            If its source is not installed, or cannot be used.
+        """
+        source = self.sources.get(identity.source)
+        if source is None:
+            known = ", ".join(self.sources)
+            raise CameraRefusedError(
+                f"{identity.name}: there is no source {identity.source!r} of cameras; installed: "
+                f"{known}"
+            )
+        return source.camera(identity)
+
+    def addressed(self, source: str, address: str) -> Camera:
+        """Return the camera that an operator has named, not yet open; errors as above."""
+        if source not in self.sources:
+            known = ", ".join(self.sources)
+            raise CameraRefusedError(f"there is no source {source!r} of cameras; there is: {known}")
+        return self.camera(self.sources[source].addressed(address))
