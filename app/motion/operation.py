@@ -42,7 +42,7 @@ STEP_S, LOOK_S = 0.005, 1.0
 #: What the pad on the screen can hold. Everything else has buttons of its own there, and a dead-man
 #: of the pad would only keep it from acting.
 PAD_BUTTONS = (Action.CLUTCH, Action.FINE, Action.COARSE, Action.TAKE_OVER)
-PAD_LEASE_S = 0.3  # of a screen that hangs while something is held on it
+PAD_LEASE_S = 0.5  # of a screen that hangs while something is held on it
 SCALES, PENETRATION = "scales.toml", "penetration.toml"
 _RUMBLE_STEP = 0.05  # a change that no hand feels is not sent
 

@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
     QMainWindow,
     QMenu,
     QMessageBox,
+    QTabBar,
     QTabWidget,
     QVBoxLayout,
     QWidget,
@@ -39,6 +40,8 @@ DOCK_AREAS = {
     Area.RIGHT: Qt.DockWidgetArea.RightDockWidgetArea,
     Area.BOTTOM: Qt.DockWidgetArea.BottomDockWidgetArea,
 }
+# Wide tables and long forms: one behind the other, not side by side or one below the other.
+TABBED = (Area.BOTTOM, Area.RIGHT)
 
 
 def _decoded(text: str) -> QByteArray:
@@ -101,21 +104,31 @@ class MainWindow(QMainWindow):
         column.addWidget(self.notices)
         column.addWidget(self._central_panels(), 1)
         self.setCentralWidget(centre)
-        self.setTabPosition(Qt.DockWidgetArea.BottomDockWidgetArea, QTabWidget.TabPosition.North)
+        for area in TABBED:
+            self.setTabPosition(DOCK_AREAS[area], QTabWidget.TabPosition.North)
         self.setCorner(Qt.Corner.BottomLeftCorner, Qt.DockWidgetArea.LeftDockWidgetArea)
-        bottom: QDockWidget | None = None
+        first: dict[Area, QDockWidget] = {}
         for name, panel in self.panels.items():
             if panel.area is Area.CENTRE:
                 continue
             dock = self.docks[name] = self._dock(name, panel)
-            if panel.area is Area.BOTTOM:  # wide tables: one behind the other, not side by side
-                if bottom is not None:
-                    self.tabifyDockWidget(bottom, dock)
-                bottom = bottom or dock
-        if bottom is not None:
-            bottom.raise_()
-            self.resizeDocks([bottom], [260], Qt.Orientation.Vertical)
+            if panel.area in TABBED and first.setdefault(panel.area, dock) is not dock:
+                self.tabifyDockWidget(first[panel.area], dock)
+        for area, dock in first.items():
+            dock.raise_()
+            self._hide_forgotten_tabs(area)
+        if Area.BOTTOM in first:
+            self.resizeDocks([first[Area.BOTTOM]], [260], Qt.Orientation.Vertical)
         self._default_state = self.saveState(LAYOUT_VERSION)
+
+    def _hide_forgotten_tabs(self, area: Area) -> None:
+        """Hide the tab bars of fewer docks that Qt makes on the way and forgets (seen in 6.11)."""
+        titles = {panel.title for panel in self.panels.values() if panel.area is area}
+        only_mine = Qt.FindChildOption.FindDirectChildrenOnly
+        for bar in self.findChildren(QTabBar, options=only_mine):
+            shown = {bar.tabText(number) for number in range(bar.count())}
+            if shown < titles:
+                bar.hide()
 
     def _central_panels(self) -> QWidget:
         central = [panel for panel in self.panels.values() if panel.area is Area.CENTRE]

@@ -17,8 +17,8 @@ from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_record
 
 LONG_MS = 30_000
-BUILT_IN = ["control", "plots", "trajectory", "comparison", "connection", "identification"]
-BUILT_IN += ["effects", "gap", "faults", "recorder"]
+BUILT_IN = ["control", "plots", "trajectory", "comparison", "connection", "teleoperation", "inputs"]
+BUILT_IN += ["identification", "penetration", "effects", "gap", "faults", "recorder"]
 
 
 def short_trajectory(path, seconds=0.4, height=2e-4):

@@ -33,7 +33,7 @@ def numbers_of(error):
 )
 def test_each_of_the_bounds_that_are_told_is_allowed_and_hardly_more(wrong, fields, gain):
     scale = replace(SCALE, contact_gain=gain, **wrong)
-    with pytest.raises(ScalingError, match="x: .* more than the axes can accelerate") as error:
+    with pytest.raises(ScalingError, match=r"x: .* more than the axes can accelerate") as error:
         scale.law(LawKind.IMPEDANCE, TABLE, 0.0)
     bounds = numbers_of(error)
     assert len(bounds) == 2

@@ -1,0 +1,125 @@
+"""The coordinates of the present mode: stick, reference, and what full deflection means."""
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QFrame, QGridLayout, QLabel
+
+from rotemina.app.display import Scale
+from rotemina.app.motion.teleoperation.impedance import Impedance
+from rotemina.app.motion.teleoperation.operator_desk import OperatorDesk
+from rotemina.app.motion.teleoperation.views import CoordinateView, TeleoperationState
+from rotemina.app.shell.workbench import Workbench
+from rotemina.plugins.teleoperation import wording
+from rotemina.plugins.teleoperation.bar import CentreBar
+from rotemina.plugins.teleoperation.section import (
+    Section,
+    keep_lines,
+    plain_text,
+    set_property,
+)
+
+
+class CoordinateRow(QFrame):
+    """One coordinate: its stick's deflection, its reference, its law in plain units."""
+
+    def __init__(self, workbench: Workbench, name: str, scale: Scale, source: str) -> None:
+        super().__init__()
+        self.setObjectName("axisRow")
+        self._name, self._scale = name, scale
+        title = QLabel(name)
+        title.setTextFormat(Qt.TextFormat.PlainText)
+        title.setProperty("heading", True)
+        title.setToolTip(f"Moved by {source} of the stick")
+        self.position = plain_text(quiet=False)
+        self.position.setAccessibleName(f"{name} reference in {scale.symbol}")
+        self.position.setToolTip("Where the stick has led the reference, which the axes follow")
+        self.bar = CentreBar(workbench)
+        self.bar.setAccessibleName(f"{name} deflection of the stick")
+        self.bar.setToolTip("Deflection of the stick, −100 % to 100 %; dashed: none is trusted")
+        self.law = plain_text(lines=1)
+        self.law.setAccessibleName(f"{name} scaling")
+        self.felt_title = QLabel("Felt")
+        self.felt_title.setProperty("quiet", True)
+        self.felt = CentreBar(workbench, "warning")
+        self.felt.setAccessibleName(f"{name} felt contact force")
+        self.felt.setToolTip("How hard a contact pushes back, −100 % to 100 % of the stick's force")
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 2, 0, 5)
+        grid.setVerticalSpacing(2)
+        grid.setColumnStretch(1, 1)
+        grid.addWidget(title, 0, 0)
+        grid.addWidget(self.position, 0, 1, Qt.AlignmentFlag.AlignRight)
+        grid.addWidget(self.bar, 1, 0, 1, 2)
+        grid.addWidget(self.law, 2, 0, 1, 2)
+        grid.addWidget(self.felt_title, 3, 0)
+        grid.addWidget(self.felt, 3, 1)
+
+    def show_view(self, view: CoordinateView, travel_m: float | None, *, stale: bool) -> None:
+        """Show a moment."""
+        self.position.setText(self._scale.text(view.position))
+        set_property(self.position, "stale", stale)
+        self.bar.show_value(view.deflection, stale=stale)
+        what = "tip" if view.unit == "m" else self._name
+        scaling = wording.law_text(view, what, travel_m)
+        self.law.setText(wording.WAITING if view.waiting else scaling)
+        set_property(self.law, "bad", view.waiting)
+        set_property(self.law, "quiet", not view.waiting)
+        felt = isinstance(view.law, Impedance)
+        keep_lines(self.law, 2 if felt else 1)
+        self.felt_title.setVisible(felt)
+        self.felt.setVisible(felt)
+        self.felt.show_value(view.felt, stale=stale)
+
+
+class CoordinateSection(Section):
+    """A row for each coordinate of the mode; the last ones stay, grey, while there are none."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__("Coordinates")
+        self._workbench = workbench
+        self._shown: tuple[str, ...] = ()
+        self.rows: dict[str, CoordinateRow] = {}
+        self.none = plain_text(lines=2)
+        self.none.setText("Shown as soon as the axes' positions are known and a device is there.")
+        self.column.addWidget(self.none)
+
+    def refresh(self, state: TeleoperationState, desk: OperatorDesk, *, stale: bool) -> None:
+        """Show a moment."""
+        views = state.coordinates
+        if not views:
+            same = bool(self._shown) and self._shown[0] == state.mode
+            self._fade(same)
+            return
+        shown = (state.mode, *(view.name for view in views))
+        if shown != self._shown:
+            self._arrange(state.mode, views)
+            self._shown = shown
+        for view in views:
+            travel_m = desk.travel_m(view.name) or desk.travel_m(view.source)
+            self.rows[view.name].show_view(view, travel_m, stale=stale)
+
+    def _fade(self, same: bool) -> None:
+        """Have no coordinates: grey those of the mode, take away those of another."""
+        if not same:
+            self._clear()
+        for row in self.rows.values():
+            row.bar.show_value(None)
+            set_property(row.position, "stale", True)
+
+    def _arrange(self, mode: str, views: tuple[CoordinateView, ...]) -> None:
+        self._clear()
+        self.none.hide()
+        robot = self._workbench.robot
+        for view in views:
+            name = wording.coordinate_name(mode, view.name, view.unit)
+            scale = wording.coordinate_scale(robot, mode, view.name, view.unit)
+            row = CoordinateRow(self._workbench, name, scale, view.source)
+            self.rows[view.name] = row
+            self.column.addWidget(row)
+
+    def _clear(self) -> None:
+        for row in self.rows.values():
+            self.column.removeWidget(row)
+            row.hide()
+            row.deleteLater()
+        self.rows, self._shown = {}, ()
+        self.none.show()

@@ -1,0 +1,71 @@
+"""The pad with what belongs to it: its deflection, its keys, taking over."""
+
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout
+
+from rotemina.app.display import label
+from rotemina.app.motion.teleoperation.devices_view import DevicesView
+from rotemina.app.motion.teleoperation.views import TeleoperationState
+from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.workbench import Workbench
+from rotemina.plugins.teleoperation import wording
+from rotemina.plugins.teleoperation.hand import SHARES, Hand
+from rotemina.plugins.teleoperation.pad_area import PadArea
+from rotemina.plugins.teleoperation.section import Section, SteadyChoice, button, plain_text
+
+_KEYS = "arrows  x y\npage ↑ ↓  z\nshift  × 10\nctrl  × 0.1\nspace  clutch"
+
+
+class PadSection(Section):
+    """Pointer, keys, and the button by which the pad asks to drive."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__("Pad")
+        self._hand = Hand(workbench.operation.pad)
+        self.area = PadArea(workbench, self._hand)
+        self.most = SteadyChoice()
+        for share in SHARES:
+            self.most.addItem(f"stick {100 * share:g} %", share)
+        self.most.setCurrentIndex(len(SHARES) - 1)
+        self.most.setAccessibleName("Deflection of the pad in percent")
+        self.most.setToolTip(plain_tip("Deflection at the ends of the pad, and of its keys"))
+        self.most.currentIndexChanged.connect(self._use_most)
+        self.take_over = button("Take over", "", lambda: None)
+        self.take_over.pressed.connect(lambda: self._hand.take_over(True))
+        self.take_over.released.connect(lambda: self._hand.take_over(False))
+        kept = self.take_over.sizePolicy()
+        kept.setRetainSizeWhenHidden(True)  # nothing leaps when a joystick is plugged in
+        self.take_over.setSizePolicy(kept)
+        self.take_over.hide()
+        keys = plain_text()
+        keys.setText(_KEYS)
+        side = QVBoxLayout()
+        side.setSpacing(4)
+        side.addWidget(self.most)
+        side.addWidget(keys)
+        side.addStretch(1)
+        side.addWidget(self.take_over)
+        row = QHBoxLayout()
+        row.setSpacing(10)
+        row.addWidget(self.area)
+        row.addLayout(side, 1)
+        self.column.addLayout(row)
+        workbench.closing.connect(self.area.release)
+
+    def refresh(self, view: DevicesView, state: TeleoperationState) -> None:
+        """Show what the pad moves, or why it does not."""
+        names = {one.source: label(one.name) for one in state.coordinates}
+        self.area.show_state(wording.against_pad(view), names)
+        pad = wording.pad_of(view)
+        self.take_over.setVisible(wording.is_trainee(pad))
+        drives = pad is not None and pad.drives
+        allow(
+            self.take_over,
+            "the pad drives; the other device gets the drive back by being moved"
+            if drives
+            else None,
+            "Let the pad drive, as long as the other device is left alone",
+        )
+
+    def _use_most(self, _: int) -> None:
+        self.area.release()
+        self._hand.most = self.most.currentData()

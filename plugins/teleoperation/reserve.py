@@ -1,0 +1,73 @@
+"""What is left of the piezos, what the tool's orientation has cost, and re-centring."""
+
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QProgressBar
+
+from rotemina.app.display import label
+from rotemina.app.motion.operation import has_tip
+from rotemina.app.motion.state import SessionState
+from rotemina.app.motion.teleoperation.plain_units import tilt_text
+from rotemina.app.motion.teleoperation.views import TeleoperationState
+from rotemina.app.shell.controls import allow
+from rotemina.app.shell.workbench import Workbench
+from rotemina.drivers.samples import DeviceState
+from rotemina.plugins.teleoperation import wording
+from rotemina.plugins.teleoperation.section import Section, button, plain_text
+from rotemina.sim.kinematics.chain import JOINTS, NANO
+
+
+class ReserveSection(Section):
+    """Piezo range, tilt, re-centring; there is none of it for a robot without a tip."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__("Piezo range")
+        operation = workbench.operation
+        nano = JOINTS[NANO]
+        self.bar = QProgressBar()
+        self.bar.setRange(0, 100)
+        self.bar.setAccessibleName("Piezo range left in percent")
+        self.bar.setToolTip("100 %: the piezo is in the middle of its range; 0 %: at an end")
+        self.tilt = plain_text(quiet=False)
+        self.tilt.setAccessibleName("Tilt of the tool since the mode began")
+        self.tilt.setToolTip("By how much the mode has turned the tool since it began")
+        grid = QGridLayout()
+        grid.setHorizontalSpacing(12)
+        grid.setColumnStretch(1, 1)
+        for row, (title, widget) in enumerate((("Left", self.bar), ("Tilt", self.tilt))):
+            name = QLabel(title)
+            name.setProperty("quiet", True)
+            grid.addWidget(name, row, 0)
+            grid.addWidget(widget, row, 1)
+        self.column.addLayout(grid)
+        self.one = button(
+            f"Re-centre {label(nano[-1])}", "", lambda: workbench.ask(operation.recentre)
+        )
+        self.all = button(
+            "Re-centre all", "", lambda: workbench.ask(lambda: operation.recentre(nano))
+        )
+        buttons = QHBoxLayout()
+        buttons.setSpacing(6)
+        buttons.addWidget(self.one, 1)
+        buttons.addWidget(self.all, 1)
+        self.column.addLayout(buttons)
+        if not has_tip(workbench.session):
+            self.hide()
+
+    def refresh(self, machine: SessionState, state: TeleoperationState) -> None:
+        """Show a moment, and lock what cannot be done now."""
+        left = state.reserve
+        self.bar.setValue(0 if left is None else round(100 * left))
+        self.bar.setFormat(wording.reserve_text(left))
+        self.tilt.setText("not by this mode" if state.tilt is None else tilt_text(state.tilt))
+        why = against_recentring(machine)
+        stays = "to mid-range while the tables keep the tip where it is"
+        allow(self.one, why, f"Bring zn {stays}")
+        allow(self.all, why, f"Bring both tilts and zn {stays}; this takes longer")
+
+
+def against_recentring(machine: SessionState) -> str | None:
+    """Why not re-centre now."""
+    if machine.locked is not None:
+        return machine.locked
+    if machine.activity is not DeviceState.IDLE or machine.queued:
+        return "the machine is still moving; let go of the stick first"
+    return None

@@ -1,0 +1,145 @@
+"""The fields of a scale: names, units, text, and what is refused. Free of Qt."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import NamedTuple
+
+from pydantic import ValidationError
+
+from rotemina.app.display import PLAIN_NUMBER
+from rotemina.app.motion.teleoperation.frames import Coordinate
+from rotemina.app.motion.teleoperation.reference import ScalingError
+from rotemina.app.motion.teleoperation.scales import LawKind, Scale, Scales
+from rotemina.sim.trajectory.wording import readable
+from rotemina.sim.units import per_si, symbol
+
+_TABLE_M = 1e-4  # what has a longer way reads better in mm
+_BOUNDS = {"gt": "above {}", "ge": "at least {}", "lt": "below {}", "le": "at most {}"}
+
+
+class ScaleField(NamedTuple):
+    """One number of a scale: its name in :class:`Scale`, its title, its unit, what it means.
+
+    ``unit`` is that of the screen; ``way`` and ``speed`` follow from the coordinate.
+    """
+
+    name: str
+    title: str
+    unit: str
+    tip: str
+
+
+FIELDS = (
+    ScaleField("way", "Way at full stick", "way", "Position; and impedance on a spring"),
+    ScaleField("speed", "Speed at full stick", "speed", "Rate; and impedance without a spring"),
+    ScaleField(
+        "time_constant_s",
+        "Time constant",
+        "s",
+        "Impedance without a spring: in which the virtual mass gets to its speed",
+    ),
+    ScaleField(
+        "spring_hz",
+        "Spring frequency",
+        "Hz",
+        "Impedance: how fast the virtual mass swings; 0 is no spring, and it glides",
+    ),
+    ScaleField(
+        "damping_ratio",
+        "Damping ratio",
+        "",
+        "Impedance on a spring: below 1 it overshoots, above 1 it creeps",
+    ),
+    ScaleField(
+        "contact_gain",
+        "Contact gain",
+        "%",
+        "Impedance: how much of the greatest safe force a contact pushes back; 0 is none",
+    ),
+)
+_BY_NAME = {field.name: field for field in FIELDS}
+
+
+class Shown(NamedTuple):
+    """How a field's numbers are shown: the unit, and how many of it make one SI unit."""
+
+    unit: str
+    factor: float
+
+    def number(self, value: float) -> str:
+        """Return a value (SI) as digits."""
+        return f"{value * self.factor:.6g}"
+
+    def text(self, value: float) -> str:
+        """Return a value (SI) with its unit."""
+        return f"{self.number(value)} {self.unit}".rstrip()
+
+
+def shown(field: ScaleField, coordinate: Coordinate) -> Shown:
+    """Return how a field of a coordinate is shown."""
+    if field.unit not in ("way", "speed"):
+        return Shown(field.unit, 100.0 if field.unit == "%" else 1.0)
+    unit = "urad"
+    if coordinate.unit == "m":
+        unit = "mm" if Scale.preset(coordinate).way > _TABLE_M else "um"
+    return Shown(symbol(unit) + ("/s" if field.unit == "speed" else ""), per_si(unit))
+
+
+def changed(scale: Scale, name: str, text: str, coordinate: Coordinate) -> Scale:
+    """Return a scale of a coordinate with one field as it was typed.
+
+    Raises
+    ------
+    ScalingError
+        With the field, what was typed, and its bound.
+    """
+    field = _BY_NAME[name]
+    unit = shown(field, coordinate)
+    title = f"{field.title} of {coordinate.name}"
+    text = text.strip()
+    if PLAIN_NUMBER.fullmatch(text) is None:
+        unit_text = f" in {unit.unit}" if unit.unit else ""
+        raise ScalingError(
+            f"{title}: {text!r} is no number; type one{unit_text} with a decimal point"
+        )
+    value = float(text) / unit.factor
+    if unit.number(value) == unit.number(getattr(scale, name)):
+        return scale  # what is shown has fewer digits than what is meant
+    typed = f"{title}: {text} {unit.unit}".rstrip()
+    _check_reach(typed, name, value, coordinate)
+    try:
+        made = replace(scale, **{name: value})
+    except ValidationError as error:
+        raise ScalingError(f"{typed}: must be {_bound(error, unit)}") from error
+    for kind in LawKind:
+        made.law(kind, coordinate, 0.0)
+    return made
+
+
+def without(scales: Scales, mode: str) -> Scales:
+    """Return scales with the presets of one mode."""
+    return Scales(modes={name: kept for name, kept in scales.modes.items() if name != mode})
+
+
+def texts(scale: Scale, coordinate: Coordinate) -> Mapping[str, str]:
+    """Return what stands in each field."""
+    return {
+        field.name: shown(field, coordinate).number(getattr(scale, field.name)) for field in FIELDS
+    }
+
+
+def _check_reach(typed: str, name: str, value: float, coordinate: Coordinate) -> None:
+    """Refuse what is more than the coordinate has."""
+    bounds, unit = coordinate.bounds, coordinate.unit
+    if name == "way" and value > bounds.high - bounds.low:
+        most = readable(bounds.high - bounds.low, unit)
+        raise ScalingError(f"{typed}: must be at most {most}, its range")
+    if name == "speed" and value > bounds.max_speed:
+        most = readable(bounds.max_speed, f"{unit}/s")
+        raise ScalingError(f"{typed}: must be at most {most}, its greatest speed")
+
+
+def _bound(error: ValidationError, unit: Shown) -> str:
+    context = error.errors(include_url=False)[0].get("ctx", {})
+    told = (text.format(unit.text(context[key])) for key, text in _BOUNDS.items() if key in context)
+    return next(told, "a finite number")

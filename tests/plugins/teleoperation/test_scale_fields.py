@@ -1,0 +1,75 @@
+"""The scale editor's fields: units, and refusals that name their bound."""
+
+from dataclasses import replace
+
+import pytest
+
+from rotemina.app.motion.teleoperation.frames import Coordinate
+from rotemina.app.motion.teleoperation.reference import Bounds, ScalingError
+from rotemina.app.motion.teleoperation.scales import Scale, Scales
+from rotemina.plugins.teleoperation.scale_fields import FIELDS, changed, shown, texts, without
+
+TABLE = Coordinate("x", "m", Bounds(0.0, 0.055, 0.01, 0.2), 0.0275)
+PIEZO = Coordinate("zn", "m", Bounds(0.0, 65e-6, 5e-3, 5.0), 3e-5)
+TILT = Coordinate("thx", "rad", Bounds(0.0, 1.16e-3, 0.1, 100.0), 5e-4)
+SCALE = Scale(way=5e-4, speed=1e-3, contact_gain=0.25)
+
+
+def test_each_coordinate_has_the_units_of_its_size():
+    units = [tuple(shown(f, one).unit for f in FIELDS[:2]) for one in (TABLE, PIEZO, TILT)]
+    assert units == [("mm", "mm/s"), ("µm", "µm/s"), ("µrad", "µrad/s")]
+    assert texts(SCALE, TABLE) == {
+        "way": "0.5",
+        "speed": "1",
+        "time_constant_s": "0.2",
+        "spring_hz": "0",
+        "damping_ratio": "1",
+        "contact_gain": "25",
+    }
+
+
+@pytest.mark.parametrize("coordinate", [TABLE, PIEZO, TILT])
+@pytest.mark.parametrize("field", FIELDS, ids=lambda field: field.name)
+def test_what_is_shown_and_typed_again_changes_nothing(coordinate, field):
+    scale = Scale.preset(coordinate)
+    text = texts(scale, coordinate)[field.name]
+    assert changed(scale, field.name, f" {text} ", coordinate) is scale
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "value"),
+    [("way", "0.25", 2.5e-4), ("speed", "2e-1", 2e-4), ("contact_gain", "100", 1.0)],
+)
+def test_a_typed_number_has_the_unit_beside_it(name, text, value):
+    made = changed(SCALE, name, text, TABLE)
+    assert getattr(made, name) == pytest.approx(value)
+    assert replace(made, **{name: getattr(SCALE, name)}) == SCALE
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "told"),
+    [
+        ("way", "0", "Way at full stick of x: 0 mm: must be above 0 mm"),
+        ("way", "60", "60 mm: must be at most 55 mm, its range"),
+        ("speed", "11", "11 mm/s: must be at most 10 mm/s, its greatest speed"),
+        ("speed", "-1", "must be above 0 mm/s"),
+        ("time_constant_s", "0.01", "0.01 s: must be at least 0.02 s"),
+        ("time_constant_s", "6", "must be at most 5 s"),
+        ("time_constant_s", "0.02", "x: 1 mm/s within a time constant of 0.02 s .* at least 0.025"),
+        ("spring_hz", "5.1", "must be at most 5 Hz"),
+        ("damping_ratio", "0.05", "0.05: must be at least 0.1"),
+        ("contact_gain", "101", "101 %: must be at most 100 %"),
+        ("way", "0,5", "'0,5' is no number; type one in mm with a decimal point"),
+        ("damping_ratio", "", "'' is no number; type one with a decimal point"),
+        ("way", "nan", "'nan' is no number"),
+    ],
+)
+def test_what_is_refused_names_its_bound(name, text, told):
+    with pytest.raises(ScalingError, match=told):
+        changed(SCALE, name, text, TABLE)
+
+
+def test_presets_are_of_one_mode():
+    both = Scales().with_scale("micro", "x", SCALE).with_scale("nano", "zn", SCALE)
+    assert set(without(both, "micro").modes) == {"nano"}
+    assert without(both, "micro").of("micro", TABLE) == Scale.preset(TABLE)
