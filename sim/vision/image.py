@@ -42,6 +42,25 @@ def grey(image: NDArray[Any]) -> Image:
     return plane
 
 
+def over(image: Image, background: Image) -> Image:
+    """Return an image as a share of one that was taken without what is looked for.
+
+    Whatever stays, such as vignetting, dust and a cell at rest, goes out.
+
+    Raises
+    ------
+    VisionError
+        If the two differ in size.
+    """
+    if image.shape != background.shape:
+        raise VisionError(
+            f"background: {background.shape[1]} × {background.shape[0]} px against an image of "
+            f"{image.shape[1]} × {image.shape[0]} px; take it again with this camera setting"
+        )
+    least = 1e-3 * float(np.abs(background).max())
+    return np.asarray(image / np.maximum(background, least), dtype=np.float32)
+
+
 def noise_rms(image: Image) -> float:
     """Return the noise of single pixels, as the median of second differences sees it.
 
