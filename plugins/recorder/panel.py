@@ -21,6 +21,7 @@ from rotemina.plugins.recorder.left import LeftBox
 from rotemina.plugins.recorder.listing import Found, Listed, look
 from rotemina.plugins.recorder.recording import RecordingSection
 from rotemina.plugins.recorder.recordings import RecordingsView
+from rotemina.plugins.recorder.words import listed
 
 _WIDTH = 272  # of the recording's own part, px
 _CLOSING_S = 2.0  # that closing waits for a look into a folder that hangs
@@ -38,6 +39,7 @@ class RecorderPanel(Panel):
         # Looks that nobody waits for, so that they keep no dry run waiting.
         self._background = Background(self)
         self._known: dict[Path, Listed] = {}
+        self._told = False
         self.recording = RecordingSection(workbench, self._background)
         self.left = LeftBox(workbench)
         self.recordings = RecordingsView(workbench, self.left)
@@ -79,9 +81,22 @@ class RecorderPanel(Panel):
         self.look()
 
     def _take(self, found: Found) -> None:
+        if not self._told:
+            self._told = True
+            self._tell(found)
         self._known = {one.path: one for one in found.recordings}
         self.recordings.show_recordings(found.recordings)
         self.left.show_left(found.left)
+
+    def _tell(self, found: Found) -> None:
+        """Say once what a crash has left: this panel may stand behind another."""
+        names = [one.path.name for one in found.left if not one.busy]
+        if names:
+            self.workbench.notify(
+                Level.WARNING,
+                f"Recordings that were cut off: {listed(names)}. Recover them in the panel "
+                f"{self.title}.",
+            )
 
     def _bring_up(self) -> None:
         shown = self.workbench.replaying.paced is not None

@@ -151,9 +151,11 @@ class Recording:
         schema = self._tables[SAMPLES].schema
         return self._samples(pa.Table.from_batches(batches, schema))
 
-    def pieces(self, begin_s: float = -np.inf, end_s: float = np.inf) -> Iterator[RecordedSamples]:
-        """Give the same samples piece by piece, none of them empty."""
-        for batch in self._within(begin_s, end_s):
+    def pieces(
+        self, begin_s: float = -np.inf, end_s: float = np.inf, *, most: int | None = None
+    ) -> Iterator[RecordedSamples]:
+        """Give the same samples piece by piece, none of them empty; at ``most`` the last ones."""
+        for batch in _last(list(self._within(begin_s, end_s)), most):
             yield self._samples(pa.Table.from_batches([batch]))
 
     def events(self, begin_s: float = -np.inf, end_s: float = np.inf) -> tuple[RecordedEvent, ...]:
@@ -211,6 +213,17 @@ class Recording:
             model,
             measured,
         )
+
+
+def _last(batches: list[pa.RecordBatch], most: int | None) -> list[pa.RecordBatch]:
+    """Return the last rows of batches, as batches."""
+    surplus = 0 if most is None else sum(map(len, batches)) - most
+    kept = []
+    for batch in batches:
+        if len(batch) > surplus:
+            kept.append(batch.slice(max(surplus, 0)))
+        surplus -= len(batch)
+    return kept
 
 
 def _array(table: pa.Table, column: str) -> Any:

@@ -101,11 +101,12 @@ class Replay:
                 self._again(event)
                 break
         self.history.clear()
-        self._show(self.host_time_s - _SEEN_S, self.host_time_s)
+        # No more than the history holds: of a fast device that is less than a minute.
+        self._show(self.host_time_s - _SEEN_S, self.host_time_s, self.history.capacity)
         self._emit(StateChanged(self.snapshot()))
 
-    def _show(self, begin_s: float, end_s: float) -> None:
-        for piece in self.recording.pieces(begin_s, end_s):
+    def _show(self, begin_s: float, end_s: float, most: int | None = None) -> None:
+        for piece in self.recording.pieces(begin_s, end_s, most=most):
             for part in _by_connection(piece):
                 self._append(part)
         while self._at < len(self.events) and self.events[self._at].host_time_s <= end_s:

@@ -115,9 +115,12 @@ def test_a_start_after_a_crash_and_a_recording_that_ends_with_the_window(
     assert "crashed.arrows.part" in panel.left.text.text()
     assert "busy.arrows.part is being recorded by another program" in panel.left.text.text()
     assert writer.path.name not in panel.left.text.text()
+    assert notices(window) == [
+        "Recordings that were cut off: crashed.arrows.part. Recover them in the panel Recorder."
+    ]
     click(qtbot, panel.left.recover)
     qtbot.waitUntil(lambda: panel.recordings.table.rowCount() == 1, timeout=LONG_MS)
-    assert notices(window) == ["Recovered crashed.arrows"]
+    assert notices(window)[0] == "Recovered crashed.arrows"
     qtbot.waitUntil(panel.left.recover.isHidden, timeout=LONG_MS)
     panel.recordings.table.selectRow(0)
     panel.recordings.begin.setText("1,5")
@@ -133,8 +136,9 @@ def test_a_start_after_a_crash_and_a_recording_that_ends_with_the_window(
         complaint = panel.recording.complaint
         qtbot.waitUntil(complaint.isVisible, timeout=LONG_MS)
         assert "Nothing is recorded now: No space left" in complaint.text()
-        assert window.recording_sign.property("tone") == "danger"
-        assert "motion goes on" in notices(window)[0]
+        sign = window.recording_sign
+        qtbot.waitUntil(lambda: sign.property("tone") == "danger", timeout=LONG_MS)
+        qtbot.waitUntil(lambda: "motion goes on" in notices(window)[0], timeout=LONG_MS)
     qtbot.waitUntil(complaint.isHidden, timeout=LONG_MS)
 
     window.workbench.close()

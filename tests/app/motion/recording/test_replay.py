@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from rotemina.app.motion.history import LiveHistory
+from rotemina.app.motion.recording import merging
 from rotemina.app.motion.recording.reading import Recording
 from rotemina.app.motion.recording.replay import Replay
 from rotemina.app.motion.state import CommandRefused, Faulted, Phase, StateChanged
@@ -10,8 +12,9 @@ from rotemina.drivers.errors import ConnectionLostError
 
 
 @pytest.fixture
-def session(stepped, record):
+def session(stepped, record, monkeypatch):
     """A move, then a lost link; with the states that the session told on the way."""
+    monkeypatch.setattr(merging, "_ROWS", 100)  # as many batches as a long recording has
     recorded = record(stepped)
     seen = []
     stepped.session.subscribe(seen.append)
@@ -89,6 +92,23 @@ def test_seeking_is_as_having_come_there(session):
         each.advance(100.0)
         assert each.ended
     assert jumped.snapshot() == walked.snapshot()
+
+
+@pytest.mark.parametrize("capacity", [1, 137, 100_000])
+def test_a_jump_reads_no_more_than_the_history_holds(session, monkeypatch, capacity):
+    recording, _, _ = session
+    whole = Replay(recording)
+    whole.seek(recording.began_s + 0.3)
+    history = LiveHistory(recording.axes, seconds=capacity, rate_hz=1.0)
+    replay, appended = Replay(recording, history), []
+    append = history.append
+    monkeypatch.setattr(
+        history, "append", lambda s, model: (appended.append(len(s)), append(s, model))
+    )
+    replay.seek(recording.began_s + 0.3)
+    assert sum(appended) == min(capacity, len(whole.history.tail()))
+    np.testing.assert_array_equal(history.tail().command, whole.history.tail().command[-capacity:])
+    assert replay.snapshot() == whole.snapshot()
 
 
 def test_a_sample_that_is_due_just_now_is_shown_once(session):
