@@ -357,6 +357,7 @@ def test_a_program_that_closes_holds_the_tip(bench):
     bench.until(Phase.THRUST)
     bench.penetration.close()
     assert bench.phase is Phase.HELD
+    assert [run.verdict for run in bench.log.read()[0]] == [Verdict.HELD]
     bench.stepped.step(0.02, 50)
     assert START - bench.session.snapshot().command["zn"] > 5e-6
 
