@@ -1,7 +1,7 @@
 """A bar from its middle: how far a stick is moved, or how hard a contact pushes back."""
 
 from PySide6.QtCore import QRectF, Qt
-from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from rotemina.app.shell.workbench import Workbench
@@ -38,7 +38,7 @@ class CentreBar(QWidget):
         painter = QPainter(self)
         width, middle = self.width(), self.height() / 2
         if self.value is None:
-            painter.setPen(Qt.PenStyle.DashLine)
+            painter.setPen(QPen(QColor(theme.quiet), 1, Qt.PenStyle.DashLine))
             painter.drawLine(0, round(middle), width, round(middle))
         else:
             painter.fillRect(QRectF(0, middle - 2, width, 4), theme.line)

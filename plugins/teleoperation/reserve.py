@@ -5,7 +5,6 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QProgressBar
 from rotemina.app.display import label
 from rotemina.app.motion.operation import has_tip
 from rotemina.app.motion.state import SessionState
-from rotemina.app.motion.teleoperation.plain_units import tilt_text
 from rotemina.app.motion.teleoperation.views import TeleoperationState
 from rotemina.app.shell.controls import allow
 from rotemina.app.shell.workbench import Workbench
@@ -24,19 +23,22 @@ class ReserveSection(Section):
         nano = JOINTS[NANO]
         self.bar = QProgressBar()
         self.bar.setRange(0, 100)
+        self.bar.setTextVisible(False)
         self.bar.setAccessibleName("Piezo range left in percent")
         self.bar.setToolTip("100 %: the piezo is in the middle of its range; 0 %: at an end")
+        self.left = plain_text(quiet=False)
         self.tilt = plain_text(quiet=False)
         self.tilt.setAccessibleName("Tilt of the tool since the mode began")
         self.tilt.setToolTip("By how much the mode has turned the tool since it began")
         grid = QGridLayout()
         grid.setHorizontalSpacing(12)
         grid.setColumnStretch(1, 1)
-        for row, (title, widget) in enumerate((("Left", self.bar), ("Tilt", self.tilt))):
+        for row, (title, widget) in enumerate((("Left", self.left), ("Tilt", self.tilt))):
             name = QLabel(title)
             name.setProperty("quiet", True)
             grid.addWidget(name, row, 0)
             grid.addWidget(widget, row, 1)
+        self.column.addWidget(self.bar)
         self.column.addLayout(grid)
         self.one = button(
             f"Re-centre {label(nano[-1])}", "", lambda: workbench.ask(operation.recentre)
@@ -56,8 +58,9 @@ class ReserveSection(Section):
         """Show a moment, and lock what cannot be done now."""
         left = state.reserve
         self.bar.setValue(0 if left is None else round(100 * left))
-        self.bar.setFormat(wording.reserve_text(left))
-        self.tilt.setText("not by this mode" if state.tilt is None else tilt_text(state.tilt))
+        self.bar.setEnabled(left is not None)
+        self.left.setText(wording.reserve_text(state))
+        self.tilt.setText(wording.tilt_shown(state))
         why = against_recentring(machine)
         stays = "to mid-range while the tables keep the tip where it is"
         allow(self.one, why, f"Bring zn {stays}")

@@ -14,7 +14,12 @@ from rotemina.app.motion.teleoperation.mapped_device import AxisView
 from rotemina.app.motion.teleoperation.mapping import PluggedDevice
 from rotemina.app.motion.teleoperation.modes import ALL_AXES, TIP_MODES
 from rotemina.app.motion.teleoperation.operator_desk import DeviceView
-from rotemina.app.motion.teleoperation.plain_units import felt_text, position_text, rate_text
+from rotemina.app.motion.teleoperation.plain_units import (
+    felt_text,
+    position_text,
+    rate_text,
+    tilt_text,
+)
 from rotemina.app.motion.teleoperation.profile import Seat
 from rotemina.app.motion.teleoperation.scales import LawKind
 from rotemina.app.motion.teleoperation.views import CoordinateView, TeleoperationState
@@ -25,6 +30,7 @@ from rotemina.sim.trajectory.wording import readable
 PAD_SOURCE = "keys"
 WAITING = "bring the stick to the middle first"
 _LITTLE = 0.2  # of the range
+_TILT_DIGITS = 9  # of rad: what is less is rounding, and no tilt
 _TIP_SCALE = Scale("mm", 5)
 
 
@@ -219,11 +225,18 @@ def law_text(view: CoordinateView, what: str, travel_m: float | None) -> str:
     return ""
 
 
-def reserve_text(left: float | None) -> str:
+def reserve_text(state: TeleoperationState) -> str:
     """Return how much of a piezo's range is left, and what to do where that is little."""
-    if left is None:
-        return "not shared in this mode"
-    return f"{100.0 * left:.0f} %{' – re-centre' if left < _LITTLE else ''}"
+    if state.reserve is None:
+        return "not shared in this mode" if state.coordinates else "–"
+    return f"{100.0 * state.reserve:.0f} %{' – re-centre' if state.reserve < _LITTLE else ''}"
+
+
+def tilt_shown(state: TeleoperationState) -> str:
+    """Return by how much the tool was turned."""
+    if state.tilt is None:
+        return "not by this mode" if state.coordinates else "–"
+    return tilt_text(round(state.tilt, _TILT_DIGITS))
 
 
 def _short(value: float) -> float:

@@ -122,7 +122,7 @@ class Teleoperator:
 
         def change() -> None:
             self._scales = scales
-            self._let_go("the scales were changed")
+            self._let_go("the scales were changed" if self.state.driving else None)
 
         self._request(change)
 

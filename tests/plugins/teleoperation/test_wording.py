@@ -156,10 +156,22 @@ def test_the_clutch_is_told_where_it_counts():
     assert "robot does not" in wording.clutch_text(LawKind.RATE, {Action.CLUTCH})
 
 
-def test_little_range_says_what_to_do():
-    assert wording.reserve_text(0.5) == "50 %"
-    assert wording.reserve_text(0.1) == "10 % – re-centre"
-    assert wording.reserve_text(None) == "not shared in this mode"
+@pytest.mark.parametrize(
+    ("left", "text"),
+    [(0.5, "50 %"), (0.1, "10 % – re-centre"), (None, "not shared in this mode")],
+)
+def test_little_range_says_what_to_do(left, text):
+    begun = replace(STATE, coordinates=(view(LawKind.RATE),), reserve=left)
+    assert wording.reserve_text(begun) == text
+    assert wording.reserve_text(STATE) == "–"
+
+
+def test_a_tilt_is_told_without_what_rounding_makes():
+    begun = replace(STATE, coordinates=(view(LawKind.RATE),))
+    assert wording.tilt_shown(replace(begun, tilt=1e-3)) == "206 arcsec (1 mrad)"
+    assert wording.tilt_shown(replace(begun, tilt=3e-16)) == "0 arcsec (0 mrad)"
+    assert wording.tilt_shown(begun) == "not by this mode"
+    assert wording.tilt_shown(STATE) == "–"
 
 
 def test_modes_of_other_robots_have_buttons_too():
