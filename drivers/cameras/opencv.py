@@ -1,5 +1,6 @@
 """Cameras that OpenCV reads: USB cameras (UVC), video files, streams of the network."""
 
+import os
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -28,6 +29,9 @@ _MANUAL, _MOST_GAIN = 1.0, 1000.0
 _TIMEOUT_MS = 3000
 _TEXT = int.from_bytes(b"ansi", "little")  # FFmpeg makes a film of any text file
 _SYSTEM = Path("/sys/class/video4linux")
+
+# OpenCV reads it once, before its first film, and hands it to FFmpeg: AV_LOG_QUIET.
+os.environ.setdefault("OPENCV_FFMPEG_LOGLEVEL", "-8")
 
 Capture = Callable[..., Any]
 
