@@ -114,6 +114,8 @@ class CalibrationSection(Section):
     def _use(self, device: DeviceView | None) -> None:
         """Have a draft for a device, a new one if it has come back as another."""
         if device is None:
+            if self._now is not None:
+                self._now.cancel()  # what it says now is not what was being measured
             self._now = None
             return
         key = device.device.identity.key

@@ -1,6 +1,6 @@
 """What is plugged in, whether it drives, and what is wrong."""
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QFrame,
     QLabel,
@@ -19,14 +19,7 @@ _ROOM = 6
 
 
 class DeviceList(Section):
-    """The devices, one of which is looked at.
-
-    Signals
-    -------
-    selected(str) : the key of the device that somebody wants to look at.
-    """
-
-    selected = Signal(str)
+    """The devices, one of which is looked at."""
 
     def __init__(self) -> None:
         super().__init__("Devices")
@@ -36,9 +29,10 @@ class DeviceList(Section):
         self.list.setAccessibleName("Input devices that are plugged in")
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.list.setTextElideMode(Qt.TextElideMode.ElideRight)
-        self.list.currentItemChanged.connect(lambda *_: self.selected.emit(self.key))
+        self.list.currentItemChanged.connect(lambda *_: self._pick())
         self.column.addWidget(self.list)
         self._entries: tuple[Entry, ...] = ()
+        self._picked = ""  # by somebody; until then the first one is looked at
 
     @property
     def key(self) -> str:
@@ -65,17 +59,17 @@ class DeviceList(Section):
             self.list.setFixedHeight(height)
 
     def _fill(self, entries: tuple[Entry, ...]) -> None:
-        before = self.key
         self.list.blockSignals(True)
         self.list.clear()
         for entry in entries:
             item = QListWidgetItem(self.list)
             item.setData(Qt.ItemDataRole.UserRole, entry.key)
         keys = [entry.key for entry in entries]
-        self.list.setCurrentRow(keys.index(before) if before in keys else min(0, len(keys) - 1))
+        self.list.setCurrentRow(keys.index(self._picked) if self._picked in keys else 0)
         self.list.blockSignals(False)
-        if self.key != before:
-            self.selected.emit(self.key)
+
+    def _pick(self) -> None:
+        self._picked = self.key
 
 
 class Troubles(QWidget):

@@ -24,6 +24,8 @@ class Finding:
         kinds = (Kind.AXIS,) if axis else (Kind.BUTTON, Kind.AXIS)
         self._detections = {kind: Detection([view.device], kind) for kind in kinds}
         self._axis_since_s: float | None = None
+        self._view = view
+        self._newest = view.newest
         if view.newest is not None:
             for detection in self._detections.values():
                 detection.feed(self._key, view.newest)
@@ -31,12 +33,13 @@ class Finding:
     def hear(self, heard: Heard) -> None:
         """Take in what a step has read."""
         for reading in heard.readings.get(self._key, ()):
+            self._newest = reading
             for detection in self._detections.values():
                 detection.feed(self._key, reading)
 
     def look(self, now_s: float) -> Findings:
         """Return what was moved, once that is sure."""
-        found = {kind: detection.findings(now_s) for kind, detection in self._detections.items()}
+        found = {kind: self._found(kind, now_s) for kind in self._detections}
         button = found.get(Kind.BUTTON)
         if button is None:
             return found[Kind.AXIS]
@@ -47,6 +50,16 @@ class Finding:
         if self._axis_since_s is None:
             self._axis_since_s = now_s
         return axis if now_s - self._axis_since_s >= BUTTON_WAIT_S else Findings(None, axis.message)
+
+    def _found(self, kind: Kind, now_s: float) -> Findings:
+        """Return what was moved; an axis that has come back to its rest was let go of."""
+        found = self._detections[kind].findings(now_s)
+        if kind is Kind.BUTTON or found.detected is None or self._newest is None:
+            return found
+        control = found.detected.control
+        raw = self._newest.axes[self._view.device.axes.index(control)]
+        at_rest = self._view.calibration.axis(control).deflection(raw) == 0.0
+        return Findings(None, "move the axis now") if at_rest else found
 
 
 def _both(button: Findings, axis: Findings) -> Findings:

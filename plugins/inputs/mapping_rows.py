@@ -84,7 +84,7 @@ class TargetRow(Row):
         self.inverted.setCheckable(True)
         self.inverted.setAccessibleName(f"Inverted: {self.name}")
         self.inverted.setToolTip("Inverted: the other way than its calibration says")
-        self.inverted.clicked.connect(self.changed.emit)
+        self.inverted.clicked.connect(lambda on: self.changed.emit(on))
         self._place_extra(grid, self.inverted)
 
     def _controls(self, edited: Edited) -> str:

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from rotemina.app.motion.state import SessionState
 from rotemina.app.motion.teleoperation.devices_view import DevicesView
 from rotemina.app.motion.teleoperation.input_devices import Heard
 from rotemina.app.motion.teleoperation.operator_desk import DeviceView
@@ -62,7 +63,7 @@ class InputsPanel(Panel):
             QTimer.singleShot(0, self, lambda: workbench.notify(Level.WARNING, wrong))
         self._make_parts()
         self._lay_out()
-        workbench.refreshed.connect(lambda _: self.refresh())
+        workbench.refreshed.connect(self._refresh)
         workbench.theme_changed.connect(self._use_theme)
         workbench.closing.connect(self.leave)
         self.refresh()
@@ -82,16 +83,17 @@ class InputsPanel(Panel):
         self.tabs.setDrawBase(False)
         for page in Page:
             self.tabs.addTab(page)
-        self.tabs.currentChanged.connect(lambda _: self.refresh())
+        self.tabs.currentChanged.connect(lambda _: self._turn())
         self.troubles = Troubles()
         self.list = DeviceList()
         self.live = LiveSection(bench.theme)
         self.profile = ProfileSection(bench, self.profiles)
-        self.mapping = MappingSection(bench, self.profiles)
-        self.calibration = CalibrationSection(bench)
+        #: Made when somebody sets up for the first time: most who open the window never do.
+        self.mapping: MappingSection | None = None
+        self.calibration: CalibrationSection | None = None
 
     def _lay_out(self) -> None:
-        head = QVBoxLayout()
+        self._head = head = QVBoxLayout()
         head.setContentsMargins(10, 8, 10, 4)
         head.setSpacing(6)
         row = QHBoxLayout()
@@ -101,14 +103,11 @@ class InputsPanel(Panel):
         head.addWidget(self.banner)
         head.addLayout(row)
         head.addWidget(self.tabs)
-        head.addWidget(self.mapping.message)
         content = QWidget()
-        column = QVBoxLayout(content)
+        self._column = column = QVBoxLayout(content)
         column.setContentsMargins(10, 0, 10, 8)
         column.setSpacing(4)
-        for part in (self.list, self.live, self.troubles):
-            column.addWidget(part)
-        for part in (self.mapping, self.calibration, self.profile):
+        for part in (self.list, self.live, self.troubles, self.profile):
             column.addWidget(part)
         column.addStretch(1)
         self._scroll = QScrollArea()
@@ -122,21 +121,31 @@ class InputsPanel(Panel):
         outer.setSpacing(0)
         outer.addLayout(head)
         outer.addWidget(self._scroll, 1)
-        bar = self._scroll.verticalScrollBar().sizeHint().width()
-        self.setMinimumWidth(max(content.minimumSizeHint().width() + bar, 300))
         self._show_page(None)
+        self._widen()
+
+    def _make_set_up(self) -> tuple[MappingSection, CalibrationSection]:
+        """Return mapping and calibration, made if they are not there yet."""
+        if self.mapping is None or self.calibration is None:
+            self.mapping = MappingSection(self.workbench, self.profiles)
+            self.calibration = CalibrationSection(self.workbench)
+            self._head.addWidget(self.mapping.message)
+            place = self._column.indexOf(self.profile)
+            self._column.insertWidget(place, self.calibration)
+            self._column.insertWidget(place, self.mapping)
+            self._widen()
+        return self.mapping, self.calibration
+
+    def _widen(self) -> None:
+        """Be wide enough: what is in a scroll area could else be cut off."""
+        content, bar = self._scroll.widget(), self._scroll.verticalScrollBar()
+        self.setMinimumWidth(max(content.minimumSizeHint().width() + bar.sizeHint().width(), 320))
 
     # --- what is shown ----------------------------------------------------------------------------
 
     def refresh(self) -> None:
         """Show the devices as they were at their latest step."""
-        if not self.isVisible() and self._leave_listening is None and self.list.list.count():
-            return
         view, now_s = self._devices.view, self.workbench.operation.clock()
-        while self._heard:
-            heard = self._heard.popleft()
-            self.mapping.hear(heard)
-            self.calibration.hear(heard)
         hub = self._devices.hub
         wrong = troubles(view, hub)
         self.headline.setText(headline(view, len(wrong)))
@@ -148,8 +157,32 @@ class InputsPanel(Panel):
             self.live.show_device(device, _age(view, now_s))
         self.profile.refresh(view)
         if self.set_up.isChecked():
-            self.mapping.refresh(view, device, now_s)
-            self.calibration.refresh(device, now_s)
+            self._refresh_set_up(view, device, now_s)
+
+    def _refresh_set_up(self, view: DevicesView, device: DeviceView | None, now_s: float) -> None:
+        mapping, calibration = self._make_set_up()
+        while self._heard:
+            heard = self._heard.popleft()
+            mapping.hear(heard)
+            calibration.hear(heard)
+        page = self.page
+        mapping.setVisible(page is Page.MAPPING and device is not None)
+        mapping.message.setVisible(page is Page.MAPPING and device is not None)
+        calibration.setVisible(page is Page.CALIBRATION and device is not None)
+        if page is Page.MAPPING:
+            mapping.refresh(view, device, now_s)
+        elif page is Page.CALIBRATION:
+            calibration.refresh(device, now_s)
+
+    def _refresh(self, _: SessionState) -> None:
+        if self.isVisible():
+            self.refresh()
+
+    def _turn(self) -> None:
+        """Show another page; a control is looked for only while its row is in sight."""
+        if self.mapping is not None:
+            self.mapping.cancel()
+        self.refresh()
 
     @property
     def page(self) -> Page:
@@ -164,14 +197,12 @@ class InputsPanel(Panel):
         self.list.setVisible(page is Page.DEVICES)
         self.live.setVisible(page is Page.DEVICES and device is not None)
         self.troubles.setVisible(page is Page.DEVICES and bool(self.troubles.text))
-        self.mapping.setVisible(page is Page.MAPPING and device is not None)
-        self.mapping.message.setVisible(self.mapping.isVisibleTo(self))
-        self.calibration.setVisible(page is Page.CALIBRATION and device is not None)
         self.profile.setVisible(page is not Page.CALIBRATION)
 
     def _use_theme(self, theme: Theme) -> None:
         self.live.set_theme(theme)
-        self.calibration.set_theme(theme)
+        if self.calibration is not None:
+            self.calibration.set_theme(theme)
 
     # --- setting up -------------------------------------------------------------------------------
 
@@ -197,8 +228,11 @@ class InputsPanel(Panel):
             self._leave_listening()
             self._leave_listening = None
         self._heard.clear()
-        self.mapping.cancel()
-        self.calibration.leave()
+        mapping, calibration = self._make_set_up()
+        mapping.cancel()
+        calibration.leave()
+        for part in (mapping, mapping.message, calibration):
+            part.hide()
         self._devices.close_mapping()
         self.refresh()
 

@@ -138,7 +138,8 @@ class _Overwrite(QFrame):
 
 def _state(view: DevicesView, profiles: ProfileChoice) -> str:
     if profiles.changed:
-        return "Changed, and not kept: save it, or it is lost when the program ends."
+        where = "save it" if view.setting_up else "set up, and save it"
+        return f"Changed, and not kept: {where}, or it is lost when the program ends."
     if profiles.chosen == AUTOMATIC and view.profile is not None:
         return f"In use: {view.profile.name}"
     return ""

@@ -94,7 +94,7 @@ def target_tip(target: str) -> str:
 
 def way_of(target: str) -> str:
     """Return which way a stick is to be moved for an axis to grow."""
-    return _WAYS.get(target, f"where {label(target)} is to grow")
+    return _WAYS.get(target, f"the way in which {label(target)} is to grow")
 
 
 def entries(view: DevicesView, hub: InputHub) -> tuple[Entry, ...]:

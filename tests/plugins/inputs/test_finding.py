@@ -64,3 +64,15 @@ def test_another_device_is_passed_over(make_bench, make_stick):
     other.deflect("X", 1.0)
     found = look(bench, finding, 0.1)
     assert found.detected is None
+
+
+def test_what_is_let_go_of_was_not_moved(make_bench, make_stick):
+    stick = make_stick()
+    stick.deflect("X", 1.0)
+    bench = make_bench(stick)
+    finding = Finding(bench.view(stick.key), axis=True)
+    stick.deflect("X", 0.0)
+    assert look(bench, finding, 0.1).detected is None
+    bench.run(1.0)
+    stick.deflect("X", 1.0)
+    assert look(bench, finding, 0.1).detected.direction == 1

@@ -1,0 +1,210 @@
+"""The panel on real threads: a stick is set up by hand, and is as it was left at the next start."""
+
+import time
+
+import pytest
+from PySide6.QtCore import Qt
+
+from rotemina.app.motion.teleoperation.intent import Action
+from rotemina.plugins.inputs.panel import Page
+from rotemina.plugins.inputs.profiles import SETTING
+from rotemina.plugins.inputs.words import NOTHING_SENT
+
+LONG_MS = 30_000
+
+
+class Hand:
+    """One window, a stick at it, and a hand."""
+
+    def __init__(self, qtbot, window, stick):
+        self.qtbot, self.window, self.stick = qtbot, window, stick
+        self.operation = window.workbench.operation
+        self.devices = self.operation.devices
+        self.panel = window.panels["inputs"]
+        window.docks["inputs"].raise_()
+        hub = self.devices.hub
+        hub._sources = {**hub._sources, stick.key: stick}
+        self.devices.look()
+        self.until(lambda: self.panel.list.key == stick.key)
+
+    def until(self, told):
+        self.qtbot.waitUntil(told, timeout=LONG_MS)
+
+    def press(self, button):
+        self.until(button.isEnabled)
+        self.qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+
+    def type(self, field, text):
+        field.setText(text)
+        self.qtbot.keyClick(field, Qt.Key.Key_Return)
+
+    def raw(self, axis):
+        [view] = (one for one in self.devices.view.devices if one.device.axes == self.stick.axes)
+        return next(one.raw for one in view.axes if one.control == axis)
+
+    def notices(self):
+        return " ".join(notice.text for notice in self.window.notices.notices())
+
+    def find(self, row, axis, raw, done):
+        """Move an axis for a row of the mapping, and let go of it."""
+        self.press(row.control)
+        self.stick.deflect(axis, raw)
+        self.until(done)
+        self.stick.deflect(axis, 0.0)
+        self.until(lambda: self.raw(axis) == 0.0)
+
+
+@pytest.fixture
+def stick(make_stick):
+    made = make_stick("stick", ("X", "Y", "Z"), ("1", "2"))
+    made.clock = time.monotonic
+    return made
+
+
+@pytest.fixture
+def make_hand(qtbot, make_robot_window, stick):
+    return lambda: Hand(qtbot, make_robot_window(), stick)
+
+
+def shown_live(hand, stick):
+    """What the stick says is seen, and why it is not trusted."""
+    panel = hand.panel
+    stick.deflect("X", 0.5)
+    stick.hold("2")
+    hand.until(lambda: panel.live.rows["X"].numbers.text() == "+0.50   +46 %")
+    assert "Down: 2" in panel.live.lamps.accessibleDescription()
+    stick.release_all()
+    hand.until(lambda: panel.live.rows["X"].about.text() == "→ Stick X")
+    assert "stick may drive" in panel.headline.text()
+
+
+def set_up(hand, stick):
+    """Nothing is sent while it is set up."""
+    panel, devices = hand.panel, hand.devices
+    hand.press(panel.set_up)
+    assert panel.banner.isVisible()
+    assert panel.banner.text() == NOTHING_SENT
+    hand.until(lambda: devices.view.setting_up)
+    stick.deflect("X", 1.0)
+    hand.until(lambda: hand.raw("X") == 1.0)
+    assert hand.operation.intent.deflections == {}
+    stick.release_all()
+    hand.until(lambda: hand.raw("X") == 0.0)
+
+
+def found(hand):
+    """Two owners are refused, and named; then z is given up, and the axis drives zn."""
+    mapping = hand.panel.mapping
+    rows = mapping.targets
+    hand.find(rows["zn"], "Z", -0.9, lambda: "Refused" in mapping.message.text())
+    assert "two owners, 'Z' of hid:046d:c215:stick (drives z) and 'Z'" in hand.notices()
+    hand.press(rows["z"].clear)
+    hand.find(rows["zn"], "Z", -0.9, lambda: rows["zn"].control.text() == "Z")
+    assert rows["zn"].inverted.isChecked()
+    assert rows["z"].control.text() == "–"
+
+
+def mapped(hand):
+    """An axis is turned round; another one presses, beyond a threshold that can be changed."""
+    mapping = hand.panel.mapping
+    rows = mapping.targets
+    hand.press(rows["zn"].inverted)
+    assert not hand.devices.profile.devices[0].axes[-1].inverted
+    clutch = mapping.actions[Action.CLUTCH]
+    hand.press(rows["y"].clear)
+    hand.find(clutch, "Y", 0.9, lambda: clutch.control.text() == "Y > 50 %")
+    hand.type(clutch.at, "70")
+    hand.until(lambda: clutch.control.text() == "Y > 70 %")
+    hand.type(clutch.at, "5")
+    assert "cannot be a threshold" in mapping.message.text()
+    hand.press(rows["y"].control)
+    hand.until(lambda: rows["y"].control.text() == "move it now …")
+    hand.press(rows["y"].control)
+    hand.until(lambda: rows["y"].control.text() == "–")
+
+
+def saved(hand):
+    """What was changed is kept under a name."""
+    profile = hand.panel.profile
+    hand.until(lambda: "not kept" in profile.state.text())
+    profile.name.setText("Mine")
+    hand.press(profile.save)
+    assert hand.window.workbench.settings.get(SETTING, "") == "Mine"
+    hand.until(lambda: not profile.discard.isEnabled())
+
+
+def measured(hand, stick):
+    """One axis is measured, its curve changed, and both are kept."""
+    panel, measuring = hand.panel, hand.panel.calibration.measuring
+    panel.tabs.setCurrentIndex(list(Page).index(Page.CALIBRATION))
+    for axis in ("Y", "Z"):
+        measuring.wanted[axis].setChecked(False)
+    hand.press(measuring.next)
+    hand.until(lambda: "let go" in measuring.text.text())
+    assert not measuring.next.isEnabled()
+    hand.press(measuring.next)  # it can be pressed after a second
+    hand.until(lambda: "axis X hardly moved" in measuring.problems.text())
+    for raw in (-0.7, 0.8, 0.0):
+        stick.deflect("X", raw)
+        hand.until(lambda raw=raw: hand.raw("X") == raw)
+    hand.until(lambda: measuring.next.text() == "Done")
+    hand.press(measuring.next)
+    assert "-0.69 to +0.78" in panel.calibration.summary.text()
+    hand.type(panel.calibration.expo, "2")
+    assert panel.calibration.expo.property("bad")
+    hand.type(panel.calibration.expo, "0.4")
+    hand.press(panel.calibration.keep)
+    assert "The calibration of stick is kept" in hand.notices()
+
+
+def test_a_stick_is_seen_and_mapped_by_moving_it(make_hand, stick):
+    hand = make_hand()
+    shown_live(hand, stick)
+    set_up(hand, stick)
+    found(hand)
+    hand.press(hand.panel.set_up)
+    hand.until(lambda: hand.operation.intent.deflections == {"x": 0.0, "y": 0.0, "zn": 0.0})
+    assert "not kept: set up, and save it" in hand.panel.profile.state.text()
+
+
+@pytest.mark.slow
+def test_a_stick_is_set_up_and_as_it_was_left_at_the_next_start(make_hand, stick):
+    hand = make_hand()
+    set_up(hand, stick)
+    found(hand)
+    mapped(hand)
+    saved(hand)
+    measured(hand, stick)
+    hand.press(hand.panel.set_up)
+    hand.until(lambda: hand.operation.intent.deflections == {"x": 0.0, "zn": 0.0})
+    hand.window.workbench.close()
+
+    again = make_hand()
+    again.until(lambda: again.operation.intent.deflections == {"x": 0.0, "zn": 0.0})
+    assert again.panel.profile.choice.currentText() == "Mine"
+    kept = again.devices.view.devices[-1].calibration.axis("X")
+    assert (kept.expo, kept.low) == (0.4, pytest.approx(-0.686))
+    assert again.notices() == ""
+
+
+def test_a_missing_profile_is_told_and_a_hidden_panel_is_set_up_no_more(make_hand, settings, stick):
+    settings.set(SETTING, "Gone")
+    hand = make_hand()
+    hand.until(lambda: "no profile 'Gone' any more" in hand.notices())
+    panel, devices = hand.panel, hand.devices
+    assert panel.profile.choice.currentText() == "Automatic"
+    hand.press(panel.set_up)
+    hand.until(lambda: devices.view.setting_up)
+    panel.tabs.setCurrentIndex(list(Page).index(Page.CALIBRATION))
+    hand.until(panel.calibration.expo.isVisible)
+    hand.type(panel.calibration.expo, "0.5")
+    hand.window.docks["inputs"].hide()
+    assert not panel.set_up.isChecked()
+    hand.until(lambda: not devices.view.setting_up)
+    assert "The changed calibration of stick was not kept" in hand.notices()
+    hand.window.docks["inputs"].show()
+    assert not panel.banner.isVisible()
+    hand.press(panel.set_up)
+    stick.withdraw()
+    hand.until(lambda: panel.list.key != stick.key)
+    hand.until(lambda: "pad" in panel.mapping.heading.text())
