@@ -104,7 +104,7 @@ def align(
         None where it left the image or the neighbourhood, or the template has no detail.
     """
     thin = (slice(None, None, stride),) * 2
-    columns = _columns(template, thin)
+    columns, fit = _columns(template, thin), np.zeros(4)
     flat = np.ones_like(template) if weights is None else weights
     prior = flat[thin].ravel().astype(np.float64)
     corner = np.array(start, dtype=np.float64)
@@ -115,9 +115,10 @@ def align(
             return None
         seen = patch[thin].ravel().astype(np.float64)
         normal = columns.T @ (weighed[:, None] * columns)
-        fit = _solved(normal, columns.T @ (weighed * seen))
-        if fit is None or fit[2] < _LEAST_GAIN:
+        solved = _solved(normal, columns.T @ (weighed * seen))
+        if solved is None or solved[2] < _LEAST_GAIN:
             return None
+        fit = solved
         step = fit[:2] / fit[2]
         corner -= np.clip(step, -2.0, 2.0)
         if np.linalg.norm(corner - start) > most_px:
@@ -170,7 +171,7 @@ def _columns(template: Image, thin: tuple[slice, slice]) -> FloatArray:
 
 def _solved(normal: FloatArray, right: FloatArray) -> FloatArray | None:
     try:
-        return np.linalg.solve(normal, right)
+        return np.asarray(np.linalg.solve(normal, right), dtype=np.float64)
     except np.linalg.LinAlgError:
         return None
 

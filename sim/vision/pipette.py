@@ -1,15 +1,15 @@
 """What a tapering pipette looks like near its tip: the model that the tip is found by.
 
-With l along the body from the tip and n across it (px), a half width ``h = r + t l`` and the blur of
-a body that climbs out of focus::
+With l along the body from the tip and n across it (px), a half width ``h = r + t l`` and the blur
+of a body that climbs out of focus::
 
     σ(l)² = σ₀² + β² (z + c l)²
     body(l, n) = ½ [erf((n + h)/√2σ) − erf((n − h)/√2σ)] · ½ [1 + erf((l − e)/√2σ)]
 
-with l no less than 0 in h and σ. z is the tip's distance from the focal plane (m; positive where the
-body leads away from focus), c what the body climbs per px of the image, β the blur of a defocus
-(px/m). Through the bore, a body of ``bore · h``, comes back the share ``lumen`` of the light. e (px)
-makes the square end of this model stand where a rounded end of the same light does.
+with l no less than 0 in h and σ. z is the tip's distance from the focal plane (m; positive where
+the body leads away from focus), c what the body climbs per px of the image, β the blur of a defocus
+(px/m). Through the bore, a body of ``bore · h``, comes back the share ``lumen`` of the light. e
+(px) makes the square end of this model stand where a rounded end of the same light does.
 """
 
 from dataclasses import dataclass

@@ -1,9 +1,9 @@
 """The tip of a pipette, to a fraction of a pixel: found in a whole image, fitted in a part of it.
 
 The model of :mod:`rotemina.sim.vision.pipette` is fitted by least squares: place and depth by
-linearisation, background (of second order) and what body and bore do to the light along with them. Tukey's
-weights leave out what the model does not know, such as a membrane or a nucleus that crosses. The
-covariance is σ² (JᵀJ)⁻¹ of the pixels that count.
+linearisation, background (of second order) and what body and bore do to the light along with them.
+Tukey's weights leave out what the model does not know, such as a membrane or a nucleus that
+crosses. The covariance is σ² (JᵀJ)⁻¹ of the pixels that count.
 
 Depth comes from blur, which is the same on both sides of focus. A body that climbs tells them
 apart: before focus its sharpest place is the tip, behind it a place farther up. Both signs are
@@ -255,8 +255,9 @@ def likeliest(
 class _Fitting:
     """One fit: the pixels, and what may change.
 
-    The coefficients are six of the background's surface (of second order), the contrast, what the bore deviates by,
-    and the changes of column, row, depth and direction, in that order, as far as they are free.
+    The coefficients are six of the background's surface (of second order), the shade of a dimple
+    where there may be one, the contrast, what the bore deviates by, and the changes of column, row,
+    depth and direction, in that order, as far as they are free.
     """
 
     def __init__(
@@ -301,11 +302,12 @@ class _Fitting:
                 contrast = float(light[self.body])
             free = self.free if turn >= self.placed else self.free[:2]
             rows = np.vstack([ground, drawn[:2], contrast * drawn[free]])
-            found = _least_squares(
+            solved = _least_squares(
                 rows, aim, weights, (self.body + _BORE, _tied(contrast, variance))
             )
-            if found is None:
+            if solved is None:
                 return None
+            found = solved
             change = dict(zip(free, found[self.body + _PLACE :], strict=True))
             step = np.clip(
                 found[self.body + _PLACE : self.body + _DEPTH], -_MOST_STEP_PX, _MOST_STEP_PX

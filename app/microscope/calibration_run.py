@@ -1,0 +1,302 @@
+"""A guided calibration: small moves about the present place, a look after each, a fit, and back.
+
+Somebody calls :meth:`CalibrationRun.step`; it has no thread and never waits. Every move goes
+through the session, which knows limits, keep-out and owners; a refusal, a stop, a fault or a
+camera that stands still ends the run with the reason. After a refusal it goes back to where it
+began; after a stop or a fault nothing moves.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from enum import StrEnum
+
+import numpy as np
+
+from rotemina.app.microscope.calibration_file import MICRO, NANO, StageCalibration
+from rotemina.app.microscope.errors import MicroscopeError
+from rotemina.app.microscope.look import Look, Looking, Newest
+from rotemina.app.motion.mailbox import RefusedError
+from rotemina.app.motion.session import MotionSession
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.errors import InputError
+from rotemina.sim.kinematics.chain import JOINTS, Chain
+from rotemina.sim.kinematics.forward import tip_position
+from rotemina.sim.kinematics.inverse import solve_nano
+from rotemina.sim.trajectory.limits import check_target
+from rotemina.sim.vision.calibration import Demands, StageFit, fit_stage
+from rotemina.sim.vision.image import Image
+from rotemina.sim.vision.pipette import Pipette
+from rotemina.sim.vision.registration import register
+from rotemina.sim.vision.tip import TipFit, find_tip, fit_depths, likeliest
+
+OWNER = "calibration"
+EXTENT_M = {MICRO: 40e-6, NANO: 15e-6}  # of the tip, each way from where it is
+_RING = ((1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (0, 0))
+_MOST_DRIFT_PX = 1.0  # between the first and the last picture, both from the same place
+_SEARCHED_PX = 24.0  # about where the tip should be, once that is known
+
+
+class Phase(StrEnum):
+    """Where a calibration is."""
+
+    LOOKING = "looking"
+    RETURNING = "returning"
+    DONE = "done"
+    FAILED = "failed"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Observation:
+    """One move: the tip's displacement (2,), m, the image's (2,), px, and its covariance."""
+
+    displacement: FloatArray
+    shift: FloatArray
+    covariance: FloatArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CalibrationStatus:
+    """What is to be shown.
+
+    Attributes
+    ----------
+    phase : Phase
+    done, moves : int
+        Looks taken, and how many it takes.
+    observations : tuple of Observation
+    fit : StageFit or None
+        With the residuals, once it was fitted; also where it was refused.
+    calibration : StageCalibration or None
+        The result.
+    reason : str
+        Why it failed.
+    """
+
+    phase: Phase
+    done: int
+    moves: int
+    observations: tuple[Observation, ...] = ()
+    fit: StageFit | None = None
+    calibration: StageCalibration | None = None
+    reason: str = ""
+
+
+class CalibrationRun:
+    """Calibrates one stage.
+
+    Parameters
+    ----------
+    session : MotionSession
+    newest : callable
+        The camera's newest picture.
+    stage : str
+        ``micro`` or ``nano``.
+    pipette : Pipette, optional
+        What the tip looks like: the background stands and the tip moves. Without one the whole
+        picture must move with the stage.
+    extent_m : float, optional
+        How far the tip goes each way from where it is.
+    now_s : float
+        The host's time.
+    demands : Demands, optional
+    today : callable
+        Return date and time, for the file.
+
+    Raises
+    ------
+    InputError
+        If the robot has no such chain, a move would leave an axis' range, or motion is locked;
+        then nothing has moved.
+    """
+
+    def __init__(
+        self,
+        session: MotionSession,
+        newest: Newest,
+        stage: str,
+        pipette: Pipette | None,
+        *,
+        now_s: float,
+        extent_m: float | None = None,
+        demands: Demands | None = None,
+        today: Callable[[], datetime] = lambda: datetime.now(UTC),
+    ) -> None:
+        self._session, self._stage, self._pipette = session, stage, pipette
+        self._demands, self._today = demands, today
+        self._chain = Chain.of(session.robot)
+        state = session.snapshot()
+        if state.locked is not None:
+            raise RefusedError(f"motion is locked: {state.locked}")
+        self._axes = ("x", "y") if stage == MICRO else ("thx", "thy", "zn")
+        self._begin = {axis: state.command[axis] for axis in self._axes}
+        joints = np.array([state.command[axis] for axis in JOINTS])
+        extent = EXTENT_M[stage] if extent_m is None else extent_m
+        self._plan = tuple(self._targets(joints, extent * np.array(way)) for way in _RING)
+        self._looking = Looking(session, newest)
+        self._looking.begin(now_s)
+        self._first: tuple[Look, TipFit | None] | None = None
+        self._status = CalibrationStatus(Phase.LOOKING, 0, len(self._plan) + 1)
+
+    @property
+    def status(self) -> CalibrationStatus:
+        """What is to be shown."""
+        return self._status
+
+    def step(self, now_s: float) -> CalibrationStatus:
+        """Go on; never raises for what a device or a camera does."""
+        phase = self._status.phase
+        if phase not in (Phase.LOOKING, Phase.RETURNING):
+            return self._status
+        try:
+            look = self._looking.step(now_s)
+        except InputError as error:
+            # What stands between machine and program, or camera and program: nothing is moved.
+            self._end(Phase.FAILED, self._status.reason or str(error))
+            return self._status
+        if look is None:
+            return self._status
+        if phase is Phase.RETURNING:
+            self._end(Phase.FAILED if self._status.reason else Phase.DONE, self._status.reason)
+            return self._status
+        try:
+            self._observe(look)
+            self._go_on(now_s)
+        except InputError as error:
+            self._go_back(str(error), now_s)
+        return self._status
+
+    def abort(self) -> None:
+        """Stop the machine and end; it stays where it is."""
+        if self._status.phase in (Phase.LOOKING, Phase.RETURNING):
+            self._session.stop()
+            self._end(Phase.FAILED, "the calibration was stopped")
+
+    # --- the moves --------------------------------------------------------------------------------
+
+    def _targets(self, joints: FloatArray, away_m: FloatArray) -> dict[str, float]:
+        """Return axis targets that displace the tip by ``away_m`` (2,), m; checked."""
+        goal = tip_position(self._chain, joints) + np.append(away_m, 0.0)
+        if self._stage == MICRO:
+            targets = {axis: self._begin[axis] + away_m[i] for i, axis in enumerate(self._axes)}
+        else:
+            solved = solve_nano(self._chain, goal, joints)
+            targets = {axis: float(solved[JOINTS.index(axis)]) for axis in self._axes}
+        for axis, target in targets.items():
+            check_target(self._session.robot, axis, float(target))
+        return {axis: float(target) for axis, target in targets.items()}
+
+    def _go_on(self, now_s: float) -> None:
+        done = self._status.done
+        if done <= len(self._plan) - 1:
+            self._session.go_to(self._plan[done], OWNER)
+        else:
+            self._finish()
+            self._go_back("", now_s)
+            return
+        self._status = replace(self._status, done=done + 1)
+        self._looking.begin(now_s)
+
+    def _go_back(self, reason: str, now_s: float) -> None:
+        """Return to where it began; a refusal of that ends it where it is."""
+        self._status = replace(self._status, phase=Phase.RETURNING, reason=reason)
+        try:
+            self._session.go_to(self._begin, OWNER)
+        except InputError as error:
+            self._end(Phase.FAILED, f"{reason or 'calibrated'}; it could not go back: {error}")
+            return
+        self._looking.begin(now_s)
+
+    def _end(self, phase: Phase, reason: str) -> None:
+        self._status = replace(self._status, phase=phase, reason=reason)
+
+    # --- what is seen -----------------------------------------------------------------------------
+
+    def _observe(self, look: Look) -> None:
+        if self._first is None:
+            self._first = look, self._tip(look.image, None)
+            return
+        first, tip = self._first
+        if tip is not None:
+            fit = self._tip(look.image, self._expected(tip, look))
+            assert fit is not None
+            shift, spread = fit.pixel - tip.pixel, fit.covariance
+        else:
+            found = register(first.image, look.image)
+            shift, spread = found.shift, found.covariance
+        displacement = self._tip_m(look)[:2] - self._tip_m(first)[:2]
+        seen = (*self._status.observations, Observation(displacement, shift, spread))
+        self._status = replace(self._status, observations=seen)
+
+    def _tip(self, image: Image, expected: FloatArray | None) -> TipFit | None:
+        """Find the tip, in the whole picture or about where it should be; None without one."""
+        pipette = self._pipette
+        if pipette is None:
+            return None
+        if expected is None:
+            fit = find_tip(image, pipette)
+            # Its direction is found with it, and kept.
+            self._pipette = replace(pipette, direction=fit.direction)
+            return fit
+        half = round(_SEARCHED_PX) + 48
+        low = np.maximum(np.rint(expected).astype(int) - half, 0)
+        part = image[low[1] : low[1] + 2 * half, low[0] : low[0] + 2 * half]
+        depth = self._first[1].depth.distance if self._first and self._first[1] else 0.0
+        _, place = likeliest(part, pipette, (depth,), 2, 48)
+        found = fit_depths(image, pipette, place + low, (depth,))
+        return find_tip(image, pipette) if found is None else found
+
+    def _expected(self, tip: TipFit, look: Look) -> FloatArray | None:
+        """Return where the tip should be by what was seen so far; None before that tells."""
+        seen = self._status.observations
+        if len(seen) < 3:
+            return None
+        moves = np.stack([one.displacement for one in seen])
+        shifts = np.stack([one.shift for one in seen])
+        matrix = np.linalg.lstsq(moves, shifts, rcond=None)[0]
+        assert self._first is not None
+        moved = self._tip_m(look)[:2] - self._tip_m(self._first[0])[:2]
+        return np.asarray(tip.pixel + moved @ matrix)
+
+    def _tip_m(self, look: Look) -> FloatArray:
+        """Return the tip (3,), m, by what the moved stage's sensors say, else by command."""
+        axes, robot = self._session.driver.axes, self._session.robot
+        places = dict(zip(axes, look.command.tolist(), strict=True))
+        for axis, value in zip(axes, look.measured.tolist(), strict=True):
+            if axis in self._axes and axis != "zn":
+                places[axis] = value - robot.axes[axis].offset
+        return tip_position(self._chain, np.array([places[axis] for axis in JOINTS]))
+
+    def _finish(self) -> None:
+        """Fit; the last look is from where the first one was, and shows what drifted."""
+        assert self._first is not None
+        seen = self._status.observations
+        drift = float(np.linalg.norm(seen[-1].shift))
+        if drift > _MOST_DRIFT_PX:
+            raise MicroscopeError(
+                f"the picture drifted by {drift:.1f} px during the calibration, must be at most "
+                f"{_MOST_DRIFT_PX:g} px; let stage and camera settle, and begin again"
+            )
+        first, tip = self._first
+        moves = np.stack([np.zeros(2), *(one.displacement for one in seen)])
+        shifts = np.stack([np.zeros(2), *(one.shift for one in seen)])
+        own = seen[-1].covariance if tip is None else tip.covariance
+        spreads = np.stack([own, *(one.covariance for one in seen)])
+        fit = fit_stage(moves, shifts, spreads, self._demands)
+        at_px = np.zeros(2) if tip is None else tip.pixel + fit.offset
+        self._status = replace(
+            self._status,
+            fit=fit,
+            calibration=StageCalibration(
+                date=self._today().isoformat(timespec="seconds"),
+                matrix=_table(fit.map.matrix),
+                covariance=_table(fit.map.covariance),
+                tip_m=tuple(self._tip_m(first).tolist()),
+                tip_px=tuple(at_px.tolist()),
+                residual_px=fit.residual_rms,
+            ),
+        )
+
+
+def _table(array: FloatArray) -> tuple[tuple[float, ...], ...]:
+    return tuple(tuple(row) for row in array.tolist())
