@@ -93,7 +93,9 @@ class PenetrationRun:
             table["phases"] = tuple((str(name), float(at)) for name, at in table["phases"])
             if table.get("thrust") is not None:
                 table["thrust"] = ThrustMeasured(**table["thrust"])
-            return _sound(cls(**table))
+            run = cls(**table)
+            _require_kinds(run)
+            return run
         except (ValueError, TypeError, KeyError, RecursionError) as error:
             raise PenetrationError(f"no penetration's run: {error}") from error
 
@@ -153,8 +155,8 @@ class RunLog:
         return tuple(runs), tuple(problems)
 
 
-def _sound(run: PenetrationRun) -> PenetrationRun:
-    """Return a run whose texts are texts and whose figures are figures; else a TypeError."""
+def _require_kinds(run: PenetrationRun) -> None:
+    """Raise a TypeError unless the run's texts are texts and its figures are figures."""
     kinds: dict[str, tuple[type, ...]] = {
         **dict.fromkeys(("started", "robot", "driver", "reason"), (str,)),
         **{"parameters": (dict,), "verdict": (Verdict,), "phases": (tuple,)},
@@ -168,7 +170,6 @@ def _sound(run: PenetrationRun) -> PenetrationRun:
             value = getattr(part, one.name)
             if not isinstance(value, kinds.get(one.name, figure)):
                 raise TypeError(f"{one.name} = {str(value)[:40]!r}: of the wrong kind")
-    return run
 
 
 def as_table(parameters: Any) -> dict[str, Any]:
