@@ -1,4 +1,4 @@
-"""A camera in use: one thread grabs, everybody else has the newest picture and waits for nothing."""
+"""A camera in use: one thread grabs, everybody else has its newest picture without waiting."""
 
 import logging
 import threading
@@ -20,6 +20,7 @@ _LOG = logging.getLogger(__name__)
 STALLED_S = 1.0
 _GRAB_S = 0.1  # how long a request may wait for a picture
 _SMOOTHING = 0.1  # of the rate, per picture
+_AS_IT_IS = CameraSettings()
 
 
 class FeedState(StrEnum):
@@ -63,7 +64,7 @@ class FeedView:
     frame: Frame | None = None
     age_s: float | None = None
     rate_hz: float = 0.0
-    settings: CameraSettings = CameraSettings()
+    settings: CameraSettings = _AS_IT_IS
     description: CameraDescription | None = None
     problem: str = ""
 

@@ -1,0 +1,56 @@
+"""Frozen and black streams."""
+
+import numpy as np
+import pytest
+
+from rotemina.app.cameras.watch import Showing, Watch
+from rotemina.drivers.cameras.frame import Frame, Region
+
+
+def frames(pictures, period_s=0.1, bits=8):
+    region = Region(0, 0, 40, 30)
+    return [
+        Frame(pixels, period_s * number, number, bits, region)
+        for number, pixels in enumerate(pictures)
+    ]
+
+
+def noisy(count, level=100.0, seed=1, dtype=np.uint8, spread=3.0):
+    rng = np.random.default_rng(seed)
+    return [rng.normal(level, spread, (30, 40)).clip(0).astype(dtype) for _ in range(count)]
+
+
+def judged(pictures, **kwargs):
+    watch = Watch()
+    return [watch.judge(frame) for frame in frames(pictures, **kwargs)]
+
+
+def test_a_live_stream():
+    assert set(judged(noisy(30))) == {Showing.LIVE}
+
+
+def test_a_stream_that_freezes_and_recovers():
+    live = noisy(3)
+    shown = judged([*live, *[live[-1]] * 12, *noisy(2, seed=2)])
+    first = shown.index(Showing.FROZEN)
+    assert first == 12  # a second after the last new one
+    assert shown[-1] is Showing.LIVE
+    assert set(shown[first:15]) == {Showing.FROZEN}
+
+
+def test_a_slow_stream_is_not_frozen_by_one_repetition():
+    picture = noisy(1)[0]
+    assert set(judged([picture] * 3, period_s=2.0)) == {Showing.LIVE}
+
+
+@pytest.mark.parametrize(("bits", "level", "dtype"), [(8, 2.0, np.uint8), (12, 45.0, np.uint16)])
+def test_a_black_stream(bits, level, dtype):
+    assert set(judged(noisy(5, level, dtype=dtype, spread=1.0), bits=bits)) == {Showing.BLACK}
+
+
+def test_a_dark_picture_with_something_in_it_is_not_black():
+    pictures = noisy(5, 2.0)
+    for picture in pictures:
+        picture[::3, ::3] = 0
+        picture[8:24, 8:24] = 90
+    assert set(judged(pictures)) == {Showing.LIVE}
