@@ -61,7 +61,7 @@ def draw_cell(
     passed *= 1.0 - _MEMBRANE * _line(distance, wide, blur)
     passed *= 1.0 + _RIM * _line(distance - np.float32(3.0 * wide), 2.0 * wide, blur)
     passed *= _nucleus(optics, cell, focus_m, corner, shape)
-    for point_m, size_m, contrast in _marks(cell, state):
+    for point_m, size_m, contrast in _marks(optics, cell, state):
         spot = optics.pixel_of(point_m) - corner
         mark_blur = _blur(optics, point_m, focus_m)
         passed *= 1.0 + contrast * _spot(shape, spot, size_m / optics.pixel_m, mark_blur)
@@ -151,12 +151,15 @@ def _nucleus(
     return np.asarray(passed * (1.0 - _NUCLEOLUS * _spot(shape, at - corner, small, blur)))
 
 
-def _marks(cell: Cell, state: CellState) -> list[tuple[FloatArray, float, float]]:
-    """Return the spots that tip and hole leave: where, their half width in m, their contrast."""
+def _marks(optics: Optics, cell: Cell, state: CellState) -> list[tuple[FloatArray, float, float]]:
+    """Return the spots that tip and hole leave: where, their half width in m, their contrast.
+
+    A dimple shades as far as it goes along the view; across it, the outline shows it.
+    """
     marks: list[tuple[FloatArray, float, float]] = []
     if state.entry_m is not None:
         way = dimple(cell, state)
-        deep = min(1.0, float(np.linalg.norm(way)) / cell.breaking_m)
+        deep = min(1.0, abs(float(way @ optics.view[2])) / cell.breaking_m)
         marks.append((np.array(state.entry_m) + way, cell.dimple_m, -_DIMPLE * deep))
     if state.hole_m is not None:
         marks.append((np.array(state.hole_m), _HOLE_M, _HOLE))
