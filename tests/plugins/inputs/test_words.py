@@ -7,6 +7,7 @@ import pytest
 from rotemina.app.motion.teleoperation.devices_view import DevicesView
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.drivers.errors import DriverError
+from rotemina.drivers.inputs.pad import Pad
 from rotemina.plugins.inputs.words import (
     ACTION_TIPS,
     ACTIONS,
@@ -95,3 +96,9 @@ def test_nothing_is_told_of_nothing():
     view = DevicesView()
     assert headline(view, 0) == "No input device is plugged in."
     assert headline(replace(view, setting_up=True), 1) == "Being set up: nothing drives."
+
+
+def test_what_was_plugged_in_comes_before_the_pad(make_bench, make_stick, clock):
+    bench = make_bench(Pad("pad", clock=clock), make_stick())
+    assert list(standings(bench)) == ["stick", "pad"]
+    assert standings(bench)["pad"] == "trainee, looks on"
