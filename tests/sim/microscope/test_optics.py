@@ -60,6 +60,13 @@ def test_how_the_camera_is_mounted():
     np.testing.assert_allclose(np.linalg.norm(skewed, axis=0), 1.0, atol=1e-12)
 
 
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_the_rotation_is_where_the_x_axis_is_seen_whatever_the_skew(mirrored):
+    optics = Optics(rotation_rad=0.4, skew_rad=0.15, mirrored=mirrored)
+    right = optics.mapping[:, 0] * optics.pixel_m * (-1.0 if mirrored else 1.0)
+    np.testing.assert_allclose(right, [np.cos(0.4), np.sin(0.4)], atol=1e-12)
+
+
 @given(mountings, points)
 def test_a_pixel_and_a_depth_are_one_point(optics, point):
     point = np.array(point)
