@@ -22,7 +22,8 @@ from rotemina.sim.vision.image import Image, noise_rms
 
 _SOFTENED = 1.0  # px, before gradients are taken
 _LEAST_LOOKS = 5
-_LEAST_SIGNIFICANCE = 5.0  # of the peak's height over its uncertainty
+_NARROWEST = 0.5  # half width of a peak, of the distance between looks
+_LEAST_SIGNIFICANCE = 8.0  # of the peak's height over its uncertainty
 _COARSE, _FINE = 9, 7  # looks at the whole range, and about the best of them
 
 
@@ -72,10 +73,15 @@ def fit_peak(places: FloatArray, values: FloatArray) -> FocusPeak:
     jacobian = np.asarray(fit.jac, dtype=np.float64)
     spread = np.linalg.pinv(jacobian.T @ jacobian) * 2.0 * float(fit.cost) / freedom
     height, place, width = float(fit.x[1]), float(fit.x[2]), abs(float(fit.x[3]))
-    if height < _LEAST_SIGNIFICANCE * float(np.sqrt(spread[1, 1])) or height <= 0.0:
+    if height < _LEAST_SIGNIFICANCE * float(np.sqrt(abs(spread[1, 1]))) or height <= 0.0:
         raise VisionError(
             "focus: no peak of the sharpness stands out; bring detail into view, give more light, "
             "or search a larger range"
+        )
+    if width < _NARROWEST / (len(z) - 1):
+        raise VisionError(
+            f"focus: the peak, {width * span * 1e6:.2g} µm wide, is narrower than the looks are "
+            "apart; it is noise, or they must be closer"
         )
     found = float(z.mean() + place * span)
     if not z.min() <= found <= z.max():
@@ -83,7 +89,7 @@ def fit_peak(places: FloatArray, values: FloatArray) -> FocusPeak:
             f"focus: it would be sharpest at {found * 1e6:.1f} µm, outside the searched "
             f"{z.min() * 1e6:.1f} to {z.max() * 1e6:.1f} µm; search there"
         )
-    return FocusPeak(found, float(np.sqrt(spread[2, 2])) * span, width * span)
+    return FocusPeak(found, float(np.sqrt(abs(spread[2, 2]))) * span, width * span)
 
 
 @dataclass(frozen=True, slots=True)
