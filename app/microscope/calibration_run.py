@@ -143,6 +143,11 @@ class CalibrationRun:
         """What is to be shown."""
         return self._status
 
+    @property
+    def pipette(self) -> Pipette | None:
+        """The pipette with the direction in which it was found; what to track it by."""
+        return self._pipette
+
     def step(self, now_s: float) -> CalibrationStatus:
         """Go on; never raises for what a device or a camera does."""
         phase = self._status.phase
@@ -243,8 +248,8 @@ class CalibrationRun:
         part = image[low[1] : low[1] + 2 * half, low[0] : low[0] + 2 * half]
         depth = self._first[1].depth.distance if self._first and self._first[1] else 0.0
         _, place = likeliest(part, pipette, (depth,), 2, 48)
-        found = fit_depths(image, pipette, place + low, (depth,))
-        return find_tip(image, pipette) if found is None else found
+        found = fit_depths(image, pipette, place + low, (depth,), turning=False)
+        return find_tip(image, pipette, turning=False) if found is None else found
 
     def _expected(self, tip: TipFit, look: Look) -> FloatArray | None:
         """Return where the tip should be by what was seen so far; None before that tells."""

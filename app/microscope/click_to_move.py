@@ -22,7 +22,8 @@ from rotemina.sim.kinematics.forward import tip_position
 from rotemina.sim.kinematics.inverse import solve_nano
 from rotemina.sim.trajectory.limits import OutOfLimitsError, check_target
 from rotemina.sim.trajectory.wording import readable
-from rotemina.sim.vision.tip import fit_tip, likeliest
+from rotemina.sim.vision.image import Image, over
+from rotemina.sim.vision.tip import fit_tip, likeliest, plausible
 from rotemina.sim.vision.tracking import TipTrack
 
 OWNER = "click"
@@ -31,6 +32,7 @@ TOLERANCE_PX = 0.3
 CORRECTIONS = 4
 _MOST_CORRECTION_PX = 30.0  # farther off than this is no matter of refinement
 _LOOKED_PX = 48
+_COVERED = 0.02  # share of a pixel that a pipette may still shade
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -234,6 +236,9 @@ class ClickRun:
     track : TipTrack
         What the tip looks like, as it was seen before the move.
     now_s : float
+    before : image, optional
+        The picture in which it was seen. Where the tip goes to a place that it does not cover
+        there, that place is known without the tip, and a cell beneath it misleads nobody.
     tolerance_px : float
     corrections : int
         At most.
@@ -253,12 +258,13 @@ class ClickRun:
         track: TipTrack,
         *,
         now_s: float,
+        before: Image | None = None,
         tolerance_px: float = TOLERANCE_PX,
         corrections: int = CORRECTIONS,
         confirmed: bool = False,
     ) -> None:
         self._clicks, self._goal, self._stage = clicks, move.pixel, move.stage
-        self._track, self._ghost = track, move.ghost
+        self._track, self._ghost, self._before = track, move.ghost, before
         self._tolerance_px, self._corrections = tolerance_px, corrections
         self._looking = Looking(clicks.session, newest)
         clicks.go(move, confirmed=confirmed)
@@ -310,18 +316,29 @@ class ClickRun:
 
     def _seen(self, look: Look) -> FloatArray:
         """Find the tip about where it should be."""
-        track, image = self._track, look.image
-        low = np.maximum(np.rint(self._ghost).astype(int) - 2 * _LOOKED_PX, 0)
-        part = image[low[1] : low[1] + 4 * _LOOKED_PX, low[0] : low[0] + 4 * _LOOKED_PX]
-        depth = track.depth.distance
+        track = self._track
+        middle = np.rint(self._ghost).astype(int)
+        low = np.maximum(middle - 2 * _LOOKED_PX, 0)
+        high = np.minimum(middle + 2 * _LOOKED_PX, look.image.shape[::-1])
+        window = slice(low[1], high[1]), slice(low[0], high[0])
+        part, depth = self._alone(look.image[window], window), track.depth.distance
         score, place = likeliest(part, track.pipette, (depth,), 2, _LOOKED_PX)
-        fit = fit_tip(image, track.pipette, place + low, depth) if score > 0.0 else None
-        if fit is None:
+        fit = fit_tip(part, track.pipette, place, depth) if score > 0.0 else None
+        if fit is None or not plausible(fit):
             raise MicroscopeError(
                 f"the tip is not seen near {self._ghost[0]:.0f}, {self._ghost[1]:.0f} px, where it "
                 "should be; nothing more is moved: look at the picture"
             )
-        return fit.pixel
+        return np.asarray(fit.pixel + low)
+
+    def _alone(self, part: Image, window: tuple[slice, slice]) -> Image:
+        """Return the part without what was there before, if the tip was not."""
+        before, track = self._before, self._track
+        if before is None or before[window].shape != part.shape:
+            return part
+        corner = np.array([window[1].start, window[0].start])
+        covered = track.pipette.drawn(track.pixel - corner, track.depth.distance, part.shape)[0]
+        return part if covered.max() > _COVERED else over(part, before[window])
 
 
 def _check_click(pixel: FloatArray, view: View, frame: Frame | None) -> None:

@@ -146,14 +146,19 @@ def _half(pipette: Pipette, depth: float) -> int:
 
 
 def fit_depths(
-    image: Image, pipette: Pipette, start: FloatArray, depths: tuple[float, ...]
+    image: Image,
+    pipette: Pipette,
+    start: FloatArray,
+    depths: tuple[float, ...],
+    *,
+    turning: bool = True,
 ) -> TipFit | None:
     """Fit from several depths, m, and from the mirror image of the best; tell whether it differs.
 
     This is what finds the sign of the depth; a tracker then keeps it.
     """
     half = max(_half(pipette, at) for at in depths)  # the same pixels for all, to be compared
-    tries = (fit_tip(image, pipette, start, at, turning=True, half=half) for at in depths)
+    tries = (fit_tip(image, pipette, start, at, turning=turning, half=half) for at in depths)
     fits = [fit for fit in tries if fit is not None]
     if not fits:
         return None
@@ -161,7 +166,7 @@ def fit_depths(
     away = best.depth.distance
     if pipette.climb == 0.0 or pipette.defocus == 0.0:
         return replace(best, depth=replace(best.depth, distance=abs(away), sign_known=False))
-    other = fit_tip(image, pipette, best.pixel, -away, turning=True, half=half)
+    other = fit_tip(image, pipette, best.pixel, -away, turning=turning, half=half)
     # The other start may lead back to the same place: then there is no rival.
     rivals = other is not None and other.depth.distance * away < 0.0
     clear = True
@@ -174,8 +179,10 @@ def fit_depths(
     return replace(best, depth=replace(best.depth, sign_known=known))
 
 
-def find_tip(image: Image, pipette: Pipette) -> TipFit:
+def find_tip(image: Image, pipette: Pipette, *, turning: bool = True) -> TipFit:
     """Find the tip in a whole image, by the shape of a body that leads in its known direction.
+
+    With ``turning`` the direction is known roughly and found too: best where nothing lies beneath.
 
     Raises
     ------
@@ -196,7 +203,7 @@ def find_tip(image: Image, pipette: Pipette) -> TipFit:
             best = fit
     if best is not None:
         away = best.depth.distance
-        best = fit_depths(image, pipette, best.pixel, (away, 0.0))
+        best = fit_depths(image, pipette, best.pixel, (away, 0.0), turning=turning)
     if best is None or not plausible(best):
         raise VisionError(
             f"tip: nothing looks like it (greatest likeness {likeness:.2f}); bring the tip into "

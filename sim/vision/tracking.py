@@ -71,15 +71,19 @@ class TipTrack:
         return self.lost_for > 0
 
 
-def begin_track(image: Image, pipette: Pipette, *, dimple: bool = False) -> TipTrack:
+def begin_track(
+    image: Image, pipette: Pipette, *, turning: bool = True, dimple: bool = False
+) -> TipTrack:
     """Find the tip in a whole image; with ``dimple`` it is going to press on a membrane.
+
+    Without ``turning`` the pipette's direction is taken as it is, not found anew.
 
     Raises
     ------
     VisionError
         If it is not there.
     """
-    return replace(_found(find_tip(image, pipette), pipette), dimple=dimple)
+    return replace(_found(find_tip(image, pipette, turning=turning), pipette), dimple=dimple)
 
 
 def follow(track: TipTrack, image: Image) -> TipTrack:
@@ -91,7 +95,7 @@ def follow(track: TipTrack, image: Image) -> TipTrack:
     lost_for = track.lost_for + 1
     if lost_for % _ANEW == 0:
         try:
-            fit = find_tip(image, track.pipette)
+            fit = find_tip(image, track.pipette, turning=False)
         except VisionError as error:
             reason = str(error)
         else:
@@ -114,7 +118,7 @@ def _near(track: TipTrack, image: Image) -> TipFit | None:
         return fit
     depths = tuple(depth + away for away in _AWAY)
     place = _likely_place(track, image, depths)
-    return None if place is None else fit_depths(image, track.pipette, place, depths)
+    return None if place is None else fit_depths(image, track.pipette, place, depths, turning=False)
 
 
 def _likely_place(track: TipTrack, image: Image, depths: tuple[float, ...]) -> FloatArray | None:

@@ -155,7 +155,7 @@ def followed(make_view, frames):
 
 
 def test_a_penetration_is_followed(make_view):
-    lost, misses = followed(make_view, 60)
+    lost, misses = followed(make_view, 40)
     assert lost == 0
     assert misses.max() < 8.0
 
