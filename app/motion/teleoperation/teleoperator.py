@@ -26,6 +26,7 @@ from rotemina.sim.trajectory.limits import resolution_of
 JOYSTICK = "joystick"  # the owner of the axes that it moves
 LEASE_S = 0.15
 _RENEW_S = 0.04  # a speed that does not change is said again this often
+_NEARLY, _STEPS_S = 0.02, 10.0  # of a speed, and resolutions a second: changes that can wait
 _LONGEST_STEP_S = 0.05  # a loop that was late does not make up for it
 _NOISE_FLOORS = 3.0  # of a deviation, that are no contact
 DIRECT = "direct"  # axes that a control drives by their own name
@@ -226,7 +227,7 @@ class Teleoperator:
     ) -> None:
         # An axis that rests is nobody's: somebody else may move it meanwhile.
         speeds = {axis: v for axis, v in speeds.items() if v or arm.sent.get(axis)}
-        if not speeds or (speeds == arm.sent and now_s - arm.sent_s < _RENEW_S):
+        if not speeds or (now_s - arm.sent_s < _RENEW_S and self._as_sent(speeds, arm.sent)):
             return
         lost = arm.following.lost(speeds, state)
         if lost is not None:
@@ -247,6 +248,20 @@ class Teleoperator:
             self._refused = "slowed: the tip is close to its bounds"
             arm.steering.hold_back(before, share)
             arm.following.forget()
+
+    def _as_sent(self, speeds: Mapping[str, float], sent: Mapping[str, float]) -> bool:
+        """Whether speeds are so near to those sent that they may wait for the next renewal.
+
+        What follows every rounding would keep the line busy, and what matters would wait.
+        """
+        if speeds.keys() != sent.keys():
+            return False
+        return all(
+            (speed == 0.0) == (sent[axis] == 0.0)
+            and abs(speed - sent[axis])
+            <= _NEARLY * abs(sent[axis]) + _STEPS_S * resolution_of(self._robot.axes[axis])
+            for axis, speed in speeds.items()
+        )
 
     def _elsewhere(self, arm: _Arm, state: SessionState) -> bool:
         """Whether the axes rest where the reference is not."""
