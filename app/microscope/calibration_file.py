@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from datetime import datetime
 from pathlib import Path
 from typing import Annotated, Self
 
@@ -13,7 +14,7 @@ from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.motion.teleoperation.tables import STRICT, Format, Text
 from rotemina.drivers.cameras.frame import Region
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.vision.calibration import StageMap
+from rotemina.sim.vision.calibration import StageFit, StageMap
 
 VERSION = 1
 MICRO, NANO = "micro", "nano"
@@ -70,6 +71,20 @@ class StageCalibration:
     tip_m: tuple[Finite, Finite, Finite]
     tip_px: tuple[Finite, Finite]
     residual_px: Residual
+
+    @classmethod
+    def of(cls, fit: StageFit, date: datetime, tip_m: FloatArray, tip_px: FloatArray) -> Self:
+        """Return what is kept of a fit, with where the tip was and was seen."""
+        (a, b), (c, d) = fit.map.matrix.tolist()
+        (x, y, z), (column, row) = tip_m.tolist(), tip_px.tolist()
+        return cls(
+            date=date.isoformat(timespec="seconds"),
+            matrix=((a, b), (c, d)),
+            covariance=tuple((p, q, r, s) for p, q, r, s in fit.map.covariance.tolist()),
+            tip_m=(x, y, z),
+            tip_px=(column, row),
+            residual_px=fit.residual_rms,
+        )
 
     def __post_init__(self) -> None:
         if not abs(np.linalg.det(np.array(self.matrix))) > 0.0:

@@ -28,7 +28,8 @@ from rotemina.sim.vision.calibration import Demands, StageFit, fit_stage
 from rotemina.sim.vision.image import Image
 from rotemina.sim.vision.pipette import Pipette
 from rotemina.sim.vision.registration import register
-from rotemina.sim.vision.tip import TipFit, find_tip, fit_depths, likeliest
+from rotemina.sim.vision.tip import find_tip, fit_depths, likeliest
+from rotemina.sim.vision.tip_fit import TipFit
 
 OWNER = "calibration"
 EXTENT_M = {MICRO: 40e-6, NANO: 15e-6}  # of the tip, each way from where it is
@@ -280,7 +281,8 @@ class CalibrationRun:
         if drift > _MOST_DRIFT_PX:
             raise MicroscopeError(
                 f"the picture drifted by {drift:.1f} px during the calibration, must be at most "
-                f"{_MOST_DRIFT_PX:g} px; let stage and camera settle, and begin again"
+                f"{_MOST_DRIFT_PX:g} px; let stage and camera settle, see to backlash, and begin "
+                "again"
             )
         first, tip = self._first
         moves = np.stack([np.zeros(2), *(one.displacement for one in seen)])
@@ -292,16 +294,7 @@ class CalibrationRun:
         self._status = replace(
             self._status,
             fit=fit,
-            calibration=StageCalibration(
-                date=self._today().isoformat(timespec="seconds"),
-                matrix=_table(fit.map.matrix),
-                covariance=_table(fit.map.covariance),
-                tip_m=tuple(self._tip_m(first).tolist()),
-                tip_px=tuple(at_px.tolist()),
-                residual_px=fit.residual_rms,
+            calibration=StageCalibration.of(
+                fit, self._today(), self._tip_m(first), np.asarray(at_px)
             ),
         )
-
-
-def _table(array: FloatArray) -> tuple[tuple[float, ...], ...]:
-    return tuple(tuple(row) for row in array.tolist())

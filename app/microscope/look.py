@@ -78,6 +78,8 @@ class Looking:
         self._region: Region | None = None
         self._stop_s = session.stop_asked_s
         self._begun_s = 0.0
+        self._rested_s: float | None = None
+        self._same = False
         self._restart()
 
     def begin(self, now_s: float) -> None:
@@ -121,7 +123,7 @@ class Looking:
         return None
 
     def _restart(self) -> None:
-        self._rested_s: float | None = None
+        self._rested_s = None
         self._watch = Watch()
         self._images: list[Image] = []
         self._commands: list[FloatArray] = []

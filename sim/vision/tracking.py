@@ -11,14 +11,12 @@ from rotemina.sim.vision.pipette import Pipette
 from rotemina.sim.vision.tip import (
     LEAST_USED,
     MOST_DOUBT_PX,
-    Depth,
-    TipFit,
     find_tip,
     fit_depths,
-    fit_tip,
     likeliest,
     plausible,
 )
+from rotemina.sim.vision.tip_fit import Depth, TipFit, fit_tip
 
 REACH_PX = 20.0  # within which a tip is looked for that did not move on as before
 _LOOK_PX = 32  # of the body that is compared there
@@ -113,7 +111,15 @@ def _near(track: TipTrack, image: Image) -> TipFit | None:
     place = _likely_place(track, image, (depth,))
     if place is None:
         return None
-    fit = fit_tip(image, track.pipette, place, depth, placed=1, dimple=track.dimple)
+    fit = fit_tip(
+        image,
+        track.pipette,
+        place,
+        depth,
+        placed=1,
+        dimple=track.dimple,
+        contrast=track.contrast,
+    )
     if not _doubt(fit, track):
         return fit
     depths = tuple(depth + away for away in _AWAY)

@@ -13,7 +13,7 @@ from rotemina.app.microscope.calibration_file import (
     View,
 )
 from rotemina.app.microscope.calibration_run import CalibrationRun, Phase
-from rotemina.app.microscope.click_to_move import Visit
+from rotemina.app.microscope.click_run import Visit
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.cameras.simulated import SimulatedMicroscope
 from rotemina.drivers.clock import VirtualClock

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from rotemina.app.microscope.calibration_file import MICRO, NANO
-from rotemina.app.microscope.click_to_move import ClickRun, ClickToMove, Visit
+from rotemina.app.microscope.click_run import ClickRun, Visit
+from rotemina.app.microscope.click_to_move import ClickToMove
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.targets import Tour
 from rotemina.app.motion.mailbox import RefusedError

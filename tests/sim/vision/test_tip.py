@@ -11,7 +11,8 @@ from rotemina.sim.microscope.scene import Pin
 from rotemina.sim.vision.errors import VisionError
 from rotemina.sim.vision.image import grey, over
 from rotemina.sim.vision.pipette import Pipette
-from rotemina.sim.vision.tip import find_tip, fit_depths, fit_tip
+from rotemina.sim.vision.tip import find_tip, fit_depths
+from rotemina.sim.vision.tip_fit import fit_tip
 from rotemina.sim.vision.tracking import begin_track, follow
 
 

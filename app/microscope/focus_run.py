@@ -1,0 +1,99 @@
+"""Autofocus: a search that moves something, looks, and ends at the sharpest place.
+
+What moves is the microscope's focus drive or an axis of the machine, such as z through the
+session, which knows its limits.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+from rotemina.app.microscope.look import Looking, Newest
+from rotemina.app.motion.session import MotionSession
+from rotemina.sim.errors import InputError
+from rotemina.sim.vision.focus import Autofocus, FocusPeak, sharpness
+
+
+class Search(StrEnum):
+    """Where an autofocus is."""
+
+    UNDER_WAY = "under way"
+    DONE = "done"
+    FAILED = "failed"
+
+
+@dataclass(frozen=True, slots=True)
+class FocusStatus:
+    """What is to be shown: the looks so far, the peak, or why there is none."""
+
+    search: Search
+    places: tuple[float, ...] = ()
+    values: tuple[float, ...] = ()
+    peak: FocusPeak | None = None
+    reason: str = ""
+
+
+class FocusRun:
+    """Brings something into focus; somebody calls :meth:`step`.
+
+    Parameters
+    ----------
+    session : MotionSession
+    newest : callable
+        The camera's newest picture.
+    move : callable
+        Goes to a focus place, m; raises InputError if it must not.
+    low, high : float
+        Where to search, m, in the terms of ``move``.
+    now_s : float
+    part : (slice, slice), optional
+        Rows and columns that are to be sharp; all of them by default.
+
+    Raises
+    ------
+    InputError
+        If that is no range, or the first move is refused.
+    """
+
+    def __init__(
+        self,
+        session: MotionSession,
+        newest: Newest,
+        move: Callable[[float], None],
+        low: float,
+        high: float,
+        *,
+        now_s: float,
+        part: tuple[slice, slice] = (slice(None), slice(None)),
+    ) -> None:
+        self._move, self._part = move, part
+        self._autofocus = Autofocus.over(low, high)
+        self._looking = Looking(session, newest)
+        self.status = FocusStatus(Search.UNDER_WAY)
+        self._go(now_s)
+
+    def step(self, now_s: float) -> FocusStatus:
+        """Go on; never raises for what a device or a camera does."""
+        if self.status.search is not Search.UNDER_WAY:
+            return self.status
+        try:
+            look = self._looking.step(now_s)
+            if look is None:
+                return self.status
+            if self._autofocus.done:
+                peak = self._autofocus.peak
+                self.status = replace(self.status, search=Search.DONE, peak=peak)
+                return self.status
+            self._autofocus = self._autofocus.told(sharpness(look.image[self._part]))
+            found = self._autofocus
+            self.status = replace(self.status, places=found.places, values=found.values)
+            self._go(now_s)
+        except InputError as error:
+            self.status = replace(self.status, search=Search.FAILED, reason=str(error))
+        return self.status
+
+    def _go(self, now_s: float) -> None:
+        target = self._autofocus.target
+        assert target is not None
+        self._move(target)
+        self._looking.begin(now_s)

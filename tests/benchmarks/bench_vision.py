@@ -1,0 +1,204 @@
+"""Calibration, tip and cell vision on simulated frames with their default noise.
+
+Prints the levels of docs/vision.md. Times are of the processor, one thread, so that a shared
+machine does not count.
+"""
+
+import time
+from dataclasses import replace
+
+import cv2
+import numpy as np
+import pytest
+
+from rotemina.sim.microscope.cell import UNTOUCHED, Cell, met
+from rotemina.sim.microscope.optics import Optics
+from rotemina.sim.microscope.renderer import Renderer
+from rotemina.sim.microscope.scene import Pin, Scene
+from rotemina.sim.vision.calibration import StageMap, fit_stage
+from rotemina.sim.vision.cell import find_cell
+from rotemina.sim.vision.image import grey, over
+from rotemina.sim.vision.pipette import Pipette
+from rotemina.sim.vision.tip import find_tip
+from rotemina.sim.vision.tip_fit import fit_tip
+from rotemina.sim.vision.tracking import begin_track, follow
+
+UPRIGHT = np.array([0.0, 0.0, 1.0])
+OPTICS = Optics(rotation_rad=0.3, skew_rad=0.01, mirrored=True)
+PIN = Pin(approach_rad=np.pi / 6)
+CELL = Cell((-5e-6, -3e-6, -16e-6))
+
+
+@pytest.fixture(autouse=True)
+def _one_thread():
+    threads = cv2.getNumThreads()
+    cv2.setNumThreads(1)
+    yield
+    cv2.setNumThreads(threads)
+
+
+class Bench:
+    """Full-size frames of one scene, and its pipette."""
+
+    def __init__(self, cell=None, optics=OPTICS):
+        self.renderer = Renderer(Scene(optics, PIN, cell))
+        self.optics, self.rng = optics, np.random.default_rng(0)
+        body = optics.mapping @ np.array([1.0, 0.0, 0.0])
+        direction = float(np.arctan2(body[1], body[0]))
+        self.pipette = Pipette.seen(
+            direction, optics.pixel_m, approach=PIN.approach_rad, aperture=optics.aperture
+        )
+
+    def image(self, tip_m, focus_m=0.0, *state):
+        return grey(self.renderer.frame(np.asarray(tip_m), UPRIGHT, focus_m, self.rng, *state))
+
+
+def timed(call):
+    begin = time.thread_time()
+    result = call()
+    return result, time.thread_time() - begin
+
+
+def test_tip_at_distances_from_focus():
+    bench = Bench()
+    print("\ntip, of 100 fits each, started within 1 px")
+    print("from focus  miss rms  worst  told   depth rms  told   time")
+    for depth in (0.0, 3e-6, -3e-6, 6e-6, -6e-6, 10e-6, -10e-6, 20e-6, -20e-6):
+        rows, lost = [], 0
+        for _ in range(100):
+            tip_m = np.append(bench.rng.uniform(-100e-6, 100e-6, 2), 0.0)
+            truth, image = bench.optics.pixel_of(tip_m), bench.image(tip_m, -depth)
+            start = truth + bench.rng.uniform(-1.0, 1.0, 2)
+            fit, took_s = timed(lambda i=image, s=start, d=depth: fit_tip(i, bench.pipette, s, d))
+            if fit is None:
+                lost += 1
+                continue
+            miss = float(np.linalg.norm(fit.pixel - truth))
+            told = float(np.sqrt(np.trace(fit.covariance)))
+            away = fit.depth.distance - depth
+            rows.append((miss**2, told**2, away**2, fit.depth.uncertainty**2, took_s, miss))
+        table = np.array(rows)
+        miss, told, away, doubt = np.sqrt(table[:, :4].mean(axis=0))
+        print(
+            f"{depth * 1e6:+7.0f} µm  {miss:7.3f}  {table[:, 5].max():5.2f}  {told:5.3f}  "
+            f"{away * 1e6:6.2f} µm  {doubt * 1e6:5.2f}  {1e3 * np.median(table[:, 4]):4.1f} ms"
+            + (f"  {lost} not fitted" if lost else "")
+        )
+        if abs(depth) <= 6e-6:
+            assert miss < 0.2
+
+
+def test_tip_in_a_whole_frame():
+    bench, times, found = Bench(), [], 0
+    for _ in range(40):
+        tip_m = np.append(bench.rng.uniform(-120e-6, 120e-6, 2), bench.rng.uniform(-5e-6, 5e-6))
+        image = bench.image(tip_m)
+        fit, took_s = timed(lambda i=image: find_tip(i, bench.pipette))
+        times.append(took_s)
+        found += bool(np.linalg.norm(fit.pixel - bench.optics.pixel_of(tip_m)) < 0.5)
+    print(f"\nwhole frame: {found} of 40 tips found, {1e3 * np.median(times):.0f} ms each")
+    assert found == 40
+
+
+@pytest.mark.parametrize("known", [True, False], ids=["background known", "background unknown"])
+def test_track_through_a_penetration(known):
+    bench = Bench(CELL)
+    share = np.linspace(0.0, 1.0, 1000)
+    deep = np.interp(share, [0.0, 0.05, 0.4, 0.5, 0.75, 1.0], [0.0, 0.0, 8.0, 20.0, 20.0, 0.0])
+    focus_m = float(bench.optics.depth_of(np.array(CELL.centre_m)))
+    away = np.array([5e-3, 0.0, 0.0])
+    ground = np.mean([bench.image(away, focus_m) for _ in range(8)], axis=0)
+    state, track, lost, rows, times = UNTOUCHED, None, 0, [], []
+    for depth in deep * 1e-6:
+        tip_m = np.array([0.0, 0.0, -depth])
+        state = met(CELL, state, tip_m)
+        image = bench.image(tip_m, focus_m, state)
+        image = over(image, ground) if known else image
+        if track is None:
+            start = image if known else bench.image([60e-6, 40e-6, 0.0])
+            track = begin_track(start, bench.pipette, dimple=True)
+            if not known:
+                track = replace(track, pixel=bench.optics.pixel_of(tip_m))
+        track, took_s = timed(lambda t=track, i=image: follow(t, i))
+        times.append(took_s)
+        lost += track.lost
+        truth = bench.optics.pixel_of(tip_m)
+        height = float(bench.optics.depth_of(tip_m)) - focus_m
+        rows.append((np.linalg.norm(track.pixel - truth), track.depth.distance - height))
+    table = np.array(rows)
+    print(
+        f"\npenetration, background {'known' if known else 'unknown'}: {lost} of 1000 lost; "
+        f"off by {np.median(table[:, 0]):.2f} px in the median, "
+        f"{np.percentile(table[:, 0], 99):.1f} px at the "
+        f"99th percentile; depth {1e6 * np.sqrt(np.median(table[:, 1] ** 2)):.2f} µm; "
+        f"{1e3 * np.median(times):.1f} ms a frame"
+    )
+    if known:
+        assert lost < 1
+
+
+def test_calibration():
+    print("\ncalibration, 20 hidden mountings: ten tips each, moved by ±40 µm")
+    worst = np.zeros(4)
+    rng = np.random.default_rng(1)
+    for _ in range(20):
+        optics = Optics(
+            width=800,
+            height=640,
+            rotation_rad=float(rng.uniform(-3.0, 3.0)),
+            skew_rad=float(rng.uniform(-0.05, 0.05)),
+            mirrored=bool(rng.integers(2)),
+            pixel_m=float(rng.uniform(0.25e-6, 0.4e-6)),
+        )
+        bench = Bench(optics=optics)
+        ways = [
+            (0, 0),
+            (1, 0),
+            (1, 1),
+            (0, 1),
+            (-1, 1),
+            (-1, 0),
+            (-1, -1),
+            (0, -1),
+            (1, -1),
+            (0, 0),
+        ]
+        moves = 40e-6 * np.array(ways, dtype=float)
+        seen = []
+        for move in moves:
+            tip_m = np.append(move, 0.0)
+            start = optics.pixel_of(tip_m) + rng.uniform(-1.0, 1.0, 2)
+            seen.append(fit_tip(bench.image(tip_m), bench.pipette, start))
+        shifts = np.array([fit.pixel - seen[0].pixel for fit in seen])
+        covariances = np.array([fit.covariance for fit in seen])
+        told = fit_stage(moves, shifts, covariances).map.geometry
+        true = StageMap(optics.mapping[:, :2], np.zeros((4, 4))).geometry
+        assert told.handedness == true.handedness
+        sizes = np.abs(np.array(told.pixel_size) / np.array(true.pixel_size) - 1.0)
+        turned = abs((told.rotation - true.rotation + np.pi) % (2.0 * np.pi) - np.pi)
+        worst = np.maximum(worst, [*sizes, turned, abs(told.skew - true.skew)])
+    print(
+        f"worst: pixel size {100 * worst[:2].max():.3f} %, rotation {np.degrees(worst[2]):.4f}°, "
+        f"skew {np.degrees(worst[3]):.4f}°"
+    )
+    assert worst[:2].max() < 1e-3
+    assert np.degrees(worst[2]) < 0.05
+
+
+def test_cell_outline():
+    cell = Cell((5e-6, -4e-6, 0.0))
+    bench = Bench(cell)
+    middle = bench.optics.pixel_of(np.array(cell.centre_m))
+    rows, times = [], []
+    for _ in range(30):
+        image = bench.image([bench.rng.uniform(20e-6, 60e-6), 0.0, 4e-6])
+        near = middle + bench.rng.uniform(-20.0, 20.0, 2)
+        found, took_s = timed(lambda i=image, n=near: find_cell(i, n, (20.0, 95.0)))
+        times.append(took_s)
+        axes = found.figures[2:4] * bench.optics.pixel_m - np.array([22e-6, 18e-6])
+        rows.append([*(found.centre - middle), *(axes / bench.optics.pixel_m)])
+    rms = np.sqrt((np.array(rows) ** 2).mean(axis=0))
+    print(
+        f"\ncell: centre {np.hypot(*rms[:2]):.2f} px rms, half axes {rms[2]:.2f} and {rms[3]:.2f} "
+        f"px rms; {1e3 * np.median(times):.0f} ms"
+    )
