@@ -1,7 +1,7 @@
 """A calibration in the making: measured in steps, then curve, sense and travel. Free of Qt."""
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import asdict, replace
 from enum import StrEnum
 
 from pydantic import ValidationError
@@ -94,10 +94,11 @@ class Calibrating:
         self.step, self._begun_s, self.problems = Step.REST, now_s, {}
 
     def hear(self, readings: Sequence[InputReading]) -> None:
-        """Take in what the device has said."""
+        """Take in what the device has said since the measurement began."""
         if self._run is not None:
             for reading in readings:
-                self._run.feed(reading)
+                if reading.host_time_s >= self._begun_s:
+                    self._run.feed(reading)
 
     def rest_left_s(self, now_s: float) -> float:
         """Return for how long it is still to be left alone."""
@@ -157,7 +158,7 @@ def changed(axis: str, before: AxisCalibration, **changes: float | bool | None) 
         If they do not go together, or one is out of its bounds.
     """
     try:
-        return replace(before, **changes)
+        return AxisCalibration(**{**asdict(before), **changes})
     except ValidationError as error:
         detail = error.errors()[0]
         where = ".".join(map(str, detail["loc"])) or "its settings"

@@ -31,8 +31,10 @@ class Finding:
                 detection.feed(self._key, view.newest)
 
     def hear(self, heard: Heard) -> None:
-        """Take in what a step has read."""
+        """Take in what a step has read; what was said before is known already."""
         for reading in heard.readings.get(self._key, ()):
+            if self._newest is not None and reading.host_time_s < self._newest.host_time_s:
+                continue
             self._newest = reading
             for detection in self._detections.values():
                 detection.feed(self._key, reading)

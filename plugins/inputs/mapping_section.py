@@ -52,22 +52,22 @@ class MappingSection(Section):
         grid.setColumnStretch(0, 3)
         grid.setColumnStretch(1, 4)
         self.column.addLayout(grid)
-        self.targets = {
+        self.target_rows = {
             target: TargetRow(target, grid) for target in axis_targets(tuple(workbench.robot.axes))
         }
-        self.actions = {action: ActionRow(action, grid) for action in ACTIONS}
+        self.action_rows = {action: ActionRow(action, grid) for action in ACTIONS}
         for row in self._rows:
             row.asked.connect(lambda row=row: self._ask(row))
-        for target, row in self.targets.items():
+        for target, row in self.target_rows.items():
             row.cleared.connect(lambda t=target: self._apply(lambda e: e.without_axis(t)))
             row.changed.connect(lambda turn, t=target: self._invert(t, bool(turn)))
-        for action, row in self.actions.items():
+        for action, row in self.action_rows.items():
             row.cleared.connect(lambda a=action: self._apply(lambda e: e.without_action(a)))
             row.changed.connect(lambda at, a=row: self._use_threshold(a, float(at)))
 
     @property
     def _rows(self) -> tuple[Row, ...]:
-        return (*self.targets.values(), *self.actions.values())
+        return (*self.target_rows.values(), *self.action_rows.values())
 
     @property
     def _edited(self) -> Edited:
@@ -110,9 +110,12 @@ class MappingSection(Section):
     def _ask(self, row: Row) -> None:
         again = row is self._row
         self.cancel()
-        if not again and self._device is not None:
+        # As it stands at this moment, not when the last frame was drawn.
+        now = (one for one in self._devices.view.devices if _key(one) == _key(self._device))
+        device = next(now, None)
+        if not again and device is not None:
             self._row = row
-            self._finding = Finding(self._device, axis=isinstance(row, TargetRow))
+            self._finding = Finding(device, axis=isinstance(row, TargetRow))
 
     def _look(self, now_s: float) -> None:
         if self._finding is None or self._row is None:

@@ -138,8 +138,10 @@ class InputsPanel(Panel):
 
     def _widen(self) -> None:
         """Be wide enough: what is in a scroll area could else be cut off."""
-        content, bar = self._scroll.widget(), self._scroll.verticalScrollBar()
-        self.setMinimumWidth(max(content.minimumSizeHint().width() + bar.sizeHint().width(), 320))
+        content = self._column.parentWidget()
+        assert content is not None
+        bar = self._scroll.verticalScrollBar().sizeHint().width()
+        self.setMinimumWidth(max(content.minimumSizeHint().width() + bar, 320))
 
     # --- what is shown ----------------------------------------------------------------------------
 

@@ -29,7 +29,9 @@ class Bench:
 
     def __init__(self, clock, folder, *sticks):
         self.clock = clock
-        self.devices = InputDevices(InputHub({one.identity.key: one for one in sticks}), ROBOT, folder)
+        self.devices = InputDevices(
+            InputHub({one.identity.key: one for one in sticks}), ROBOT, folder
+        )
         self.devices.look()
         self.heard = []
         self.devices.listen(self.heard.append)

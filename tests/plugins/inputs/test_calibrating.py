@@ -54,6 +54,19 @@ def test_rest_takes_its_time(make_bench, stick):
     assert calibrating.rest_left_s(bench.clock() + 2 * REST_S) == 0.0
 
 
+def test_what_was_said_before_the_rest_is_passed_over(make_bench, stick):
+    bench = make_bench(stick)
+    stick.deflect("X", 0.5)
+    before = bench.run(0.05)
+    stick.deflect("X", 0.0)
+    view = bench.view(stick.key)
+    calibrating = Calibrating(view)
+    calibrating.begin(["X"], (), view.newest, bench.clock())
+    for heard in before:  # a screen takes it up late
+        calibrating.hear(heard.readings[stick.key])
+    assert calibrating.ranges["X"] == (0.0, 0.0)
+
+
 def test_a_bad_axis_stays_as_it_was_with_the_reason(make_bench, stick):
     bench = make_bench(stick)
     calibrating = Calibrating(bench.view(stick.key))

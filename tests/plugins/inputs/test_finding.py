@@ -76,3 +76,16 @@ def test_what_is_let_go_of_was_not_moved(make_bench, make_stick):
     bench.run(1.0)
     stick.deflect("X", 1.0)
     assert look(bench, finding, 0.1).detected.direction == 1
+
+
+def test_what_was_moved_before_is_passed_over(make_bench, make_stick):
+    stick = make_stick()
+    bench = make_bench(stick)
+    stick.deflect("X", 1.0)
+    before = bench.run(0.1)
+    stick.deflect("X", 0.0)
+    finding = Finding(bench.view(stick.key), axis=True)
+    for heard in before:  # a screen takes it up late
+        finding.hear(heard)
+    stick.deflect("Z", -1.0)
+    assert look(bench, finding, 0.1).detected.control == "Z"
