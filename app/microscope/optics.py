@@ -37,7 +37,7 @@ def pipette_of(robot: Robot, direction: float, pixel_m: float | None = None) -> 
     robot : Robot
         Its ``[tool]`` and ``[microscope]``; the view is along z unless they say otherwise.
     direction : float
-        From the tip, from columns towards rows; found within about 10° by itself.
+        From the tip, from columns towards rows; to within about 6°, found by itself.
     pixel_m : float, optional
         In the specimen; by default as the robot file says.
     """

@@ -10,6 +10,7 @@ even leaves.
 from dataclasses import dataclass, replace
 from math import hypot
 
+import numba
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
@@ -259,8 +260,8 @@ class _Fitting:
     ) -> TipFit | None:
         total = float(weights.sum())
         variance = float((weights * residual**2).sum()) / max(total - len(rows), 1.0)
-        normal = (weights * rows) @ rows.T
-        at = self.body
+        normal, at = np.empty((len(rows), len(rows))), self.body
+        _sum_up(np.ascontiguousarray(rows), residual, weights, normal, np.empty(len(rows)))
         for index, weight, _ in self._ties(float(found[at]), float(found[0]), variance):
             normal[index, index] += weight
         try:
@@ -289,8 +290,8 @@ def _least_squares(
     rows: FloatArray, aim: FloatArray, weights: FloatArray, ties: tuple[Tie, ...] = ()
 ) -> FloatArray | None:
     """Return the coefficients (k,) of functions (k, pixels) that come nearest to ``aim``."""
-    weighed = weights * rows
-    normal, right = weighed @ rows.T, weighed @ aim
+    normal, right = np.empty((len(rows), len(rows))), np.empty(len(rows))
+    _sum_up(np.ascontiguousarray(rows), aim, weights, normal, right)
     for index, weight, value in ties:
         normal[index, index] += weight
         right[index] += weight * value
@@ -298,6 +299,32 @@ def _least_squares(
         return np.asarray(np.linalg.solve(normal, right))
     except np.linalg.LinAlgError:
         return None
+
+
+@numba.njit(cache=True, error_model="numpy", fastmath=True)
+def _sum_up(
+    rows: FloatArray, aim: FloatArray, weights: FloatArray, normal: FloatArray, right: FloatArray
+) -> None:
+    """Fill in the normal equations; compiled, as a product this flat keeps BLAS' threads waiting.
+
+    Parameters
+    ----------
+    rows : (k, pixels)
+    aim, weights : (pixels,)
+    normal, right : (k, k), (k,)
+        What is filled in.
+    """
+    for i in range(len(rows)):
+        weighed = weights * rows[i]
+        total = 0.0
+        for n in range(len(aim)):
+            total += weighed[n] * aim[n]
+        right[i] = total
+        for j in range(i + 1):
+            total = 0.0
+            for n in range(len(aim)):
+                total += weighed[n] * rows[j, n]
+            normal[i, j] = normal[j, i] = total
 
 
 def _tukey(residual: FloatArray) -> FloatArray:

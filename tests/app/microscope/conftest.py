@@ -66,7 +66,7 @@ class Bench:
         self.frame = self.found = None
         self.step(5)
 
-    def step(self, times=1, seconds=0.04):
+    def step(self, times=1, seconds=0.08):
         for _ in range(times):
             self.clock.advance(seconds)
             self.session.run_once()

@@ -125,6 +125,18 @@ def test_a_featureless_picture_is_refused_before_anything_moves(bench):
     assert bench.session.snapshot().command == before
 
 
+def test_a_tip_that_gets_lost_sends_the_stage_back_to_where_it_began(bench):
+    before = dict(bench.session.snapshot().command)
+    run = bench.begin()
+    while run.status.done < 2:
+        bench.step()
+        run.step(bench.clock())
+    bench.spoil = Spoilt.empty(bench)
+    status = bench.run(run)
+    assert status.phase is Phase.FAILED
+    assert bench.session.snapshot().command == pytest.approx(before, abs=1e-9)
+
+
 def test_a_background_that_stands_is_no_moving_stage(bench):
     status = bench.run(bench.begin(pipette=False))
     assert status.phase is Phase.FAILED
