@@ -267,6 +267,8 @@ class EffectsPanel(Panel):
     def _adopt(self, effects: Effects | None) -> None:
         """Show effects that came from elsewhere, or that a real machine has its own."""
         self._real = effects is None
+        if self._real:  # at once, and not with the next refreshed state
+            self._body.setEnabled(False)
         if len(self.chain):
             self._remember()
         self.chain, self._last = Chain.of(self.workbench.robot, effects or ()), None

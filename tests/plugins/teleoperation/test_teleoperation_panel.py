@@ -122,7 +122,7 @@ def write(edit, text):
 def test_a_key_moves_its_axis_until_it_is_let_go_of(qtbot, bench, panel, notices):
     start = bench.session.snapshot().command
     assert panel.head.device.text() == "On-screen pad"
-    assert panel.head.trust.text() == "Trusted"
+    qtbot.waitUntil(lambda: panel.head.trust.text() == "Trusted", timeout=LONG_MS)
     QTest.keyPress(panel.pad.area, RIGHT)
     driving(qtbot, panel)
     qtbot.waitUntil(lambda: panel.head.word.text() == "driving", timeout=LONG_MS)

@@ -85,7 +85,10 @@ def test_the_reference_keeps_to_its_bounds_whatever_comes(bounds, name, steps, p
         moved = law.step(deflection, dt, value - 0.5)
         assert_reachable(bounds, motion, moved, dt)
         if what in ("start", "rescale"):
-            assert motion == pytest.approx(before, abs=1e-12)
+            assert motion.position == pytest.approx(before.position, abs=1e-12)
+            # An atom's way from an end, the speed that can still be braked is the root of one.
+            slack = 1e-12 + 1e-7 * bounds.max_speed
+            assert motion.velocity == pytest.approx(before.velocity, abs=slack)
         motion = moved
 
 
