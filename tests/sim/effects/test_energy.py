@@ -186,6 +186,7 @@ def test_energy_of_a_passive_plant_never_grows(case):
         assert energy[60:].max() < 1 + 1e-12
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", PASSIVE.values(), ids=PASSIVE)
 def test_what_grows_within_a_step_vanishes_with_the_step(case):
     growth = [

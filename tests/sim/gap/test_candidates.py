@@ -59,6 +59,7 @@ def fitted(truth, axes=("x",), **motion):
     return min((fit(evidence, [start]) for start in begun), key=lambda one: one.cost)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("truth", "axes"),
     [
@@ -99,6 +100,7 @@ def test_a_fit_finds_what_cannot_be_found_downhill_from_the_preset(truth, axes):
         assert found.effects[0].parameters[name] == pytest.approx(value, rel=0.05), name
 
 
+@pytest.mark.slow
 def test_the_grid_of_a_thousand_steps_is_found_to_a_part_of_one():
     truth = AxisEffect(axis="x", id="quantization", parameters={"step": 2.713e-6, "shift": 0.31})
     slow = sweep([truth], seconds=40.0, share=0.002)

@@ -118,6 +118,7 @@ def test_the_nano_z_axis_feels_the_acceleration_of_the_table_it_rides_on():
     np.testing.assert_allclose(moved[[0, 1, 3, 4]], 0.0, atol=1e-14)
 
 
+@pytest.mark.slow
 @given(st.lists(st.integers(1, 40), min_size=1, max_size=6), st.integers(0, 2**32 - 1))
 def test_a_run_in_pieces_is_the_run_at_once(pieces, seed):
     rng = np.random.default_rng(seed)
