@@ -16,7 +16,7 @@ WriteFile = Callable[..., Path]
 
 HEAD = "# mode: open_loop\nt [s],x.cmd [mm],x.meas [mm]\n0,1,1\n"
 GOOD = HEAD + "1,2,2\n"
-PACKED = gzip.compress(GOOD.encode())
+PACKED = gzip.compress(GOOD.encode(), mtime=0)  # the same bytes in every process
 
 # file's content -> where (after the file's name) and what the error says
 REFUSED: dict[str, tuple[str | bytes, str, str]] = {
@@ -85,13 +85,13 @@ REFUSED: dict[str, tuple[str | bytes, str, str]] = {
     "header and comments": ("t [s],x [m]\n\n# end\n", ":2", "no rows of numbers"),
     "comments alone": ("# mode: open_loop\n", ":1", "no header and no rows"),
     "empty": ("", "", "the file is empty"),
-    "empty gzip": (gzip.compress(b""), "", "the file is empty"),
+    "empty gzip": (gzip.compress(b"", mtime=0), "", "the file is empty"),
     "Latin-1": (HEAD.encode() + b"1,\xb5,2\n", ":4:byte 3", "is not UTF-8"),
     "Latin-1 header": ("t [s],x [µm]\n0,1\n".encode("latin-1"), ":1:byte 10", "is not UTF-8"),
     "Latin-1 comment": (GOOD.encode() + b"# \xb5\n", ":5:byte 3", "is not UTF-8"),
     "UTF-16": (GOOD.encode("utf-16"), ":1", "binary or UTF-16"),
     "binary": (GOOD.encode() + b"\x7fELF\x00\x01", ":5", "binary or UTF-16"),
-    "gzip in gzip": (gzip.compress(PACKED), "", ""),
+    "gzip in gzip": (gzip.compress(PACKED, mtime=0), "", ""),
     "CR alone": ("t [s],x [m]\r0,1\r1,2\r", ":1", "end lines with LF or CRLF"),
     "CR in a row": (HEAD + "1,2\r,2\n", ":4", "end lines with LF or CRLF"),
     "CR twice": (HEAD + "1,2,2\r\r\n", ":4", "end lines with LF or CRLF"),
