@@ -108,6 +108,12 @@ def steered(panel):
     return panel.workbench.operation.teleoperator.state
 
 
+def heeded(panel):
+    """Whether every stick was seen at rest: what is held before that does not count."""
+    views = steered(panel).coordinates
+    return bool(views) and not any(view.waiting or view.deflection is None for view in views)
+
+
 def driving(qtbot, panel, state=True):
     qtbot.waitUntil(lambda: steered(panel).driving is state, timeout=LONG_MS)
 
@@ -168,6 +174,7 @@ def test_whatever_takes_the_pad_away_ends_the_motion(qtbot, window):
         dock.raise_()
         qtbot.waitUntil(lambda: panel.head.word.text() == "ready", timeout=LONG_MS)
         focus(qtbot, panel)
+        qtbot.waitUntil(lambda: heeded(panel), timeout=LONG_MS)
         QTest.keyPress(panel.pad.area, RIGHT)
         driving(qtbot, panel)
         take_away()
