@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from rotemina.sim.plate.geometry import impossible
 from rotemina.sim.records.layout import check_axis_name
 from rotemina.sim.records.record import RecordError
 from rotemina.sim.robot.matrices import inertia_matrices
@@ -157,6 +158,11 @@ def _couplings(robot: Robot) -> Iterator[Problem]:
         seen.add((coupling.matrix, frozenset(pair)))
 
 
+def _plate(robot: Robot) -> Iterator[Problem]:
+    for key, value, bound in impossible(robot.plate):
+        yield Problem(f"plate.{key}", value, bound)
+
+
 def _definiteness(robot: Robot) -> Iterator[Problem]:
     names, mass, damping, stiffness = inertia_matrices(robot)
     if not names:
@@ -180,5 +186,6 @@ _AXIS_CHECKS: tuple[Callable[[Axis], Iterator[Problem]], ...] = (_ranges, _dynam
 _ROBOT_CHECKS: tuple[Callable[[Robot], Iterator[Problem]], ...] = (
     _stages,
     _couplings,
+    _plate,
     _definiteness,
 )

@@ -19,16 +19,16 @@ from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.robot.consistency import Problem, find_problem
 from rotemina.sim.robot.errors import RobotFileError
 from rotemina.sim.robot.model import (
-    FORBID_UNKNOWN,
     Axis,
     Coupling,
     KeepOut,
     Microscope,
-    Positive,
     Reference,
     Robot,
     Tool,
 )
+from rotemina.sim.robot.numbers import FORBID_UNKNOWN, Positive
+from rotemina.sim.robot.plate import Plate
 from rotemina.sim.robot.schema_errors import describe
 
 MAX_BYTES = 4_000_000
@@ -63,6 +63,7 @@ class _RobotFile:
     tool: Tool = field(default_factory=Tool)
     microscope: Microscope = field(default_factory=Microscope)
     keep_out: KeepOut = field(default_factory=KeepOut)
+    plate: Plate = field(default_factory=Plate)
 
 
 _SCHEMA = TypeAdapter(_RobotFile)
@@ -183,6 +184,7 @@ def _robot(parsed: _RobotFile) -> Robot:
         tool=parsed.tool,
         microscope=parsed.microscope,
         keep_out=parsed.keep_out,
+        plate=parsed.plate,
     )
 
 

@@ -9,21 +9,19 @@ from dataclasses import field
 from math import pi
 from typing import Annotated, Literal, NamedTuple
 
-from pydantic import ConfigDict, Field
+from pydantic import Field
 from pydantic.dataclasses import dataclass
 
-FORBID_UNKNOWN = ConfigDict(extra="forbid")
-
-# Numbers are strict (no text, no booleans, no NaN); tables and lists may come as dict and list,
-# the only containers that TOML has.
-Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0)]
-NotNegative = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0)]
-Count = Annotated[int, Field(strict=True, ge=1)]
-Switch = Annotated[bool, Field(strict=True)]
-# Far beyond any machine, and far from where squares of numbers overflow.
-Bound = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=-1e6, le=1e6)]
-Range = tuple[Bound, Bound]
+from rotemina.sim.robot.numbers import (
+    FORBID_UNKNOWN,
+    Count,
+    NotNegative,
+    Number,
+    Positive,
+    Range,
+    Switch,
+)
+from rotemina.sim.robot.plate import Plate
 
 VOLTAGE_SLACK = 1e-6  # relative slack of voltage limits
 
@@ -211,6 +209,7 @@ class Robot:
     """A machine: named axes in the order of ``q``, their coupling and their surroundings.
 
     ``stages`` names groups of axes for the operator; ``pin_length`` and ``piezo_lever_arm`` in m;
+    ``plate`` holds the pin (every machine has one, the shipped one unless the file says otherwise);
     ``effects`` are what makes it imperfect, in the order in which a signal meets them.
     """
 
@@ -224,6 +223,7 @@ class Robot:
     tool: Tool = field(default_factory=Tool)
     microscope: Microscope = field(default_factory=Microscope)
     keep_out: KeepOut = field(default_factory=KeepOut)
+    plate: Plate = field(default_factory=Plate)
     effects: tuple[AxisEffect, ...] = ()
 
     def unit(self, axis: str) -> str | None:

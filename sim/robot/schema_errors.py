@@ -7,7 +7,7 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from rotemina.sim.robot import model
+from rotemina.sim.robot import model, plate
 
 _BOUNDS = {
     "greater_than": "must be greater than {gt}",
@@ -32,6 +32,11 @@ _TABLES: dict[str, Any] = {
     "tool": model.Tool,
     "microscope": model.Microscope,
     "keep_out": model.KeepOut,
+    "plate": plate.Plate,
+    "hub": plate.Hub,
+    "pin": plate.Pin,
+    "joint": plate.Joint,
+    "cutout": plate.Cutout,
     "sensor": model.Sensor,
     "controller": model.CascadeController,
     "noise_rms": model.ReferenceNoise,
@@ -99,7 +104,7 @@ def _known_keys(path: list[str], kind: str | None) -> list[str]:
         return [field.name for field in fields(_KINDS[kind])]
     if parent == "robot":
         return ["name", "axes", "stages", "pin_length", "piezo_lever_arm"]
-    return ["robot", "axis", "coupling", "reference", "tool", "microscope", "keep_out"]
+    return ["robot", "axis", "coupling", "reference", "tool", "microscope", "keep_out", "plate"]
 
 
 def _short(value: object) -> str:

@@ -98,7 +98,7 @@ def robot_text(robot: Robot) -> str:
     for coupling in robot.couplings:
         lines = [f"{key} = {_value(value)}" for key, value in _table(coupling).items()]
         parts.append("\n".join(["[[coupling]]", *lines]) + "\n")
-    for key in ("reference", "tool", "microscope", "keep_out"):
+    for key in ("reference", "tool", "microscope", "keep_out", "plate"):
         table = _table(getattr(robot, key))
         parts += _sections((key,), table) if table else ()
     text = "\n".join([*parts, *([effects_text(effects)] if effects else [])])
@@ -147,7 +147,12 @@ def _table(thing: Any) -> dict[str, Any]:
         value = getattr(thing, field.name)
         if value is None or value == field.default:
             continue
-        inner = _table(value) if is_dataclass(value) else value
+        if is_dataclass(value):
+            inner: Any = _table(value)
+        elif isinstance(value, tuple) and value and is_dataclass(value[0]):
+            inner = [_table(one) for one in value]
+        else:
+            inner = value
         if inner != {}:
             table[field.name] = inner
     return table
@@ -155,13 +160,27 @@ def _table(thing: Any) -> dict[str, Any]:
 
 def _sections(path: tuple[str, ...], table: Mapping[str, Any]) -> Iterator[str]:
     """Yield ``[path]`` with its plain values, then a section for each table inside."""
-    plain = {key: value for key, value in table.items() if not isinstance(value, Mapping)}
+    inner = {key: value for key, value in table.items() if _is_table(value)}
+    plain = {key: value for key, value in table.items() if key not in inner}
     if plain:
-        lines = [f"{_key(key)} = {_value(value)}" for key, value in plain.items()]
-        yield "\n".join([f"[{'.'.join(map(_key, path))}]", *lines]) + "\n"
-    for key, value in table.items():
+        yield _section(f"[{'.'.join(map(_key, path))}]", plain)
+    for key, value in inner.items():
         if isinstance(value, Mapping):
             yield from _sections((*path, key), value)
+        else:
+            for one in value:
+                yield _section(f"[[{'.'.join(map(_key, (*path, key)))}]]", one)
+
+
+def _section(head: str, plain: Mapping[str, Any]) -> str:
+    lines = [f"{_key(key)} = {_value(value)}" for key, value in plain.items()]
+    return "\n".join([head, *lines]) + "\n"
+
+
+def _is_table(value: Any) -> bool:
+    """Whether a value is a table or a list of tables."""
+    first = value[0] if isinstance(value, list) and value else value
+    return isinstance(first, Mapping)
 
 
 def _key(name: str) -> str:

@@ -1,0 +1,145 @@
+"""Sliders over the range of motion, and choices of what is shown."""
+
+import numpy as np
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QWheelEvent
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QGridLayout,
+    QLabel,
+    QSlider,
+    QWidget,
+)
+
+from rotemina.app.display import label
+from rotemina.plugins.plate.quantities import QUANTITIES, Quantity
+from rotemina.plugins.plate.words import AXES
+from rotemina.sim.arrays import FloatArray
+
+_STEPS = 500
+_SCALES = 200  # per cent
+STATIC = "Hub moved"
+
+
+class SteadySlider(QSlider):
+    """A level slider that the wheel leaves alone."""
+
+    def __init__(self, name: str, steps: int) -> None:
+        super().__init__(Qt.Orientation.Horizontal)
+        self.setRange(0, steps)
+        self.setAccessibleName(name)
+
+    def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
+        """Leave the wheel to what scrolls."""
+        event.ignore()
+
+
+class Controls(QWidget):
+    """What is shown, and where the hub is.
+
+    Signals
+    -------
+    changed() : something else is to be shown.
+    """
+
+    changed = Signal()
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._ranges = np.zeros((3, 2))
+        self.what = QComboBox()
+        self.what.setAccessibleName("What is shown")
+        self.what.setToolTip("The plate with its hub moved, or one of its modes")
+        self.colour = QComboBox()
+        self.colour.setAccessibleName("Colours")
+        for quantity in QUANTITIES:
+            self.colour.addItem(quantity.title)
+        self.sliders = tuple(
+            SteadySlider(f"{label(name)} of the hub", _STEPS) for name, _, _ in AXES
+        )
+        self.values = tuple(QLabel() for _ in AXES)
+        self.scale = SteadySlider("Scale of the deformation", _SCALES)
+        self.scale.setValue(100)
+        self.scale_text = QLabel()
+        self.mesh = QCheckBox("Mesh lines")
+        self._lay_out()
+        for box in (self.what, self.colour):
+            box.setSizeAdjustPolicy(
+                QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
+            )
+            box.setMinimumContentsLength(14)
+            box.currentIndexChanged.connect(lambda _: self._change())
+        for slider in (*self.sliders, self.scale):
+            slider.valueChanged.connect(lambda _: self._change())
+        self._change()
+
+    def _lay_out(self) -> None:
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setVerticalSpacing(4)
+        grid.addWidget(QLabel("Show"), 0, 0)
+        grid.addWidget(self.what, 0, 1, 1, 2)
+        grid.addWidget(QLabel("Colours"), 1, 0)
+        grid.addWidget(self.colour, 1, 1, 1, 2)
+        for row, ((name, _, _), slider, value) in enumerate(
+            zip(AXES, self.sliders, self.values, strict=True), start=2
+        ):
+            grid.addWidget(QLabel(label(name)), row, 0)
+            grid.addWidget(slider, row, 1)
+            grid.addWidget(value, row, 2)
+        grid.addWidget(QLabel("Scale"), 5, 0)
+        grid.addWidget(self.scale, 5, 1)
+        grid.addWidget(self.scale_text, 5, 2)
+        grid.addWidget(self.mesh, 6, 1)
+        for value in (*self.values, self.scale_text):
+            value.setTextFormat(Qt.TextFormat.PlainText)
+            value.setMinimumWidth(86)
+            value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        grid.setColumnStretch(1, 1)
+        grid.setRowStretch(7, 1)
+
+    def offer(self, ranges: FloatArray, modes: list[str]) -> None:
+        """Offer the range of motion (3, 2) and the modes of a solved plate."""
+        first = not self._ranges.any()
+        self._ranges = ranges
+        chosen = max(self.what.currentIndex(), 0)
+        self.what.blockSignals(True)
+        self.what.clear()
+        self.what.addItems([STATIC, *(f"Mode {title}" for title in modes)])
+        self.what.setCurrentIndex(min(chosen, len(modes)))
+        self.what.blockSignals(False)
+        if first:
+            for slider in self.sliders:
+                slider.setValue(_STEPS)
+        self._change()
+
+    @property
+    def pose(self) -> FloatArray:
+        """Where the hub is: zn m, thx rad, thy rad."""
+        shares = np.array([slider.value() / _STEPS for slider in self.sliders])
+        return np.asarray(self._ranges[:, 0] + shares * np.ptp(self._ranges, axis=1))
+
+    @property
+    def mode(self) -> int | None:
+        """The number of the mode that is shown, from 0, or None for the hub moved."""
+        index = self.what.currentIndex() - 1
+        return index if index >= 0 else None
+
+    @property
+    def quantity(self) -> Quantity:
+        """What the colours mean."""
+        return QUANTITIES[self.colour.currentIndex()]
+
+    @property
+    def magnification(self) -> float:
+        """How high the deformation is drawn; 1 is well visible, 0 flat."""
+        return self.scale.value() / 100.0
+
+    def _change(self) -> None:
+        for value, text, (_, unit, per_si) in zip(self.values, self.pose, AXES, strict=True):
+            value.setText(f"{per_si * text:.1f} {unit}")
+        static = self.mode is None
+        for widget in (*self.sliders, self.colour):
+            widget.setEnabled(static)
+        self.changed.emit()

@@ -1,0 +1,258 @@
+"""The holding plate: solved on demand, shown in 3-D over the range of motion and in its modes."""
+
+import time
+from math import tau
+from pathlib import Path
+
+from PySide6.QtCore import QBuffer, QIODevice, Qt, QTimer
+from PySide6.QtGui import QHideEvent, QShowEvent
+from PySide6.QtWidgets import (
+    QComboBox,
+    QFileDialog,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.controls import allow
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.plugins.plate.canvas import Canvas
+from rotemina.plugins.plate.controls import Controls
+from rotemina.plugins.plate.picture import mode_picture, static_picture
+from rotemina.plugins.plate.solved import Solved
+from rotemina.plugins.plate.solving import Solving
+from rotemina.plugins.plate.words import (
+    EMPTY,
+    MESHES,
+    mode_titles,
+    plate_text,
+    pose_lines,
+    yields,
+)
+from rotemina.sim.plate.export import write_vtu
+from rotemina.sim.whole_files import replaced
+
+FRAME_MS = 33
+SWING_S = 2.0  # a mode is shown slowly, whatever its frequency
+_UNSOLVED = "there is no solved plate yet"
+
+
+class PlatePanel(Panel):
+    """Choices on the left, the plate on the right, its figures below."""
+
+    title = "Holding plate"
+    area = Area.BOTTOM
+    order = 90
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__(workbench)
+        self.solved: Solved | None = None
+        self.solving = Solving(self)
+        self.canvas, self.controls = Canvas(workbench.theme), Controls()
+        self._frames = QTimer(self, interval=FRAME_MS)
+        self._make_parts()
+        self._lay_out()
+        self._connect()
+        self._show_state()
+
+    # --- parts ------------------------------------------------------------------------------------
+
+    def _make_parts(self) -> None:
+        self.mesh = QComboBox()
+        self.mesh.setAccessibleName("Mesh")
+        for title, divisions in MESHES:
+            self.mesh.addItem(title, divisions)
+        self.mesh.setCurrentIndex(1)
+        self.start, self.stop = QPushButton("Solve"), QPushButton("Stop")
+        self.start.setProperty("primary", True)
+        self.start.setToolTip("Compute the plate that the robot file describes; motion goes on")
+        self.stop.setToolTip("Want no answer any more; motion goes on")
+        self.vtu, self.png = QPushButton("Save VTU …"), QPushButton("Save PNG …")
+        self.doing, self.pose_text, self.plate_text = QLabel(), QLabel(), QLabel()
+        for text in (self.doing, self.pose_text, self.plate_text):
+            text.setTextFormat(Qt.TextFormat.PlainText)
+            text.setWordWrap(True)
+        self.doing.setProperty("quiet", True)
+        self.pose_text.setAccessibleName("At this pose")
+        self.plate_text.setAccessibleName("The plate as a whole")
+
+    def _lay_out(self) -> None:
+        top, saving = QHBoxLayout(), QHBoxLayout()
+        for widget in (self.mesh, self.start, self.stop):
+            top.addWidget(widget)
+        for widget in (self.vtu, self.png):
+            saving.addWidget(widget)
+        left = QWidget()
+        column = QVBoxLayout(left)
+        column.setContentsMargins(0, 0, 8, 0)
+        column.setSpacing(6)
+        column.addLayout(top)
+        column.addWidget(self.doing)
+        column.addWidget(self.controls)
+        column.addWidget(self.plate_text)
+        column.addLayout(saving)
+        column.addStretch(1)
+        scroll = QScrollArea()
+        scroll.setObjectName("panelScroll")
+        scroll.setFrameShape(QFrame.Shape.NoFrame)
+        scroll.setWidgetResizable(True)
+        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        scroll.setWidget(left)
+        scroll.setFixedWidth(330)
+        outer = QHBoxLayout(self)
+        outer.setContentsMargins(10, 6, 10, 6)
+        outer.addWidget(scroll)
+        right = QVBoxLayout()
+        right.addWidget(self.canvas, 1)
+        right.addWidget(self.pose_text)
+        outer.addLayout(right, 1)
+
+    def _connect(self) -> None:
+        self.start.clicked.connect(lambda _: self.solve())
+        self.stop.clicked.connect(lambda _: self.end())
+        self.vtu.clicked.connect(lambda _: self._ask("vtu"))
+        self.png.clicked.connect(lambda _: self._ask("png"))
+        self.controls.changed.connect(self._show)
+        self.controls.mesh.toggled.connect(self.canvas.show_mesh)
+        self.solving.progressed.connect(self._show_stage)
+        self.solving.finished.connect(self.take)
+        self.solving.failed.connect(self._fail)
+        self._frames.timeout.connect(self._show)
+        self.workbench.closing.connect(self.solving.close)
+        self.workbench.theme_changed.connect(self.canvas.set_theme)
+
+    # --- solving ----------------------------------------------------------------------------------
+
+    def solve(self) -> None:
+        """Solve the robot's plate; what is shown stays until there is an answer."""
+        self.solving.start(self.workbench.robot, self.mesh.currentData())
+        self._show_stage("waiting")
+        self._show_state()
+
+    def end(self) -> None:
+        """Want no answer any more."""
+        self.solving.stop()
+        self.doing.setText("Stopped.")
+        self._show_state()
+
+    def take(self, solved: Solved) -> None:
+        """Show a solved plate."""
+        self.solved = solved
+        self.plate_text.setText(plate_text(solved))
+        triangles = solved.mesh.triangles.shape[1]
+        self.doing.setText(f"{triangles} triangles, {solved.solutions.unknowns} unknowns.")
+        self.controls.offer(solved.ranges, mode_titles(solved))
+        self._show_state()
+        self._show()
+
+    def _fail(self, message: str) -> None:
+        self.doing.setText("Failed.")
+        self.workbench.notify(Level.ERROR, message)
+        self._show_state()
+
+    def _show_stage(self, name: str) -> None:
+        self.doing.setText(f"Solving: {name} …")
+
+    # --- what is shown ----------------------------------------------------------------------------
+
+    def _show_state(self) -> None:
+        running = self.solving.running
+        self.start.setEnabled(not running)
+        self.mesh.setEnabled(not running)
+        self.stop.setEnabled(running)
+        why_not = None if self.solved is not None else _UNSOLVED
+        allow(self.vtu, why_not, "Mesh, displacement, stress and modes for ParaView and the like")
+        allow(self.png, why_not, "The picture as it is shown")
+        self.controls.setEnabled(self.solved is not None)
+        if self.solved is None:
+            self.canvas.show_picture(None, EMPTY)
+
+    def _show(self) -> None:
+        """Draw the plate as the controls say; a mode swings while it is in sight."""
+        solved, controls = self.solved, self.controls
+        if solved is None:
+            return
+        if controls.mode is None:
+            pose = controls.pose
+            picture = static_picture(solved, pose, controls.quantity, controls.magnification)
+            controls.scale_text.setText(f"{picture.magnified:.0f} ×")
+            self.pose_text.setText(pose_lines(solved, pose))
+            self._mark(yields(solved, pose))
+        else:
+            phase = tau * (time.monotonic() % SWING_S) / SWING_S
+            picture = mode_picture(solved, controls.mode, phase, controls.magnification)
+            controls.scale_text.setText(f"{controls.scale.value()} %")
+            self.pose_text.setText(picture.title)
+            self._mark(False)
+        self.canvas.show_picture(picture)
+        swings = controls.mode is not None and self.isVisible()
+        if swings != self._frames.isActive():
+            (self._frames.start if swings else self._frames.stop)()
+
+    def _mark(self, bad: bool) -> None:
+        if bool(self.pose_text.property("bad")) != bad:
+            self.pose_text.setProperty("bad", bad)
+            self.pose_text.style().unpolish(self.pose_text)
+            self.pose_text.style().polish(self.pose_text)
+
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
+        """Let a mode swing again."""
+        super().showEvent(event)
+        self._show()
+
+    def hideEvent(self, event: QHideEvent) -> None:  # noqa: N802 (Qt's name)
+        """Draw nothing that nobody sees."""
+        super().hideEvent(event)
+        self._frames.stop()
+
+    # --- files ------------------------------------------------------------------------------------
+
+    def save_vtu(self, path: Path) -> None:
+        """Write mesh, fields at the pose that is shown, and modes."""
+        solved, pose = self.solved, self.controls.pose
+        assert solved is not None
+        self.workbench.work(
+            "plate vtu",
+            f"Writing {path.name} …",
+            lambda: write_vtu(path, solved.solutions, pose, solved.modes),
+            lambda _: self.workbench.notify(Level.GOOD, f"Saved {path}"),
+        )
+
+    def save_png(self, path: Path) -> None:
+        """Write the picture as it is shown."""
+        buffer = QBuffer()
+        buffer.open(QIODevice.OpenModeFlag.WriteOnly)
+        self.canvas.grab().save(buffer, "PNG")
+        picture = bytes(buffer.data().data())
+
+        def write() -> None:
+            with replaced(path) as file:
+                file.write(picture)
+
+        self.workbench.work(
+            "plate png",
+            f"Writing {path.name} …",
+            write,
+            lambda _: self.workbench.notify(Level.GOOD, f"Saved {path}"),
+        )
+
+    def _ask(self, suffix: str) -> None:
+        settings = self.workbench.settings
+        kinds = f"{suffix.upper()} (*.{suffix});;All files (*)"
+        dialog = QFileDialog(self, "Save the plate", settings.get("files.folder", ""), kinds)
+        dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setDefaultSuffix(suffix)
+        dialog.selectFile(f"plate.{suffix}")
+        dialog.fileSelected.connect(
+            lambda name: settings.set("files.folder", str(Path(name).parent))
+        )
+        save = {"vtu": self.save_vtu, "png": self.save_png}[suffix]
+        dialog.fileSelected.connect(lambda name: save(Path(name)))
+        dialog.show()

@@ -1,0 +1,1 @@
+"""The plate that holds the pin, by finite elements."""

@@ -1,0 +1,73 @@
+"""``rotemina plate``: what it prints, writes and refuses."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from rotemina.app.cli.main import main
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.writing import write_robot
+
+COARSE = ["--divisions", "32"]
+
+
+def test_solve_reports_and_writes(tmp_path, capsys):
+    vtu, table = tmp_path / "plate.vtu", tmp_path / "ramp.csv"
+    options = ["--vtu", str(vtu), "--ramp", str(table), "--modes", "3", "--back"]
+    assert main(["plate", "solve", *COARSE, *options, "--thx", "500"]) == 0
+    said = capsys.readouterr().out
+    for part in ("von Mises", "safety", "reaction", "whole range of motion", "Hz", "friction"):
+        assert part in said
+    assert vtu.exists()
+    rows = np.genfromtxt(table, delimiter=",", names=True)
+    assert rows["time_s"][-1] == 30.0
+    assert rows["bottom_thx_rad"].max() == 500e-6
+    assert rows["moment_x_Nm"][-1] == 0.0
+
+
+def test_apply_writes_a_robot(tmp_path, capsys):
+    path = tmp_path / "robot.toml"
+    assert main(["plate", "apply", *COARSE, "-o", str(path)]) == 0
+    said = capsys.readouterr().out
+    assert "axis.thx.stiffness" in said
+    assert "within 5%" in said
+    assert load_robot(path).axes["zn"].stiffness != load_robot("rotemina").axes["zn"].stiffness
+    assert main(["plate", "apply", *COARSE, "-o", str(path)]) == 2
+    assert "it exists already" in capsys.readouterr().err
+
+
+def test_bad_requests_end_with_2(capsys):
+    for options, reason in [
+        (["--divisions", "3"], "must be 16 to 2000"),
+        ([*COARSE, "--modes", "0"], "modes = 0"),
+        ([*COARSE, "--zn", "nan"], "finite"),
+        ([*COARSE, "--zn", "1e9"], "cannot go that far"),
+        ([*COARSE, "--seconds", "-1"], "duration of the ramp"),
+    ]:
+        assert main(["plate", "solve", *options]) == 2
+        assert reason in capsys.readouterr().err
+
+
+def test_yield_is_said(tmp_path, capsys):
+    robot = load_robot("rotemina")
+    weak = replace(robot, plate=replace(robot.plate, yield_stress=1.5e8))
+    path = tmp_path / "weak.toml"
+    write_robot(weak, path)
+    assert main(["plate", "solve", *COARSE, "--robot", str(path), "--modes", "1"]) == 0
+    said = capsys.readouterr().out
+    assert said.count("THE PLATE YIELDS") == 2
+    assert "at the hub, r 5.17 mm" in said
+    assert main(["plate", "apply", *COARSE, "--robot", str(path), "-o", str(tmp_path / "o")]) == 2
+    assert "the plate yields within the range of motion" in capsys.readouterr().err
+
+
+def test_large_deflections_are_said(tmp_path, capsys):
+    robot = load_robot("rotemina")
+    tight = replace(robot.plate, joint=replace(robot.plate.joint, clamp_force=1e5))
+    path = tmp_path / "tight.toml"
+    write_robot(replace(robot, plate=tight), path)
+    options = ["--robot", str(path), "--modes", "1", "--zn", "400"]
+    assert main(["plate", "solve", *COARSE, *options]) == 0
+    said = capsys.readouterr().out
+    assert "BEYOND LINEAR THEORY: it bends by 3" in said
+    assert "THE PLATE YIELDS" in said

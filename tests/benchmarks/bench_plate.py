@@ -1,0 +1,91 @@
+"""The holding plate: time and memory on one core.
+
+Run with ``pytest -s -o python_files='bench_*.py' tests/benchmarks/bench_plate.py``.
+"""
+
+import resource
+import time
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from rotemina.app.shell.theme import DARK
+from rotemina.plugins.plate.canvas import Canvas
+from rotemina.plugins.plate.picture import static_picture
+from rotemina.plugins.plate.quantities import QUANTITIES
+from rotemina.plugins.plate.solved import solved
+from rotemina.plugins.plate.words import pose_lines
+from rotemina.sim.plate.modes import eigenmodes
+from rotemina.sim.plate.statics import hold, solve
+from rotemina.sim.plate.stress import deflection, surface_stress, von_mises
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.plate import Plate
+
+FINE = 440  # divisions of a turn
+
+
+def best_of(repeats, work):
+    times = []
+    for _ in range(repeats):
+        begin = time.perf_counter()
+        answer = work()
+        times.append(time.perf_counter() - begin)
+    return min(times), answer
+
+
+def test_default_mesh():
+    with threadpool_limits(1):
+        solve_s, solutions = best_of(3, lambda: solve(hold(Plate())))
+        modes_s, _ = best_of(3, lambda: eigenmodes(solutions.held, 0.04, 10))
+    print(f"\ndefault mesh, {solutions.unknowns} unknowns: solve {solve_s:.2f} s (bound 2)")
+    print(f"ten modes: {modes_s:.2f} s (bound 5)")
+    assert solve_s < 2.0
+    assert modes_s < 5.0
+
+
+def test_fine_mesh():
+    with threadpool_limits(1):
+        solve_s, solutions = best_of(1, lambda: solve(hold(Plate(), FINE)))
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20
+    print(f"\nfine mesh, {solutions.unknowns} unknowns: {solve_s:.1f} s (60), {peak:.2f} GB (4)")
+    assert solutions.unknowns >= 200_000
+    assert solve_s < 60.0
+    assert peak < 4.0
+
+
+def test_superposition():
+    solutions = solve(hold(Plate()))
+    pose = np.array([65e-6, 1e-3, 5e-4])
+
+    def superpose():
+        return deflection(solutions, pose), von_mises(surface_stress(solutions, pose))
+
+    each_s, _ = best_of(50, superpose)
+    print(f"\none pose from unit solutions: {1e3 * each_s:.2f} ms")
+    assert each_s < 0.01
+
+
+def test_slider_frames(qtbot):
+    """What a moved slider costs: superposition, words, and the picture on the screen."""
+    answer = solved(load_robot("rotemina"), 120, lambda stage: None)
+    canvas = Canvas(DARK)
+    qtbot.addWidget(canvas)
+    canvas.resize(800, 450)
+    with qtbot.waitExposed(canvas):
+        canvas.show()
+
+    def frame():
+        share = next(shares)
+        pose = share * answer.ranges[:, 1]
+        canvas.show_picture(static_picture(answer, pose, QUANTITIES[0], 1.0))
+        canvas.repaint()
+        return pose_lines(answer, pose)
+
+    shares = iter(np.linspace(0.0, 1.0, 101))
+    frame()
+    begin, used = time.perf_counter(), time.process_time()
+    for _ in range(100):
+        frame()
+    each_s, used_s = (time.perf_counter() - begin) / 100, (time.process_time() - used) / 100
+    print(f"\na slider's frame: {1 / each_s:.0f} frames/s (20), {1e3 * used_s:.1f} ms of one core")
+    assert 1 / each_s >= 20.0
