@@ -1,0 +1,153 @@
+"""An axis' health card: the figures that a record tells, beside those of the last time.
+
+A figure counts as changed where both 95 % intervals lie apart.
+"""
+
+from collections.abc import Callable
+from math import isfinite, sqrt
+from typing import NamedTuple
+
+import numpy as np
+from scipy.stats import chi2
+from scipy.stats import t as student
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.calibration.approaches import found_holds
+from rotemina.sim.calibration.calibrating import Figure
+from rotemina.sim.errors import InputError
+from rotemina.sim.identification.errors import IdentificationError
+from rotemina.sim.identification.loop import loops
+from rotemina.sim.identification.model import Orders
+from rotemina.sim.identification.natural_modes import natural_modes
+from rotemina.sim.identification.output_error import identify_oe
+from rotemina.sim.identification.signals import signals_of
+from rotemina.sim.records.record import Record, Tap
+
+PROBABILITY = 0.95
+_NORMAL = 1.96
+_MOST_ROWS = 60_000
+_GOOD_FIT = 80.0  # %: a model below tells nothing of the machine
+_LAG_ROWS = 1  # a command is held from its row on, and the sensor is read just before
+_NOISES = 4.0  # times the noise: a reading that has settled
+
+
+class Compared(NamedTuple):
+    """A figure, that of the last time, and whether both intervals lie apart."""
+
+    now: Figure
+    before: Figure | None
+    changed: bool
+
+
+def card_of(record: Record, axis: str) -> tuple[Figure, ...]:
+    """Return what a record tells of an axis: those figures that it excites.
+
+    From ``cmd`` to ``meas``: static gain, resonance and damping of a fitted model of second order;
+    the width of the loop over its stroke. Of rests after a move: how long the reading takes to stay
+    within four times its noise, that noise, and the spread of where a set-point led to when it was
+    reached from one side (repeatability).
+
+    Raises
+    ------
+    IdentificationError
+        If the record lacks the pair, or excites none of them.
+    """
+    for tap in (Tap.CMD, Tap.MEAS):
+        if not record.has(axis, tap):
+            raise IdentificationError(f"health card: the record has no {axis}.{tap}")
+    looks: tuple[Callable[[Record, str], list[Figure]], ...] = (_model, _loop, _holds)
+    found: list[Figure] = []
+    reasons = []
+    for look in looks:
+        try:
+            found += look(record, axis)
+        except InputError as error:
+            reasons.append(str(error))
+    if not found:
+        raise IdentificationError(
+            f"health card: the record tells no figure of {axis}: {'; '.join(reasons)}"
+        )
+    return tuple(found)
+
+
+def compared_cards(now: tuple[Figure, ...], before: tuple[Figure, ...]) -> tuple[Compared, ...]:
+    """Compare a card with an earlier one, figure by figure."""
+    known = {(each.name, each.unit): each for each in before}
+    return tuple(_compared(each, known.get((each.name, each.unit))) for each in now)
+
+
+def _compared(now: Figure, before: Figure | None) -> Compared:
+    if before is None:
+        return Compared(now, None, False)
+    apart = abs(now.value - before.value) > now.half_width + before.half_width
+    return Compared(now, before, apart)
+
+
+def _model(record: Record, axis: str) -> list[Figure]:
+    part = record.part(slice(0, _MOST_ROWS))
+    signals = signals_of(part, [(axis, Tap.CMD)], [(axis, Tap.MEAS)])
+    model = identify_oe(signals, Orders(2, 2, _LAG_ROWS))
+    if model.fit_percent < _GOOD_FIT:
+        raise IdentificationError(f"a model of second order fits {model.fit_percent:.0f} % alone")
+    gain = model.transfer_function.static_gain
+    figures = [Figure("gain", gain, _NORMAL * model.static_gain_deviation, "1")]
+    for mode in natural_modes(model)[:1]:
+        if mode.oscillates:
+            figures += [
+                Figure("resonance", mode.frequency_hz, _NORMAL * mode.frequency_deviation, "Hz"),
+                Figure("damping", mode.damping_ratio, _NORMAL * mode.damping_deviation, "1"),
+            ]
+    return [each for each in figures if isfinite(each.value) and isfinite(each.half_width)]
+
+
+def _loop(record: Record, axis: str) -> list[Figure]:
+    command, reading = record.signal(axis, Tap.CMD), record.signal(axis, Tap.MEAS)
+    widths = [each.width_percent for each in loops(command, reading, lag_samples=_LAG_ROWS)]
+    return _mean("hysteresis width", 0.01 * np.array(widths), "1")
+
+
+def _holds(record: Record, axis: str) -> list[Figure]:
+    command, reading = record.signal(axis, Tap.CMD), record.signal(axis, Tap.MEAS)
+    holds = found_holds(record.time_s, command)
+    if not len(holds):
+        raise IdentificationError(f"{axis}.cmd rests nowhere after a move")
+    unit = record.units[axis]
+    ends: dict[tuple[float, bool], list[float]] = {}
+    noises, settled = [], []
+    for begin, end in holds.tolist():
+        later = reading[(begin + end) // 2 : end]
+        level, way = float(later.mean()), float(command[begin] - command[begin - 1])
+        noises.append(float(later.std()))
+        ends.setdefault((float(command[begin]), way > 0.0), []).append(level)
+        settled.append(_settling_s(record.time_s[begin:end], reading[begin:end], level))
+    figures = _mean("settling", np.array(settled), "s")
+    figures += _mean("noise rms", np.array(noises), unit)
+    return figures + _repeated(ends, unit)
+
+
+def _settling_s(time_s: FloatArray, reading: FloatArray, level: float) -> float:
+    """Return after what time a reading stays within four times its final noise."""
+    half = len(reading) // 2
+    band = _NOISES * float(reading[half:].std())
+    outside = np.flatnonzero(np.abs(reading[:half] - level) > band)
+    return float(time_s[outside[-1] + 1] - time_s[0]) if len(outside) else 0.0
+
+
+def _mean(name: str, values: FloatArray, unit: str) -> list[Figure]:
+    """Return the mean of two values or more, with Student's interval."""
+    if len(values) < 2:
+        return []
+    quantile = float(student.ppf(0.5 + PROBABILITY / 2.0, len(values) - 1))
+    half = quantile * float(values.std(ddof=1)) / sqrt(len(values))
+    return [Figure(name, float(values.mean()), half, unit)]
+
+
+def _repeated(ends: dict[tuple[float, bool], list[float]], unit: str) -> list[Figure]:
+    """Return the pooled spread of where a set-point led to from one side, with its interval."""
+    often = [np.array(values) for values in ends.values() if len(values) > 1]
+    freedom = sum(len(values) - 1 for values in often)
+    if freedom < 2:
+        return []
+    spread = sqrt(sum(float(((values - values.mean()) ** 2).sum()) for values in often) / freedom)
+    highest = spread * sqrt(freedom / float(chi2.ppf(0.5 - PROBABILITY / 2.0, freedom)))
+    return [Figure("repeatability", spread, highest - spread, unit)]

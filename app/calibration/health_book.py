@@ -1,0 +1,115 @@
+"""Health cards over time: a small file for each axis, one line a card, only ever added to."""
+
+import json
+import re
+from datetime import datetime
+from math import isfinite
+from pathlib import Path
+from typing import NamedTuple
+
+from rotemina.sim.calibration.calibrating import Figure
+from rotemina.sim.errors import InputError
+from rotemina.sim.whole_files import FileWriteError
+
+FOLDER = "health"
+VERSION = 1
+_MOST_BYTES = 4_000_000
+
+
+class HealthBookError(InputError):
+    """A file of health cards that cannot be read."""
+
+
+class Card(NamedTuple):
+    """The figures of one day, and the record that they come from."""
+
+    date: str
+    record: str
+    figures: tuple[Figure, ...]
+
+
+class HealthBook:
+    """The cards of one robot's axes.
+
+    Parameters
+    ----------
+    folder : Path
+        The user's.
+    robot : str
+        Its name.
+    """
+
+    def __init__(self, folder: Path, robot: str) -> None:
+        self._folder = folder / FOLDER
+        self._robot = robot
+
+    def path(self, axis: str) -> Path:
+        """Return where the cards of an axis are."""
+        names = (re.sub(r"[^\w.+-]+", "-", name).strip("-") or "_" for name in (self._robot, axis))
+        return self._folder / f"{'--'.join(names)}.jsonl"
+
+    def cards(self, axis: str) -> tuple[Card, ...]:
+        """Return the cards of an axis, the oldest first; a line that is none is passed over.
+
+        Raises
+        ------
+        HealthBookError
+            If the file cannot be read.
+        """
+        path = self.path(axis)
+        if not path.exists():
+            return ()
+        try:
+            with path.open("rb") as file:
+                data = file.read(_MOST_BYTES + 1)
+        except OSError as error:
+            raise HealthBookError(f"{path}: it cannot be read ({error.strerror})") from error
+        if len(data) > _MOST_BYTES:
+            raise HealthBookError(f"{path}: larger than {_MOST_BYTES} bytes; move it away")
+        lines = data.decode("utf-8", errors="replace").splitlines()
+        return tuple(card for line in lines if (card := _card(line)) is not None)
+
+    def add(self, axis: str, figures: tuple[Figure, ...], record: str, date: datetime) -> None:
+        """Write a card behind the others.
+
+        Raises
+        ------
+        FileWriteError
+            If it cannot be written.
+        """
+        path = self.path(axis)
+        line = json.dumps(
+            {
+                "version": VERSION,
+                "date": date.isoformat(timespec="seconds"),
+                "record": record,
+                "figures": [list(each) for each in figures],
+            },
+            ensure_ascii=False,
+            allow_nan=False,
+        )
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with path.open("a", encoding="utf-8") as file:
+                file.write(line + "\n")
+        except OSError as error:
+            raise FileWriteError(
+                f"{path}: the card cannot be kept ({error.strerror}); make room"
+            ) from error
+
+
+def _card(line: str) -> Card | None:
+    """Return the card of a line; None where it is cut off, or of a later program."""
+    try:
+        value = json.loads(line)
+        if value["version"] != VERSION:
+            return None
+        figures = tuple(
+            Figure(str(name), float(number), float(half), str(unit))
+            for name, number, half, unit in value["figures"]
+        )
+        if not all(isfinite(each.value) and each.half_width >= 0.0 for each in figures):
+            return None
+        return Card(str(value["date"]), str(value["record"]), figures)
+    except (ValueError, KeyError, TypeError, RecursionError):
+        return None

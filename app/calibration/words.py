@@ -1,0 +1,117 @@
+"""A calibration in words and numbers, for the command line and the panel."""
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+from rotemina.sim.calibration.calibrating import Calibration, Figure
+from rotemina.sim.calibration.iso230 import Positioning
+from rotemina.sim.trajectory.wording import readable
+
+ISO = {
+    "accuracy": "A, accuracy",
+    "repeatability": "R, repeatability",
+    "repeatability_up": "R↑",
+    "repeatability_down": "R↓",
+    "reversal": "B, reversal value",
+    "mean_reversal": "B̄, mean reversal",
+    "systematic": "E, systematic deviation",
+    "mean_bidirectional": "M, mean bidirectional",
+}
+ISO_HEAD = ("ISO 230-2", "reading before", "after", "where it went")
+
+
+def amount(value: float, unit: str, *, scale: float | None = None, digits: int = 4) -> str:
+    """Return a value with a unit that reads well, to so many digits."""
+    if unit == "1":
+        return (
+            f"{1e6 * value:.{digits}g} ppm"
+            if abs(scale or value) < 1e-3
+            else f"{100 * value:.{digits}g} %"
+        )
+    if unit == "s":
+        return f"{1e3 * value:.{digits}g} ms"
+    return readable(float(f"{value:.{digits}g}"), unit, scale=scale)
+
+
+def _like(value: float, figure: Figure, digits: int = 4) -> str:
+    """Return a value in the unit that suits the figure or its interval, whichever is larger."""
+    sizes = [abs(each) for each in (figure.value, figure.half_width) if np.isfinite(each)]
+    return amount(value, figure.unit, scale=max(sizes), digits=digits)
+
+
+def figure_rows(figures: Iterable[Figure]) -> tuple[tuple[str, str, str], ...]:
+    """Return name, value and interval of each figure."""
+    return tuple(
+        (
+            each.name,
+            _like(each.value, each),
+            f"± {_like(each.half_width, each, 2)}" if np.isfinite(each.half_width) else "–",
+        )
+        for each in figures
+    )
+
+
+def iso_rows(
+    before: Positioning | None, after: Positioning | None, reached: Positioning | None, unit: str
+) -> tuple[tuple[str, ...], ...]:
+    """Return the rows of the ISO table under :data:`ISO_HEAD`; none where there are no figures."""
+    columns = (before, after, reached)
+    if all(each is None for each in columns):
+        return ()
+    return tuple(
+        (title, *("–" if each is None else amount(getattr(each, name), unit) for each in columns))
+        for name, title in ISO.items()
+    )
+
+
+def summary(calibration: Calibration) -> str:
+    """Return all of a calibration as lines of text."""
+    unit = calibration.unit
+    low, high = (readable(each, unit, scale=calibration.travel[1]) for each in calibration.travel)
+    lines = [f"axis {calibration.axis}: {calibration.runs} runs from {low} to {high}"]
+    lines += [
+        f"  {name:24}{value:>16} {half}" for name, value, half in figure_rows(calibration.figures)
+    ]
+    before, after = (
+        readable(float(f"{rms:.4g}"), unit)
+        for rms in (calibration.before_rms, calibration.after_rms)
+    )
+    lines.append(f"  error at held-out runs, rms: {before} before, {after} after")
+    rows = iso_rows(
+        calibration.reading_before, calibration.reading_after, calibration.reached, unit
+    )
+    lines += [
+        f"  {a:26}{b:>16}{c:>16}{d:>16}" for a, b, c, d in ((ISO_HEAD, *rows) if rows else ())
+    ]
+    lines += [f"  note: {note}" for note in calibration.notes]
+    if calibration.refusal is not None:
+        lines.append(f"  refused: {calibration.refusal}")
+    return "\n".join(lines)
+
+
+def as_json(calibration: Calibration) -> dict[str, Any]:
+    """Return a calibration as JSON can hold it, SI."""
+    iso = {
+        "reading_before": calibration.reading_before,
+        "reading_after": calibration.reading_after,
+        "reached": calibration.reached,
+    }
+    return {
+        "axis": calibration.axis,
+        "unit": calibration.unit,
+        "runs": calibration.runs,
+        "travel": list(calibration.travel),
+        "figures": {each.name: _figure(each) for each in calibration.figures},
+        "before_rms": calibration.before_rms,
+        "after_rms": calibration.after_rms,
+        "iso_230_2": {name: each._asdict() for name, each in iso.items() if each is not None},
+        "notes": list(calibration.notes),
+        "refused": calibration.refusal,
+    }
+
+
+def _figure(figure: Figure) -> Mapping[str, float | str | None]:
+    half = figure.half_width if np.isfinite(figure.half_width) else None
+    return {"value": figure.value, "half_width": half, "unit": figure.unit}

@@ -1,0 +1,255 @@
+"""``rotemina calibrate``: the axes' own sensors against a laser."""
+
+import argparse
+import tomllib
+from datetime import datetime
+from pathlib import Path
+
+from platformdirs import user_config_path
+
+from rotemina.app.calibration.files import FORMAT, CalibrationFile, Source, kept, source_of
+from rotemina.app.calibration.store import CalibrationStore
+from rotemina.app.calibration.words import ISO_HEAD, as_json, figure_rows, iso_rows, summary
+from rotemina.app.cli.options import add_columns, add_robot, robot_of
+from rotemina.app.files import json_text
+from rotemina.app.motion.player import play_offline
+from rotemina.sim.calibration.calibrating import Calibration, Figure, calibrated
+from rotemina.sim.calibration.errors import CalibrationError
+from rotemina.sim.calibration.joining import joined
+from rotemina.sim.calibration.parts import compared
+from rotemina.sim.calibration.plan import RATE_HZ, RUNS, TARGETS, calibration_motion
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.records.record import Record
+from rotemina.sim.records.writing import write_record
+from rotemina.sim.robot.model import Robot
+
+_DESCRIPTION = """Calibrate an axis' own sensor against a laser: "plan" writes the motion, "fit"
+makes a calibration of records that hold the axis' meas and ref, "run" does both on the simulator,
+"show" tells what a calibration holds, "list" what is stored."""
+
+
+def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Add the subcommand and its own subcommands."""
+    parser = commands.add_parser(
+        "calibrate", help="calibrate an axis' sensor against a laser", description=_DESCRIPTION
+    )
+    own = parser.add_subparsers(title="subcommands", metavar="", required=True)
+    _add_plan(own)
+    _add_fit(own)
+    _add_run(own)
+    show = own.add_parser("show", help="tell what a calibration holds")
+    show.add_argument("calibration", type=Path, metavar="FILE")
+    _add_json(show)
+    show.set_defaults(run=_show)
+    listing = own.add_parser("list", help="list the stored calibrations of a robot")
+    add_robot(listing, default="rotemina")
+    _add_folder(listing)
+    _add_json(listing)
+    listing.set_defaults(run=_list)
+
+
+def _add_plan(own: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    plan = own.add_parser("plan", help="write the motion that shows a sensor's errors")
+    _add_axis(plan)
+    _add_motion(plan)
+    plan.add_argument("-o", "--output", type=Path, required=True, metavar="FILE")
+    plan.set_defaults(run=_plan)
+
+
+def _add_fit(own: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    fit = own.add_parser("fit", help="make a calibration of records")
+    fit.add_argument("records", type=Path, nargs="+", metavar="RECORD")
+    _add_axis(fit)
+    add_columns(fit)
+    fit.add_argument(
+        "--laser",
+        type=Path,
+        action="append",
+        default=[],
+        metavar="FILE",
+        help="a laser's own record, one for each RECORD; their clocks are matched by the motion",
+    )
+    _add_result(fit)
+    fit.set_defaults(run=_fit)
+
+
+def _add_run(own: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    run = own.add_parser("run", help="calibrate on the simulator, with the robot file's effects")
+    _add_axis(run)
+    _add_motion(run)
+    run.add_argument("--noise", type=int, default=0, metavar="N", help="seed of the noise")
+    run.add_argument("--record", type=Path, metavar="FILE", help="keep the record, too")
+    _add_result(run)
+    run.set_defaults(run=_run)
+
+
+def _add_axis(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--axis", required=True, metavar="NAME")
+    add_robot(parser, default="rotemina")
+
+
+def _add_motion(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--runs", type=int, default=RUNS, metavar="N", help=f"default: {RUNS}")
+    parser.add_argument(
+        "--targets", type=int, default=TARGETS, metavar="N", help=f"of a stepper ({TARGETS})"
+    )
+    parser.add_argument(
+        "--rate", type=float, default=RATE_HZ, metavar="HZ", help=f"rows a second ({RATE_HZ:g})"
+    )
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the targets' places")
+
+
+def _add_result(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--keep-zero",
+        action="store_true",
+        help="the laser's zero is arbitrary: leave the reading of mid-travel as it is",
+    )
+    parser.add_argument("-o", "--out", type=Path, metavar="FILE", help="write the calibration")
+    parser.add_argument("--store", action="store_true", help="keep it in the user's folder")
+    _add_folder(parser)
+    _add_json(parser)
+
+
+def _add_folder(parser: argparse.ArgumentParser) -> None:
+    folder = user_config_path("rotemina", appauthor=False)
+    parser.add_argument(
+        "--folder", type=Path, default=folder, metavar="DIR", help="the user's (default: its own)"
+    )
+
+
+def _add_json(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--json", action="store_true", help="print JSON, SI")
+
+
+def _motion(robot: Robot, options: argparse.Namespace) -> Record:
+    return calibration_motion(
+        robot,
+        options.axis,
+        runs=options.runs,
+        targets=options.targets,
+        rate_hz=options.rate,
+        seed=options.seed,
+    )
+
+
+def _plan(options: argparse.Namespace) -> int:
+    motion = _motion(robot_of(options), options)
+    write_record(motion, options.output)
+    print(f"{options.output}: {motion.metadata['calibration']}, {motion.duration_s:.1f} s")
+    return 0
+
+
+def _fit(options: argparse.Namespace) -> int:
+    robot = robot_of(options)
+    records = [read_record(path, columns=options.columns, robot=robot) for path in options.records]
+    names = [path.name for path in options.records]
+    if options.laser:
+        if len(options.laser) != len(records):
+            raise CalibrationError(
+                f"--laser: {len(options.laser)} files for {len(records)} records; give one each"
+            )
+        lasers = [read_record(path, robot=robot) for path in options.laser]
+        records = [
+            joined(record, laser, options.axis)
+            for record, laser in zip(records, lasers, strict=True)
+        ]
+    compare = [
+        compared(record, options.axis, robot, name)
+        for record, name in zip(records, names, strict=True)
+    ]
+    found = calibrated(robot, compare, lags=not options.laser, absolute=not options.keep_zero)
+    sources = tuple(map(source_of, records, names))
+    return _tell(found, robot, sources, options)
+
+
+def _run(options: argparse.Namespace) -> int:
+    robot = robot_of(options)
+    record = play_offline(robot, _motion(robot, options), seed=options.noise, laser=True)
+    name = "simulator"
+    if options.record is not None:
+        write_record(record, options.record)
+        name = options.record.name
+    found = calibrated(
+        robot, [compared(record, options.axis, robot, name)], absolute=not options.keep_zero
+    )
+    return _tell(found, robot, (source_of(record, name),), options)
+
+
+def _tell(
+    found: Calibration, robot: Robot, sources: tuple[Source, ...], options: argparse.Namespace
+) -> int:
+    """Print a calibration, and keep it where that was asked; a refused one replaces nothing."""
+    answer = as_json(found)
+    lines = [summary(found)]
+    if options.out is not None or options.store:
+        calibration = kept(found, robot.name, sources, datetime.now().astimezone())
+        written = _written(calibration, robot, options)
+        answer["written"] = [str(path) for path in written]
+        lines += [f"{path}: written" for path in written]
+    print(json_text(answer) if options.json else "\n".join(lines))
+    return 0
+
+
+def _written(calibration: CalibrationFile, robot: Robot, options: argparse.Namespace) -> list[Path]:
+    written = []
+    if options.out is not None:
+        FORMAT.save(options.out, calibration)
+        written.append(options.out)
+    if options.store:
+        store = CalibrationStore(options.folder, robot)
+        written.append(store.save(calibration))
+        store.switch(calibration.axis, written[-1])
+    return written
+
+
+def _show(options: argparse.Namespace) -> int:
+    one = FORMAT.load(options.calibration)
+    if options.json:
+        print(json_text({"name": one.name, **tomllib.loads(FORMAT.text(one))}))
+        return 0
+    print(f"{one.name}: axis {one.axis} of {one.robot}, {one.runs} runs")
+    figures = [
+        Figure(
+            each.name,
+            each.value,
+            float("nan") if each.half_width is None else each.half_width,
+            each.unit,
+        )
+        for each in one.figures
+    ]
+    for name, value, half in figure_rows(figures):
+        print(f"  {name:24}{value:>16} {half}")
+    iso = (one.iso_reading_before, one.iso_reading_after, one.iso_reached)
+    rows = iso_rows(*(each.figures if each is not None else None for each in iso), one.unit)
+    for row in (ISO_HEAD, *rows) if rows else ():
+        print(f"  {row[0]:26}{row[1]:>16}{row[2]:>16}{row[3]:>16}")
+    for source in one.sources:
+        print(f"  from {source.name} ({source.digest})")
+    for note in one.notes:
+        print(f"  note: {note}")
+    return 0
+
+
+def _list(options: argparse.Namespace) -> int:
+    stored, problems = CalibrationStore(options.folder, robot_of(options)).listed()
+    if options.json:
+        rows = [
+            {
+                "file": str(one.path),
+                "axis": one.calibration.axis,
+                "name": one.calibration.name,
+                "on": one.on,
+            }
+            for one in stored
+        ]
+        print(json_text({"calibrations": rows, "problems": list(problems)}))
+        return 0
+    for one in stored:
+        state = "on" if one.on else "off"
+        print(f"{one.calibration.axis:8}{one.calibration.name}  {state:4}{one.path}")
+    for problem in problems:
+        print(f"left out: {problem}")
+    if not stored:
+        print("no calibrations are stored")
+    return 0

@@ -1,0 +1,267 @@
+"""Sensor calibration: the guided procedure, its result, and what is stored."""
+
+from collections.abc import Callable
+from datetime import datetime
+from pathlib import Path
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import (
+    QFileDialog,
+    QFrame,
+    QHBoxLayout,
+    QScrollArea,
+    QStackedWidget,
+    QTabBar,
+    QVBoxLayout,
+)
+
+from rotemina.app.calibration.files import Source, kept, source_of
+from rotemina.app.calibration.run import CalibrationRun, Phase, RunState
+from rotemina.app.calibration.store import Stored
+from rotemina.app.motion.state import SessionState
+from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.theme import Theme
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.plugins.calibration.procedure import Procedure
+from rotemina.plugins.calibration.result_view import ResultView
+from rotemina.plugins.calibration.stored_view import StoredView
+from rotemina.plugins.calibration.words import NOTHING, motion_drawing, planned
+from rotemina.sim.calibration.calibrating import Calibration, calibrated
+from rotemina.sim.calibration.parts import compared
+from rotemina.sim.calibration.plan import calibration_motion
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.records.record import Record
+from rotemina.sim.trajectory.checked import CheckedTrajectory
+from rotemina.sim.trajectory.dry_run import dry_run
+
+RECORDS = "Records (*.csv *.txt *.dat *.gz);;All files (*)"
+_ISO, _STORED = 1, 2  # tabs
+_WIDTH = 276  # of the procedure, px
+
+
+class CalibrationPanel(Panel):
+    """The procedure beside its result and the stored calibrations."""
+
+    title = "Sensor calibration"
+    area = Area.BOTTOM
+    order = 32
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__(workbench)
+        self.procedure = Procedure(workbench.robot)
+        self.result = ResultView(workbench.theme)
+        self.stored = StoredView()
+        self.calibration: Calibration | None = None
+        self._sources: tuple[Source, ...] = ()
+        self._motion: CheckedTrajectory | None = None
+        self._run: CalibrationRun | None = None
+        self.views = QStackedWidget()
+        self.tabs = QTabBar()
+        self.tabs.setAccessibleName("What is shown")
+        self.tabs.setExpanding(False)
+        self.tabs.setDrawBase(False)
+        for view, name in (
+            (self.result, "Result"),
+            (self.result.iso, "ISO 230-2"),
+            (self.stored, "Stored"),
+        ):
+            self.views.addWidget(view)
+            self.tabs.addTab(name)
+        self.tabs.setTabEnabled(_ISO, False)
+        self._lay_out()
+        self._connect()
+        self._look()
+
+    # --- plan and run -----------------------------------------------------------------------------
+
+    def plan(self) -> None:
+        """Make the motion and check it, in the background."""
+        axis, runs = self.procedure.chosen, self.procedure.runs.value()
+        targets, robot = self.procedure.targets.value(), self.workbench.robot
+        period_s = self.workbench.session.setpoint_period_s
+
+        def work() -> CheckedTrajectory:
+            motion = calibration_motion(robot, axis, runs=runs, targets=targets)
+            return dry_run(robot, motion, setpoint_period_s=period_s).require()
+
+        self.workbench.work("calibration plan", "Planning …", work, self._take_plan)
+
+    def start(self) -> None:
+        """Play the planned motion; sensor and laser are recorded."""
+        if self._motion is None or self._running:
+            return
+        if self._run is not None:
+            self._run.close()
+        run = CalibrationRun(self.workbench.session, self.procedure.chosen, self._motion)
+        self._run = run
+        if not self.workbench.ask(run.start):
+            run.close()
+            self._run = None
+
+    def stop(self) -> None:
+        """Stop the machine; nothing of the run is kept."""
+        if self._run is not None:
+            self._run.stop()
+
+    # --- fit and store ----------------------------------------------------------------------------
+
+    def fit_record(self, name: str, record: Record) -> None:
+        """Calibrate by one record, in the background."""
+        self._fit(lambda: [(name, record)])
+
+    def fit_files(self, paths: list[Path]) -> None:
+        """Calibrate by records of files."""
+        robot = self.workbench.robot
+        self._fit(lambda: [(path.name, read_record(path, robot=robot)) for path in paths])
+
+    def store(self) -> None:
+        """Keep the result, and use it from now on."""
+        calibration, sources = self.calibration, self._sources
+        if calibration is None:
+            return
+        store, robot = self.workbench.operation.calibrations, self.workbench.robot
+
+        def work() -> Path:
+            file = kept(calibration, robot.name, sources, datetime.now().astimezone())
+            path = store.save(file)
+            store.switch(file.axis, path)
+            return path
+
+        def done(path: Path) -> None:
+            self.result.done_storing()
+            self.workbench.notify(Level.GOOD, f"Calibration of {calibration.axis} in use: {path}")
+            self._look()
+
+        self.workbench.work("store calibration", "Storing the calibration …", work, done)
+
+    def switch(self, axis: str, path: Path | None) -> None:
+        """Use a stored calibration of an axis, or none."""
+        store = self.workbench.operation.calibrations
+        self.workbench.work(
+            "switch calibration",
+            "Switching the calibration …",
+            lambda: store.switch(axis, path),
+            lambda _: self._look(),
+        )
+
+    # --- inside -----------------------------------------------------------------------------------
+
+    @property
+    def _running(self) -> bool:
+        return self._run is not None and self._run.state.phase is Phase.MOVING
+
+    def _forget_plan(self) -> None:
+        self._motion = None
+        self.procedure.told.setText(NOTHING)
+        self.procedure.progress.setValue(0)
+
+    def _take_plan(self, motion: CheckedTrajectory) -> None:
+        axis = motion.commands.axes[0]
+        if axis != self.procedure.chosen:
+            return
+        self._motion = motion
+        self.procedure.told.setText(planned(motion.commands, axis, self.workbench.robot))
+        self.calibration = None
+        self.result.show_result(None)
+        self.tabs.setTabEnabled(_ISO, False)
+        self.result.show_drawing(motion_drawing(motion.commands, axis))
+        self.tabs.setCurrentIndex(0)
+
+    def _refresh(self, session: SessionState) -> None:
+        run = self._run
+        state = run.state if run is not None else RunState()
+        motion = self._motion.commands if self._motion is not None else None
+        if run is not None and motion is not None:
+            self.procedure.show_run(state, motion.duration_s)
+        self.procedure.refresh(session, motion, state)
+        if run is None or state.phase is Phase.MOVING:
+            return
+        self._run = None
+        if run.record is not None:
+            self.fit_record(f"calibration of {self.procedure.chosen}", run.record)
+        elif state.phase is Phase.FAILED:
+            self.workbench.notify(Level.ERROR, f"Calibration: {state.message}.")
+
+    def _fit(self, records: Callable[[], list[tuple[str, Record]]]) -> None:
+        axis, robot = self.procedure.chosen, self.workbench.robot
+        absolute = self.procedure.absolute.isChecked()
+
+        def work() -> tuple[Calibration, tuple[Source, ...]]:
+            read = records()
+            found = calibrated(
+                robot,
+                [compared(record, axis, robot, name) for name, record in read],
+                absolute=absolute,
+            )
+            return found, tuple(source_of(record, name) for name, record in read)
+
+        self.workbench.work("calibration fit", "Fitting the sensor …", work, self._take_result)
+
+    def _take_result(self, answer: tuple[Calibration, tuple[Source, ...]]) -> None:
+        self.calibration, self._sources = answer
+        self.result.show_result(self.calibration)
+        self.tabs.setTabEnabled(_ISO, self.result.iso.rowCount() > 0)
+        self.tabs.setCurrentIndex(0)
+
+    def _look(self) -> None:
+        """Read what is stored, let the session use what is on, and show both."""
+        store, session = self.workbench.operation.calibrations, self.workbench.session
+
+        def work() -> tuple[tuple[Stored, ...], tuple[str, ...]]:
+            store.apply(session.corrections)
+            return store.listed()
+
+        def done(answer: tuple[tuple[Stored, ...], tuple[str, ...]]) -> None:
+            self.stored.show_stored(answer[0])
+            self.tabs.setTabText(_STORED, f"Stored ({len(answer[0])})" if answer[0] else "Stored")
+            for problem in answer[1]:
+                self.workbench.notify(Level.WARNING, problem)
+
+        self.workbench.work("stored calibrations", "Reading calibrations …", work, done)
+
+    def _ask_records(self) -> None:
+        settings = self.workbench.settings
+        folder = settings.get("files.folder", "")
+        dialog = QFileDialog(self, "Records with sensor and laser", folder, RECORDS)
+        dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.setFileMode(QFileDialog.FileMode.ExistingFiles)
+        dialog.filesSelected.connect(lambda names: self.fit_files([Path(name) for name in names]))
+        dialog.show()
+
+    def _close_run(self) -> None:
+        if self._run is not None:
+            self._run.close()
+
+    def _use_theme(self, theme: Theme) -> None:
+        self.result.set_theme(theme)
+
+    def _connect(self) -> None:
+        self.tabs.currentChanged.connect(self.views.setCurrentIndex)
+        self.procedure.changed.connect(self._forget_plan)
+        self.procedure.plan.clicked.connect(self.plan)
+        self.procedure.run.clicked.connect(self.start)
+        self.procedure.stop.clicked.connect(self.stop)
+        self.procedure.fit.clicked.connect(self._ask_records)
+        self.result.stored.connect(self.store)
+        self.stored.switched.connect(self.switch)
+        self.workbench.refreshed.connect(self._refresh)
+        self.workbench.theme_changed.connect(self._use_theme)
+        self.workbench.closing.connect(self._close_run)
+
+    def _lay_out(self) -> None:
+        scroll = QScrollArea()
+        scroll.setObjectName("panelScroll")
+        scroll.setFrameShape(QFrame.Shape.NoFrame)
+        scroll.setWidgetResizable(True)
+        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        scroll.setWidget(self.procedure)
+        scroll.setFixedWidth(_WIDTH)
+        right = QVBoxLayout()
+        right.setSpacing(4)
+        right.addWidget(self.tabs)
+        right.addWidget(self.views, 1)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(10, 6, 10, 6)
+        row.addWidget(scroll)
+        row.addLayout(right, 1)

@@ -1,0 +1,125 @@
+"""The procedure's controls: which axis, how many runs, plan, run, stop, or fit files."""
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QFormLayout,
+    QGridLayout,
+    QLabel,
+    QProgressBar,
+    QPushButton,
+    QSpinBox,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.calibration.run import Phase, RunState
+from rotemina.app.display import label
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.controls import allow
+from rotemina.drivers.samples import DeviceState
+from rotemina.plugins.calibration.words import NOTHING, cycles, progress
+from rotemina.sim.calibration.plan import RUNS, TARGETS
+from rotemina.sim.records.record import Record
+from rotemina.sim.robot.model import Robot
+
+
+class Procedure(QWidget):
+    """Choices and buttons; what they ask for is done by the panel.
+
+    Signals
+    -------
+    changed() : axis, runs or targets are others; a plan made before is of no use.
+    """
+
+    changed = Signal()
+
+    def __init__(self, robot: Robot) -> None:
+        super().__init__()
+        self._robot = robot
+        self.axis = QComboBox()
+        self.axis.setAccessibleName("Axis")
+        for name in robot.axes:
+            self.axis.addItem(label(name), name)
+        self.runs = _count("Runs", 3, 50, RUNS)
+        self.runs.setToolTip("Each run is held out of the fit once; ISO 230-2 asks for 5")
+        self.targets = _count("Targets", 5, 101, TARGETS)
+        self.targets.setToolTip("Positions that are approached from both sides (ISO 230-2)")
+        self.absolute = QCheckBox("the laser's zero is the axis'")
+        self.absolute.setChecked(True)
+        self.absolute.setToolTip(
+            "Off: the laser was zeroed anywhere; the reading in the middle of the travel stays"
+        )
+        self.plan, self.run = QPushButton("Plan"), QPushButton("Run")
+        self.stop, self.fit = QPushButton("Stop"), QPushButton("Fit records …")
+        self.run.setProperty("primary", True)
+        self.progress = QProgressBar()
+        self.progress.setRange(0, 1000)
+        self.progress.setTextVisible(False)
+        self.told = QLabel(NOTHING)
+        self.told.setTextFormat(Qt.TextFormat.PlainText)
+        self.told.setWordWrap(True)
+        self._lay_out()
+        self.axis.currentIndexChanged.connect(self._change)
+        for field in (self.runs, self.targets):
+            field.valueChanged.connect(self._change)
+        self._change()
+
+    @property
+    def chosen(self) -> str:
+        """The axis."""
+        return str(self.axis.currentData())
+
+    def show_run(self, state: RunState, duration_s: float) -> None:
+        """Show how far the run is."""
+        self.progress.setValue(round(1000 * state.progress))
+        self.told.setText(progress(state, duration_s))
+
+    def refresh(self, session: SessionState, motion: Record | None, run: RunState) -> None:
+        """Enable what can be done now, and say why the rest cannot."""
+        moving = run.phase is Phase.MOVING
+        why_not = "a run is under way" if moving else None
+        for widget in (self.axis, self.runs, self.absolute):
+            widget.setEnabled(not moving)
+        self.targets.setEnabled(not moving and cycles(self._robot, self.chosen))
+        allow(self.plan, why_not, "Make the motion, and check it against all limits")
+        allow(self.fit, why_not, "Fit records of this axis that hold its sensor and the laser")
+        allow(self.stop, None if moving else "no run is under way", "Stop the machine now")
+        if why_not is None:
+            why_not = session.locked or ("there is no plan yet" if motion is None else None)
+        if why_not is None and session.activity is not DeviceState.IDLE:
+            why_not = "the machine is still moving"
+        allow(self.run, why_not, "Play the motion; sensor and laser are recorded and fitted")
+
+    def _change(self) -> None:
+        self.targets.setEnabled(cycles(self._robot, self.chosen))
+        self.changed.emit()
+
+    def _lay_out(self) -> None:
+        form = QFormLayout()
+        form.setContentsMargins(0, 0, 0, 0)
+        form.addRow("Axis", self.axis)
+        form.addRow("Runs", self.runs)
+        form.addRow("Targets", self.targets)
+        buttons = QGridLayout()
+        for place, button in enumerate((self.plan, self.run, self.stop, self.fit)):
+            buttons.addWidget(button, place // 2, place % 2)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 6, 0)
+        column.setSpacing(4)
+        column.addLayout(form)
+        column.addWidget(self.absolute)
+        column.addLayout(buttons)
+        column.addWidget(self.progress)
+        column.addWidget(self.told)
+        column.addStretch(1)
+
+
+def _count(name: str, least: int, most: int, preset: int) -> QSpinBox:
+    field = QSpinBox()
+    field.setRange(least, most)
+    field.setValue(preset)
+    field.setAccessibleName(name)
+    field.setKeyboardTracking(False)
+    return field

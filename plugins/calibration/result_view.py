@@ -1,0 +1,112 @@
+"""What came of a calibration: the errors before and after, and the figures."""
+
+from html import escape
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSplitter, QVBoxLayout, QWidget
+
+from rotemina.app.calibration.words import ISO_HEAD
+from rotemina.app.shell.controls import allow
+from rotemina.app.shell.plot import SignalPlot
+from rotemina.app.shell.theme import Theme
+from rotemina.plugins.calibration.sheet import Sheet
+from rotemina.plugins.calibration.words import Drawing, error_drawing, figures, iso, verdict
+from rotemina.sim.calibration.calibrating import Calibration
+
+_TIP = "Keep this calibration, dated, and correct the axis' readings by it from now on"
+
+
+class ResultView(QWidget):
+    """A plot beside the figures, and whether the result is to be stored.
+
+    ``iso`` is the table of ISO 230-2, which stands elsewhere.
+
+    Signals
+    -------
+    stored() : the operator wants to keep the result.
+    """
+
+    stored = Signal()
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self._drawing: Drawing | None = None
+        self.title = QLabel()
+        self.title.setTextFormat(Qt.TextFormat.RichText)
+        self.plot = SignalPlot(theme)
+        self.plot.setMinimumSize(160, 90)
+        for name, role in (("before", "real"), ("after", "good"), ("", "command")):
+            self.plot.add_curve(name, role)
+        self.figures = Sheet("Figures of the sensor", ("figure", "value", "± 95 %"))
+        self.iso = Sheet("Figures of ISO 230-2", ISO_HEAD)
+        self.verdict = QLabel()
+        self.verdict.setTextFormat(Qt.TextFormat.PlainText)
+        self.verdict.setWordWrap(True)
+        self.store = QPushButton("Store and use")
+        self.store.clicked.connect(self.stored)
+        self._lay_out()
+        self.show_result(None)
+
+    def show_drawing(self, drawing: Drawing) -> None:
+        """Draw curves in place of the last."""
+        self._drawing = drawing
+        for name in ("before", "after", ""):
+            self.plot.clear_signal(name)
+        for name, _, values in drawing.curves:
+            self.plot.show_signal(name, drawing.x, values)
+        self.plot.getPlotItem().setLabel("bottom", drawing.bottom)
+        self.plot.enableAutoRange()
+        self._write_title()
+
+    def show_result(self, result: Calibration | None) -> None:
+        """Show a calibration, or that there is none."""
+        self.figures.show_rows(figures(result) if result is not None else ())
+        self.iso.show_rows(iso(result) if result is not None else ())
+        self.verdict.setText(verdict(result) if result is not None else "")
+        self.verdict.setVisible(result is not None)
+        why_not = "there is no result yet" if result is None else result.refusal
+        allow(self.store, why_not, _TIP)
+        if result is not None:
+            self.show_drawing(error_drawing(result))
+
+    def done_storing(self) -> None:
+        """Show that the result is kept."""
+        allow(self.store, "it is stored", _TIP)
+
+    def set_theme(self, theme: Theme) -> None:
+        """Change all colours."""
+        self._theme = theme
+        self.plot.set_theme(theme)
+        self._write_title()
+
+    def _write_title(self) -> None:
+        if self._drawing is None:
+            return
+        named = ", ".join(
+            f'<span style="color:{getattr(self._theme, role)}">{escape(name)}</span>'
+            for name, role, _ in self._drawing.curves
+            if name
+        )
+        self.title.setText(f"{escape(self._drawing.left)}{': ' if named else ''}{named}")
+
+    def _lay_out(self) -> None:
+        left = QWidget()
+        column = QVBoxLayout(left)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(2)
+        column.addWidget(self.title)
+        column.addWidget(self.plot, 1)
+        tables = QSplitter(Qt.Orientation.Horizontal)
+        tables.addWidget(left)
+        tables.addWidget(self.figures)
+        tables.setSizes([380, 340])
+        foot = QHBoxLayout()
+        foot.addWidget(self.verdict, 1)
+        foot.addStretch(0)
+        foot.addWidget(self.store, 0, Qt.AlignmentFlag.AlignTop)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        outer.setSpacing(4)
+        outer.addWidget(tables, 1)
+        outer.addLayout(foot)

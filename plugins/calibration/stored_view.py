@@ -1,0 +1,74 @@
+"""The stored calibrations: which is on, and switching one on or off."""
+
+from pathlib import Path
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
+
+from rotemina.app.calibration.store import Stored
+from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.plugins.calibration.sheet import Sheet
+from rotemina.plugins.calibration.words import STORED_HEAD, stored_row
+
+_NONE = "choose a calibration in the table"
+
+
+class StoredView(QWidget):
+    """Table and buttons.
+
+    Signals
+    -------
+    switched(str, object) : an axis shall use the calibration of this path, or None.
+    """
+
+    switched = Signal(str, object)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.stored: tuple[Stored, ...] = ()
+        self.table = Sheet("Stored calibrations", STORED_HEAD, choose=True)
+        self.table.itemSelectionChanged.connect(self._allow)
+        self.on, self.off = QPushButton("Use"), QPushButton("Switch off")
+        self.on.clicked.connect(lambda: self._switch(on=True))
+        self.off.clicked.connect(lambda: self._switch(on=False))
+        buttons = QHBoxLayout()
+        buttons.addStretch(1)
+        buttons.addWidget(self.on)
+        buttons.addWidget(self.off)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(4)
+        column.addWidget(self.table, 1)
+        column.addLayout(buttons)
+        self._allow()
+
+    @property
+    def chosen(self) -> Stored | None:
+        """The calibration of the chosen row."""
+        rows = {index.row() for index in self.table.selectedIndexes()}
+        return self.stored[rows.pop()] if rows else None
+
+    def show_stored(self, stored: tuple[Stored, ...]) -> None:
+        """Show what is stored; what was chosen stays chosen."""
+        chosen = self.chosen
+        self.table.clearSelection()
+        self.stored = stored
+        self.table.show_rows(tuple(map(stored_row, stored)))
+        for row, one in enumerate(stored):
+            self.table.item(row, 0).setToolTip(plain_tip(str(one.path), one.calibration.name))
+            if chosen is not None and one.path == chosen.path:
+                self.table.selectRow(row)
+        self._allow()
+
+    def _switch(self, *, on: bool) -> None:
+        chosen = self.chosen
+        if chosen is not None:
+            path: Path | None = chosen.path if on else None
+            self.switched.emit(chosen.calibration.axis, path)
+
+    def _allow(self) -> None:
+        chosen = self.chosen
+        already = None if chosen is None or not chosen.on else "it is on"
+        idle = None if chosen is None or chosen.on else "it is off"
+        allow(self.on, _NONE if chosen is None else already, "Correct the axis' readings by it")
+        allow(self.off, _NONE if chosen is None else idle, "Leave the axis' readings as they are")

@@ -1,0 +1,1 @@
+"""Calibration of the axes' own sensors against an independent reference, such as a laser."""

@@ -1,0 +1,7 @@
+"""What a calibration refuses."""
+
+from rotemina.sim.errors import InputError
+
+
+class CalibrationError(InputError):
+    """A calibration that cannot be made, read or used."""

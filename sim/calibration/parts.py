@@ -1,0 +1,160 @@
+"""The parts of a record in which an axis' sensor and the laser can be compared."""
+
+import itertools
+from typing import NamedTuple
+
+import numpy as np
+
+from rotemina.sim.arrays import BoolArray, FloatArray
+from rotemina.sim.calibration.errors import CalibrationError
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.model import Robot
+from rotemina.sim.trajectory.wording import readable
+
+LEAST_TRAVEL = 0.1  # of the axis' range
+LEAST_KEPT = 0.7  # of a record's rows
+LEAST_PART_S = 0.2
+LEAST_ROWS = 500
+_GAP = 5.0  # times the median interval
+_FROZEN_S = 0.01
+_MOVED = 8.0  # times the sensor's noise: motion that a laser must have seen
+_FAR = 0.25  # of the range: a laser that is so far from the sensor is none
+_MARGIN = 5  # rows that are left out about a loss
+_UNEVEN = 1e-3  # relative
+
+
+class Part(NamedTuple):
+    """Rows at one interval ``step_s`` in which the laser was never lost.
+
+    ``reading`` and ``reference`` (n,) are in m or rad. ``rows`` says which they were of a record.
+    """
+
+    reading: FloatArray
+    reference: FloatArray
+    step_s: float
+    rows: slice
+
+
+class Comparison(NamedTuple):
+    """What a record tells of one axis' sensor.
+
+    ``sound`` (n,) are the rows at which the laser was there; ``losses`` are words.
+    """
+
+    record: Record
+    axis: str
+    parts: tuple[Part, ...]
+    sound: BoolArray
+    losses: tuple[str, ...]
+
+
+def compared(record: Record, axis: str, robot: Robot, name: str = "record") -> Comparison:
+    """Take sensor and laser of an axis out of a record, without the rows where either was lost.
+
+    Raises
+    ------
+    CalibrationError
+        If there is no such axis, sensor or laser; if the axis hardly moves; or if the laser was
+        lost for more than 30 % of the rows.
+    """
+    _check(record, axis, robot, name)
+    reading, reference = record.signal(axis, Tap.MEAS), record.signal(axis, Tap.REF)
+    model = robot.axes[axis]
+    floor = model.sensor.noise_floor if model.sensor is not None else 0.0
+    lost = _frozen(record.time_s, reading, reference, max(_MOVED * floor, 1e-6 * model.span))
+    away = reference - reading
+    lost |= np.abs(away - np.median(away)) > _FAR * model.span
+    interval_s = float(np.median(np.diff(record.time_s)))
+    breaks = np.flatnonzero(np.diff(record.time_s) > _GAP * interval_s)
+    losses = _told(record.time_s, lost, breaks)
+    sound = ~_widened(lost)
+    parts = tuple(
+        _part(record, axis, rows, interval_s)
+        for rows in _stretches(sound, breaks)
+        if (rows.stop - rows.start) * interval_s >= LEAST_PART_S
+    )
+    kept = sum(part.rows.stop - part.rows.start for part in parts)
+    if kept < LEAST_KEPT * len(sound):
+        raise CalibrationError(
+            f"{name}: {axis}: laser and sensor can be compared in {kept} of {len(sound)} rows, "
+            f"{LEAST_KEPT:.0%} are needed ({'; '.join(losses) or 'the rest is in short pieces'}); "
+            "align the laser and record again"
+        )
+    travel = float(np.ptp(np.concatenate([part.reference for part in parts])))
+    _check_travel(travel, axis, robot, name)
+    return Comparison(record, axis, parts, sound, losses)
+
+
+def _check(record: Record, axis: str, robot: Robot, name: str) -> None:
+    if axis not in robot.axes or axis not in record.axes:
+        has, whose = (robot.axes, "the robot") if axis not in robot.axes else (record.axes, name)
+        raise CalibrationError(f"{name}: axis {axis!r}: {whose} has {', '.join(has)}; choose one")
+    for tap, what in ((Tap.MEAS, "the axis' own sensor"), (Tap.REF, "a laser")):
+        if not record.has(axis, tap):
+            raise CalibrationError(
+                f"{name}: there is no column {axis}.{tap}, the reading of {what}; it has "
+                f"{', '.join(map(str, record.columns))}; record with the laser, or join its file"
+            )
+    if len(record.time_s) < LEAST_ROWS:
+        raise CalibrationError(
+            f"{name}: {len(record.time_s)} rows; a calibration needs {LEAST_ROWS} at the least"
+        )
+
+
+def _check_travel(travel: float, axis: str, robot: Robot, name: str) -> None:
+    span, unit = robot.axes[axis].span, robot.unit(axis) or "m"
+    if travel < LEAST_TRAVEL * span:
+        raise CalibrationError(
+            f"{name}: {axis} travels {readable(travel, unit)} by the laser, "
+            f"{travel / span:.1%} of its range; a calibration needs {LEAST_TRAVEL:.0%}: "
+            f"{readable(LEAST_TRAVEL * span, unit)}; move it further"
+        )
+
+
+def _frozen(
+    time_s: FloatArray, reading: FloatArray, reference: FloatArray, moved: float
+) -> BoolArray:
+    """Tell where the laser repeats one value to the last digit while the sensor goes on."""
+    lost = np.zeros(len(time_s), dtype=np.bool_)
+    edges = np.flatnonzero(np.diff(reference) != 0.0) + 1
+    bounds = np.concatenate([[0], edges, [len(time_s)]])
+    for begin, end in itertools.pairwise(bounds):
+        if time_s[end - 1] - time_s[begin] < _FROZEN_S:
+            continue
+        if float(np.ptp(reading[begin:end])) > moved:
+            lost[begin:end] = True
+    return lost
+
+
+def _widened(lost: BoolArray) -> BoolArray:
+    window = np.ones(2 * _MARGIN + 1)
+    return np.asarray(np.convolve(lost, window, mode="same") > 0.5)
+
+
+def _told(time_s: FloatArray, lost: BoolArray, breaks: np.ndarray) -> tuple[str, ...]:
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], lost.astype(np.int8), [0]])))
+    told = [
+        f"the laser was lost from {time_s[begin]:.3f} s to {time_s[end - 1]:.3f} s"
+        for begin, end in zip(edges[::2], edges[1::2], strict=True)
+    ]
+    told += [f"no rows from {time_s[at]:.3f} s to {time_s[at + 1]:.3f} s" for at in breaks.tolist()]
+    return tuple(told)
+
+
+def _stretches(sound: BoolArray, breaks: np.ndarray) -> list[slice]:
+    """Return the runs of sound rows, cut at breaks."""
+    number = np.zeros(len(sound), dtype=np.int64)
+    number[breaks + 1] = 1
+    number = 2 * np.cumsum(number) + sound
+    edges = np.concatenate([[0], np.flatnonzero(np.diff(number)) + 1, [len(sound)]])
+    return [slice(int(begin), int(end)) for begin, end in itertools.pairwise(edges) if sound[begin]]
+
+
+def _part(record: Record, axis: str, rows: slice, interval_s: float) -> Part:
+    """Return a stretch at one interval; one whose rows are uneven is interpolated."""
+    time_s = record.time_s[rows]
+    reading, reference = (record.signal(axis, tap)[rows] for tap in (Tap.MEAS, Tap.REF))
+    if len(time_s) > 1 and float(np.ptp(np.diff(time_s))) > _UNEVEN * interval_s:
+        even_s = time_s[0] + interval_s * np.arange(int((time_s[-1] - time_s[0]) / interval_s) + 1)
+        reading, reference = (np.interp(even_s, time_s, each) for each in (reading, reference))
+    return Part(reading, reference, interval_s, rows)

@@ -1,0 +1,101 @@
+"""``rotemina calibrate`` as its users meet it."""
+
+import json
+
+import pytest
+
+from rotemina.app.cli.main import main
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records.writing import write_record
+
+ROBOT = """
+[robot]
+name = "bench"
+axes = ["q"]
+
+[axis.q]
+kind = "piezo"
+range = [0.0, 65.0e-6]
+voltage_range = [0.0, 130.0]
+gain = 5.0e-7
+max_speed = 5.0e-3
+max_acceleration = 5.0
+mass = 0.15
+damping = 19.792
+stiffness = 1.04460e6
+sensor.kind = "strain_gauge"
+sensor.resolution = 7.9e-9
+sensor.noise_rms = 1.2e-8
+
+[[axis.q.effect]]
+id = "sensor_gain"
+error = 0.03
+
+[reference]
+noise_rms.linear = 5.0e-9
+"""
+RUN = ["--axis", "q", "--robot", "bench.toml", "--runs", "3", "--rate", "500"]
+FIT = ["--axis", "q", "--robot", "bench.toml"]
+
+
+@pytest.fixture(autouse=True)
+def in_tmp(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "bench.toml").write_text(ROBOT)
+    return tmp_path
+
+
+def test_from_a_plan_to_a_stored_calibration(capsys):
+    assert main(["calibrate", "plan", *RUN, "-o", "motion.csv"]) == 0
+    assert "3 runs, triangles and moves" in capsys.readouterr().out
+    assert main(["play", "motion.csv", "--robot", "bench.toml", "--dry-run"]) == 0
+    capsys.readouterr()
+
+    run = ["calibrate", "run", *RUN, "--record", "it.csv", "--out", "q.toml", "--json"]
+    assert main([*run, "--store", "--folder", "user"]) == 0
+    said = json.loads(capsys.readouterr().out)
+    assert said["figures"]["gain error"]["value"] == pytest.approx(0.03, abs=1e-4)
+    assert said["refused"] is None
+    assert len(said["written"]) == 2
+
+    assert main(["calibrate", "fit", "it.csv", *FIT, "--json"]) == 0
+    again = json.loads(capsys.readouterr().out)
+    assert again["figures"] == said["figures"]
+
+    assert main(["calibrate", "show", "q.toml"]) == 0
+    shown = capsys.readouterr().out
+    assert "gain error" in shown
+    assert "from it.csv" in shown
+    assert main(["calibrate", "show", "q.toml", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["axis"] == "q"
+    assert main(["calibrate", "list", "--robot", "bench.toml", "--folder", "user"]) == 0
+    assert "  on  " in capsys.readouterr().out
+
+
+def test_what_is_wrong_ends_with_2_and_replaces_nothing(in_tmp, capsys):
+    (in_tmp / "bench.toml").write_text(ROBOT.replace("error = 0.03", "error = 0.0"))
+    run = ["calibrate", "run", *RUN, "--record", "it.csv"]
+    assert main(run) == 0  # it is said, and nothing was to be written
+    assert "refused" in capsys.readouterr().out
+    (in_tmp / "q.toml").write_text("before")
+    assert main(["calibrate", "fit", "it.csv", *FIT, "--out", "q.toml"]) == 2
+    assert "not better" in capsys.readouterr().err
+    assert (in_tmp / "q.toml").read_text() == "before"
+
+    record = read_record("it.csv")
+    kept = {("q", tap): record.signal("q", tap) for tap in (Tap.CMD, Tap.MEAS)}
+    write_record(Record.from_signals(record.time_s, kept, record.units), "blind.csv")
+    for wrong, said in (
+        (["fit", "blind.csv", *FIT], "no column q.ref"),
+        (["fit", "it.csv", "--axis", "p", "--robot", "bench.toml"], "axis 'p'"),
+        (["fit", "it.csv", *FIT, "--laser", "a.csv", "--laser", "b.csv"], "2 files for 1 records"),
+        (["fit", "none.csv", *FIT], "none.csv"),
+        (["show", "bench.toml"], "bench.toml"),
+        (
+            ["plan", "--axis", "q", "--robot", "bench.toml", "--runs", "1", "-o", "m.csv"],
+            "runs = 1",
+        ),
+    ):
+        assert main(["calibrate", *wrong]) == 2, wrong
+        assert said in capsys.readouterr().err
