@@ -1,0 +1,71 @@
+"""``rotemina compensate apply``: a trajectory with the commands that bring it about."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rotemina.app.cli.options import add_columns, add_robot, robot_of
+from rotemina.sim.errors import InputError
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.records.writing import write_record
+from rotemina.sim.robot.model import Robot
+from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
+
+if TYPE_CHECKING:
+    from rotemina.app.motion.compensation import NamedInverse
+
+
+def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Add the verb."""
+    parser = verbs.add_parser(
+        "apply",
+        help="write a trajectory with the commands that bring it about",
+        description="Send a trajectory through the inverse that a file recommends, check the "
+        "result against the robot's limits, and write it: any player can play it. The axis must "
+        "begin at rest after a rise from the low end of its range.",
+    )
+    parser.add_argument("inverse", type=Path, metavar="INVERSE", help="a file that train wrote")
+    parser.add_argument("trajectory", type=Path, metavar="TRAJECTORY")
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="OUT")
+    add_robot(parser)
+    add_columns(parser)
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Compensate, check, write."""
+    from rotemina.app.motion.compensation import sent_for
+
+    for path in (options.inverse, options.trajectory):
+        if options.output.absolute() == path.absolute():
+            raise InputError(f"{path}: it is named twice; give the output a name of its own")
+    robot = robot_of(options)
+    inverse = named_inverse(options.inverse, robot)
+    trajectory = read_record(options.trajectory, columns=options.columns, robot=robot)
+    axis = inverse.model.axis
+    sent = sent_for(robot, trajectory, {axis: inverse}, SETPOINT_PERIOD_S).commands
+    write_record(sent, options.output)
+    print(
+        f"{options.output}: {len(sent.time_s)} rows, {sent.duration_s:.6g} s; {axis} through "
+        f"{inverse.name}, other axes as they were"
+    )
+    return 0
+
+
+def named_inverse(path: Path, robot: Robot) -> "NamedInverse":
+    """Return the inverse that a file recommends.
+
+    Raises
+    ------
+    CompensationError
+        If it cannot be read, or is of another robot.
+    """
+    from rotemina.app.motion.compensation import NamedInverse, check_belongs
+    from rotemina.sim.compensate.file import read_trained
+    from rotemina.sim.compensate.judgement import NAMES
+
+    trained, provenance = read_trained(path)
+    model = trained.models[trained.chosen]
+    inverse = NamedInverse(model, provenance.robot, f"{NAMES[trained.chosen]}, {path.name}")
+    check_belongs(robot, inverse)
+    return inverse

@@ -1,0 +1,64 @@
+"""``rotemina compensate check``: inverses on records that they were not trained on."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from rotemina.app.cli.compensate_table import document, table
+from rotemina.app.cli.options import add_columns, add_robot, robot_of
+from rotemina.app.cli.progress import ProgressLine
+from rotemina.app.files import json_text, write_text
+from rotemina.sim.errors import InputError
+from rotemina.sim.gap.progress import Progress
+from rotemina.sim.records.reading import read_record
+
+
+def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Add the verb."""
+    parser = verbs.add_parser(
+        "check",
+        help="feed measured positions to inverses, and compare their commands with the recorded",
+        description="Feed the positions that records hold to each inverse of a file and print what "
+        "is left between its command and the recorded one. Rows of a record with unknown history "
+        "count from the first swing over its whole range on.",
+    )
+    parser.add_argument("inverse", type=Path, metavar="INVERSE", help="a file that train wrote")
+    parser.add_argument("records", type=Path, nargs="+", metavar="RECORD")
+    add_robot(parser)
+    add_columns(parser)
+    parser.add_argument("--json", metavar="OUT", help="write the figures as JSON ('-' prints them)")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Check, and print how far each kind is off."""
+    from rotemina.sim.compensate.file import read_trained  # heavy to import
+    from rotemina.sim.compensate.judgement import residual
+    from rotemina.sim.compensate.samples import samples_of
+
+    robot = robot_of(options)
+    trained, provenance = read_trained(options.inverse)
+    if provenance.robot != robot.name:
+        raise InputError(
+            f"{options.inverse}: it was trained for robot {provenance.robot!r}, not for "
+            f"{robot.name!r}; name that one by --robot"
+        )
+    model = trained.models[trained.chosen]
+    records = [read_record(p, columns=options.columns, robot=robot) for p in options.records]
+    samples = [
+        samples_of(robot, model.axis, record, str(path))
+        for record, path in zip(records, options.records, strict=True)
+    ]
+    runs = [(each, each.first) for each in samples]
+    residuals = {}
+    with ProgressLine(sys.stderr) as line:
+        for number, (kind, one) in enumerate(trained.models.items(), start=1):
+            residuals[kind] = residual(one, runs)
+            line(Progress("check", model.axis, kind, number / len(trained.models)))
+    figures = json_text(document(model, residuals, trained))
+    if options.json not in (None, "-"):
+        write_text(Path(options.json), figures)
+    print(figures if options.json == "-" else table(model, residuals))
+    if options.json != "-":
+        print(f"recommended when it was trained: {trained.why}.")
+    return 0

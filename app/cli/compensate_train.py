@@ -1,0 +1,166 @@
+"""``rotemina compensate train``: inverses of an axis from records, or from the simulator."""
+
+import argparse
+import hashlib
+import sys
+from collections.abc import Sequence
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rotemina.app.cli.compensate_table import document, table
+from rotemina.app.cli.options import add_columns, add_robot, robot_of
+from rotemina.app.cli.progress import ProgressLine
+from rotemina.app.files import json_text, write_text
+from rotemina.sim.errors import InputError
+from rotemina.sim.gap.progress import Progress
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import PiezoAxis, Robot
+
+if TYPE_CHECKING:
+    from rotemina.sim.compensate.samples import Samples
+
+_PROGRAMS = ("rotemina", "numpy", "scipy", "numba")
+
+
+def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Add the verb."""
+    parser = verbs.add_parser(
+        "train",
+        help="learn the inverses of an axis from records, or from the simulator",
+        description="Learn inverses of all kinds from records with cmd and meas (or ref), judge "
+        "them on rows that none was trained on, and say which is recommended and why.",
+    )
+    parser.add_argument("records", type=Path, nargs="*", metavar="RECORD")
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE")
+    add_robot(parser)
+    add_columns(parser)
+    parser.add_argument("--axis", metavar="NAME", help="which (default: the only piezo recorded)")
+    parser.add_argument(
+        "--held-out",
+        type=Path,
+        nargs="+",
+        default=[],
+        metavar="RECORD",
+        help="judge on these (default: on the last quarter of each record)",
+    )
+    parser.add_argument(
+        "--simulate", action="store_true", help="no records: let the simulator move the axis"
+    )
+    parser.add_argument(
+        "--effects", metavar="FILE", help="simulate with the effects of this robot file instead"
+    )
+    parser.add_argument(
+        "--seed", type=int, metavar="N", help="of the simulated motion and noise (default: 0)"
+    )
+    parser.add_argument("--json", metavar="OUT", help="write the figures as JSON ('-' prints them)")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Train, write the file, and print how far each kind is off."""
+    from rotemina.sim.compensate.file import Provenance, Source, write_trained  # heavy to import
+    from rotemina.sim.compensate.training import train
+
+    _check(options)
+    robot = robot_of(options)
+    seed = None
+    if options.simulate:
+        seed = 0 if options.seed is None else options.seed
+        runs, held_out = [_simulated(options, robot, seed)], []
+    else:
+        runs, held_out = _recorded(options, robot)
+
+    def sources(samples: Sequence["Samples"], paths: Sequence[Path]) -> list[Source]:
+        return [
+            Source(name=path.name, sha256=_digest(path), rows=len(each.command))
+            for each, path in zip(samples, paths, strict=bool(paths))
+        ]
+
+    with ProgressLine(sys.stderr) as line:
+        trained = train(
+            robot,
+            runs,
+            held_out,
+            listener=lambda what, share: line(Progress(what, runs[0].axis, None, share)),
+        )
+    provenance = Provenance(
+        robot=robot.name,
+        trained_on=sources(runs, options.records),
+        held_out=sources(held_out, options.held_out),
+        seed=seed,
+        versions={name: version(name) for name in _PROGRAMS},
+    )
+    write_trained(options.output, trained, provenance)
+    figures = document(trained.models[trained.chosen], trained.residuals, trained)
+    if options.json not in (None, "-"):
+        write_text(Path(options.json), json_text(figures))
+    if options.json == "-":
+        print(json_text(figures))
+        return 0
+    print(table(trained.models[trained.chosen], trained.residuals))
+    for remark in trained.remarks:
+        print(f"rotemina: {remark}", file=sys.stderr)
+    print(f"recommended: {trained.why}.\n{options.output}: {len(trained.models)} inverses")
+    return 0
+
+
+def _check(options: argparse.Namespace) -> None:
+    if options.simulate and (options.records or options.held_out):
+        raise InputError("--simulate takes no records; leave out one or the other")
+    if not options.simulate and not options.records:
+        raise InputError("no record is named; name one, or let the simulator move: --simulate")
+    if not options.simulate and (options.effects is not None or options.seed is not None):
+        raise InputError("--effects and --seed belong to --simulate; leave them out, or add it")
+    if options.simulate and options.axis is None:
+        raise InputError("--simulate needs --axis NAME")
+    if options.seed is not None and options.seed < 0:
+        raise InputError(f"--seed {options.seed}: must be 0 or more")
+    if not options.output.parent.is_dir():  # told before the work, not after it
+        raise InputError(f"{options.output}: there is no folder {options.output.parent}; make it")
+    for path in (*options.records, *options.held_out):
+        if path.absolute() == options.output.absolute():
+            raise InputError(f"{path}: it is named twice; give each file a name of its own")
+
+
+def _recorded(options: argparse.Namespace, robot: Robot) -> tuple[list["Samples"], list["Samples"]]:
+    from rotemina.sim.compensate.samples import samples_of
+
+    paths = [*options.records, *options.held_out]
+    records = [read_record(path, columns=options.columns, robot=robot) for path in paths]
+    axis = options.axis or _only([n for n in records[0].axes if _is_piezo(robot, n)], paths[0])
+    samples = [
+        samples_of(robot, axis, record, str(path))
+        for record, path in zip(records, paths, strict=True)
+    ]
+    return samples[: len(options.records)], samples[len(options.records) :]
+
+
+def _is_piezo(robot: Robot, name: str) -> bool:
+    return isinstance(robot.axes.get(name), PiezoAxis)
+
+
+def _only(names: Sequence[str], path: Path) -> str:
+    if len(names) != 1:
+        found = ", ".join(names) or "none"
+        raise InputError(f"{path}: its piezo axes are {found}; name one by --axis")
+    return names[0]
+
+
+def _simulated(options: argparse.Namespace, robot: Robot, seed: int) -> "Samples":
+    import numpy as np
+
+    from rotemina.sim.compensate.excitation import excitation
+    from rotemina.sim.compensate.samples import samples_of
+    from rotemina.sim.simulation.simulation import simulate
+
+    effects = None if options.effects is None else load_robot(options.effects).effects
+    rng = np.random.default_rng(seed)
+    commands = excitation(robot, options.axis, rng)
+    return samples_of(robot, options.axis, simulate(robot, effects, commands, rng), "simulation")
+
+
+def _digest(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()

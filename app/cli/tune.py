@@ -1,0 +1,231 @@
+"""``rotemina tune``: gains of a position loop, searched on the simulated axis."""
+
+import argparse
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from math import isfinite
+from pathlib import Path
+from typing import Any
+
+from rotemina.app.cli.options import add_robot, robot_of
+from rotemina.app.cli.progress import ProgressLine
+from rotemina.app.cli.workers import workers
+from rotemina.app.files import json_text, write_text
+from rotemina.sim.effects.attachment import attached_effects
+from rotemina.sim.effects.errors import EffectError
+from rotemina.sim.errors import InputError
+from rotemina.sim.feedback.axis_loop import AxisLoop
+from rotemina.sim.feedback.stability import check_stability
+from rotemina.sim.gap.progress import Progress
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import Robot
+from rotemina.sim.tuning.objectives import Against
+
+_RATE_HZ = 5000.0
+
+
+def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Add the subcommand."""
+    parser = commands.add_parser(
+        "tune",
+        help="find the gains of a position loop on the simulated axis",
+        description="Search gains of a PI or PID loop with notch and low-pass for one axis, by "
+        "NSGA-II on the simulated loop with the effects and the noise of its robot file: least "
+        "tracking error against least effort or settling time, with a bound of the peak "
+        "sensitivity on axes whose gain and resonance are off by 5 %. Ctrl-C ends the search and "
+        "keeps what was found.",
+    )
+    parser.add_argument(
+        "-o", "--output", type=Path, required=True, metavar="TUNING", help="the result, TOML"
+    )
+    parser.add_argument("--axis", metavar="NAME", help="the axis to be tuned")
+    add_robot(parser)
+    parser.add_argument(
+        "--effects", metavar="FILE", help="take the effects of this robot file instead"
+    )
+    parser.add_argument(
+        "--inverse",
+        type=Path,
+        metavar="FILE",
+        help="feed forward through the inverse that this file recommends",
+    )
+    parser.add_argument(
+        "--rate", type=float, default=_RATE_HZ, metavar="HZ", help="of the loop (default: 5000)"
+    )
+    parser.add_argument(
+        "--delay", type=int, default=0, metavar="N", help="intervals by which outputs are late"
+    )
+    parser.add_argument(
+        "--against",
+        choices=[str(one) for one in Against],
+        default=str(Against.EFFORT),
+        help="the second objective beside the tracking error (default: effort)",
+    )
+    for name, preset in (("generations", 50), ("population", 60), ("seed", 1)):
+        parser.add_argument(
+            f"--{name}", type=int, default=preset, metavar="N", help=f"(default: {preset})"
+        )
+    parser.add_argument(
+        "--jobs", type=int, metavar="N", help="how many cores are used (default: all)"
+    )
+    parser.add_argument("--json", metavar="OUT", help="write it as JSON too ('-' prints it)")
+    parser.add_argument(
+        "--choose",
+        type=int,
+        metavar="N",
+        help="search nothing: choose point N of the result that is there",
+    )
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Search, or choose; write the result and say what it is."""
+    return _choose(options) if options.choose is not None else _search(options)
+
+
+def _search(options: argparse.Namespace) -> int:
+    if options.axis is None:
+        raise InputError("tune: name the axis by --axis, or a point by --choose")
+    _check(options)
+    # These take their time to import, which only a search needs.
+    from rotemina.sim.tuning.problem import TuningProblem
+    from rotemina.sim.tuning.result import save_tuning, tuning_of
+    from rotemina.sim.tuning.search import Generation, SearchSettings, generations
+
+    settings = SearchSettings(
+        generations=options.generations,
+        population=options.population,
+        seed=options.seed,
+        against=Against(options.against),
+    )
+    problem = TuningProblem(
+        _robot(options),
+        options.axis,
+        options.rate,
+        delay=options.delay,
+        inverse=_inverse(options),
+    )
+    last: Generation | None = None
+    with (
+        workers(options.jobs, None) as jobs,
+        ThreadPoolExecutor(jobs) as pool,
+        ProgressLine(sys.stderr) as tell,
+    ):
+        try:
+            for last in generations(problem, settings, pool.map):
+                found = f"{last.done} of {last.total} generations, {len(last.front)} points"
+                tell(Progress("tuning", options.axis, found, last.share))
+        except KeyboardInterrupt:
+            pool.shutdown(cancel_futures=True)
+            if last is None or not last.front:
+                raise
+    assert last is not None
+    tuning = tuning_of(
+        problem, settings, last, inverse=str(options.inverse.name) if options.inverse else ""
+    )
+    save_tuning(tuning, options.output)
+    _tell(tuning, options)
+    if tuning.provenance.whole:
+        return 0
+    print(
+        f"rotemina: stopped after {last.done} of {last.total} generations; {options.output} has "
+        "what was found until then, and says so",
+        file=sys.stderr,
+    )
+    return 130
+
+
+def _choose(options: argparse.Namespace) -> int:
+    from rotemina.sim.tuning.result import load_tuning, save_tuning
+
+    tuning = load_tuning(options.output).choosing(options.choose)
+    robot = _robot(options)
+    if robot.name != tuning.provenance.robot:
+        raise InputError(
+            f"{options.output}: tuned for robot {tuning.provenance.robot!r}, and this is "
+            f"{robot.name!r}; name the robot by --robot"
+        )
+    loop = AxisLoop(robot, tuning.axis, tuning.rate_hz, delay=tuning.delay)
+    check_stability(loop.sampled, tuning.best.gains, tuning.provenance.peak_sensitivity)
+    save_tuning(tuning, options.output)
+    _tell(tuning, options)
+    return 0
+
+
+def _check(options: argparse.Namespace) -> None:
+    """Refuse before the work what would fail after it."""
+    written = [options.output]
+    if options.json not in (None, "-"):
+        written.append(Path(options.json))
+    read = [Path(one) for one in (options.robot, options.effects, options.inverse) if one]
+    for number, output in enumerate(written):
+        if not output.parent.is_dir():
+            raise InputError(f"{output}: there is no folder {output.parent}; make it first")
+        others = [*written[:number], *read]
+        if any(output.absolute() == other.absolute() for other in others):
+            raise InputError(f"{output}: it is named twice; give each file a name of its own")
+
+
+def _robot(options: argparse.Namespace) -> Robot:
+    """Return the robot with the effects that are to act."""
+    robot = robot_of(options)
+    if options.effects is None:
+        return robot
+    robot = replace(robot, effects=load_robot(options.effects).effects)
+    try:
+        attached_effects(robot)
+    except EffectError as error:
+        raise InputError(f"{options.effects}: on robot {robot.name!r}: {error}") from error
+    return robot
+
+
+def _inverse(options: argparse.Namespace) -> Any:
+    """Load the inverse at the loop's rate; the loop's own lead stands in for its lag stage."""
+    if options.inverse is None:
+        return None
+    from rotemina.sim.compensate.file import read_trained
+    from rotemina.sim.compensate.inverse import Inverse
+
+    trained, _ = read_trained(options.inverse)
+    model = trained.models[trained.chosen]
+    if model.axis != options.axis:
+        raise InputError(
+            f"{options.inverse}: an inverse of axis {model.axis}, and {options.axis} is to be "
+            "tuned; name one that was trained on this axis"
+        )
+    return Inverse(model, 1.0 / options.rate, preview=True)
+
+
+def _tell(tuning: Any, options: argparse.Namespace) -> None:
+    from rotemina.sim.tuning.result import document_of
+
+    text = json_text(_finite(document_of(tuning)))
+    if options.json == "-":
+        print(text)
+        return
+    if options.json is not None:
+        write_text(Path(options.json), text + "\n")
+    print(f"{options.output}: axis {tuning.axis}, loop at {tuning.rate_hz:g} Hz")
+    print("point  tracking %  settling ms  overshoot %     Ms  effort 1/s  integral 1/s")
+    for number, point in enumerate(tuning.points):
+        own = point.figures
+        marks = [
+            word
+            for word, which in (("chosen", tuning.chosen), ("recommended", tuning.recommended))
+            if number == which
+        ]
+        print(
+            f"{number:5d}  {100.0 * own.tracking_rms:10.4f}  {1e3 * own.settling_s:11.2f}  "
+            f"{100.0 * own.overshoot:11.3f}  {own.peak_sensitivity:5.3f}  {own.effort:10.3f}  "
+            f"{point.gains.integral:12.5g}  {', '.join(marks)}".rstrip()
+        )
+
+
+def _finite(value: Any) -> Any:
+    """Return a document with null for what is not finite."""
+    if isinstance(value, dict):
+        return {key: _finite(own) for key, own in value.items()}
+    if isinstance(value, list):
+        return [_finite(own) for own in value]
+    return None if isinstance(value, float) and not isfinite(value) else value

@@ -1,0 +1,260 @@
+"""The pictures of the panel: loops, the front of a search, and how a loop answers."""
+
+from html import escape
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QColor
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QTableWidget,
+    QTableWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.shell.plot import SignalPlot
+from rotemina.app.shell.theme import Theme
+from rotemina.plugins.compensation.learning import Learned
+from rotemina.plugins.compensation.trial import Trial
+from rotemina.plugins.compensation.words import HEAD, NOTHING, judged, reasons
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.tuning.objectives import Against
+from rotemina.sim.tuning.problem import Try
+from rotemina.sim.tuning.result import Tuning
+from rotemina.sim.tuning.search import Generation, objectives_of
+
+_MICRO = 1e6
+_AXIS_WIDTH = 52
+_NEAR_PX = 40.0  # of a click to the point that it means
+_RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+
+
+class _Plot(SignalPlot):
+    """A plot of loops."""
+
+    def draw(self, name: str, x: FloatArray, y: FloatArray) -> None:
+        """Draw a curve (n,) as it is: thinning by its highest and lowest would tear a loop."""
+        self._curves[name].setData(x, y)
+        self.autoRange(padding=0.04)
+
+
+class Curves(QWidget):
+    """A title with the names of curves in their colours, above a plot of them."""
+
+    def __init__(self, theme: Theme, title: str, roles: dict[str, str], bottom: str) -> None:
+        super().__init__()
+        self._title, self._roles, self._bottom = title, roles, bottom
+        self._theme, self._unit = theme, ""
+        self.title = QLabel()
+        self.title.setTextFormat(Qt.TextFormat.RichText)
+        self.title.setWordWrap(True)  # so that the window may be narrow
+        self.plot = _Plot(theme)
+        self.plot.setMinimumSize(130, 110)
+        item = self.plot.getPlotItem()
+        item.getAxis("left").setWidth(_AXIS_WIDTH)
+        for name, role in roles.items():
+            self.plot.add_curve(name, role, 1)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(2)
+        column.addWidget(self.title)
+        column.addWidget(self.plot, 1)
+        self.set_theme(theme)
+
+    def draw(self, name: str, x: FloatArray, y: FloatArray) -> None:
+        """Draw a curve (n,)."""
+        self.plot.draw(name, x, y)
+
+    def clear(self) -> None:
+        """Draw nothing."""
+        for name in self._roles:
+            self.plot.clear_signal(name)
+
+    def set_unit(self, unit: str) -> None:
+        """Name the unit, "m" or "rad", of what is drawn in millionths of it."""
+        self._unit = unit
+        self.set_theme(self._theme)
+
+    def set_theme(self, theme: Theme) -> None:
+        """Change all colours."""
+        self._theme = theme
+        self.plot.set_theme(theme)
+        micro = f"[µ{self._unit}]"
+        self.plot.getPlotItem().setLabel("bottom", self._bottom.replace("[µ]", micro))
+        names = ", ".join(
+            f'<span style="color:{getattr(theme, role)}">{escape(name)}</span>'
+            for name, role in self._roles.items()
+        )
+        self.title.setText(f"{escape(self._title.replace('[µ]', micro))}: {names}")
+
+
+class CheckView(QWidget):
+    """All kinds side by side on unseen rows, the reason, and the loop."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self.table = QTableWidget(0, len(HEAD))
+        self.table.setHorizontalHeaderLabels(list(HEAD))
+        self.table.setAccessibleName("What each inverse leaves of the command, on unseen rows")
+        self.table.verticalHeader().hide()
+        self.table.verticalHeader().setDefaultSectionSize(22)
+        self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        self.table.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
+        self.table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        self.why = QLabel(NOTHING)
+        self.why.setTextFormat(Qt.TextFormat.PlainText)
+        self.why.setWordWrap(True)
+        roles = {"position": "quiet", "inverse of it": "accent"}
+        self.loop = Curves(theme, "Unseen, over the command [µ]", roles, "command [µ]")
+        left = QVBoxLayout()
+        left.addWidget(self.table, 1)
+        left.addWidget(self.why)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addLayout(left, 3)
+        row.addWidget(self.loop, 2)
+
+    def show_learned(self, learned: Learned) -> None:
+        """Show the figures of inverses, and the loop of the recommended one."""
+        rows = judged(learned.trained)
+        self.table.setRowCount(len(rows))
+        for number, texts in enumerate(rows):
+            for column, text in enumerate(texts):
+                item = QTableWidgetItem(text)
+                if column:
+                    item.setTextAlignment(_RIGHT)
+                self.table.setItem(number, column, item)
+        self.why.setText(reasons(learned.trained))
+        self.loop.clear()
+        self.loop.set_unit(next(iter(learned.trained.models.values())).unit)
+        loop = learned.loops.get(learned.trained.chosen)
+        if loop is not None:
+            self.loop.draw("position", _MICRO * loop.command, _MICRO * loop.position)
+            self.loop.draw("inverse of it", _MICRO * loop.command, _MICRO * loop.inverted)
+
+    def set_theme(self, theme: Theme) -> None:
+        """Change all colours."""
+        self.loop.set_theme(theme)
+
+
+class LiveView(QWidget):
+    """The loops of the trial motion without and with the inverse."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        roles = {"without": "quiet", "with the inverse": "accent"}
+        self.loop = Curves(theme, "Reading over what is wanted [µ]", roles, "wanted [µ]")
+        self.left = Curves(theme, "Reading − wanted, mean off [µ]", roles, "wanted [µ]")
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(self.loop, 1)
+        row.addWidget(self.left, 1)
+
+    def show_trial(self, trial: Trial, unit: str) -> None:
+        """Draw a trial beside the other one."""
+        self.loop.set_unit(unit)
+        self.left.set_unit(unit)
+        name = "with the inverse" if trial.compensated else "without"
+        wanted, left = _MICRO * trial.wanted, trial.position - trial.wanted
+        self.loop.draw(name, wanted, _MICRO * trial.position)
+        self.left.draw(name, wanted, _MICRO * (left - left.mean()))
+
+    def clear(self) -> None:
+        """Draw nothing."""
+        self.loop.clear()
+        self.left.clear()
+
+    def set_theme(self, theme: Theme) -> None:
+        """Change all colours."""
+        self.loop.set_theme(theme)
+        self.left.set_theme(theme)
+
+
+class FrontView(QWidget):
+    """The front as it evolves, and step and triangle of the point that was clicked.
+
+    Signals
+    -------
+    picked(int) : the number of a point.
+    """
+
+    picked = Signal(int)
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._front: FloatArray = np.zeros((0, 2))
+        self._marked: int | None = None
+        roles = {"front": "accent"}
+        self.front = Curves(theme, "Effort [ranges/s] over tracking [%]", roles, "tracking rms [%]")
+        self._dots = pg.ScatterPlotItem(size=8, pen=None)
+        self._mark = pg.ScatterPlotItem(size=14, brush=None)
+        self.front.plot.addItem(self._dots)
+        self.front.plot.addItem(self._mark)
+        self.front.plot.setToolTip("Click a point: its step and triangle are tried at once")
+        self.front.plot.setAccessibleName("Pareto front")
+        self.front.plot.scene().sigMouseClicked.connect(self._clicked)
+        tries = {"wanted": "quiet", "position": "accent"}
+        self.step = Curves(theme, "Step [µ]", tries, "time [ms]")
+        self.triangle = Curves(theme, "Triangle [µ]", tries, "time [ms]")
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        for view in (self.front, self.step, self.triangle):
+            row.addWidget(view, 1)
+        self.set_theme(theme)
+
+    def show_generation(self, found: Generation, against: Against) -> None:
+        """Draw the front of a search that goes on."""
+        points = [objectives_of(one.figures, against) for one in found.front]
+        self._draw(np.array(points).reshape(-1, 2))
+        self._mark.setData([], [])
+
+    def show_tuning(self, tuning: Tuning) -> None:
+        """Draw a result."""
+        against = tuning.provenance.against
+        self._draw(np.array([objectives_of(one.figures, against) for one in tuning.points]))
+
+    def mark(self, number: int) -> None:
+        """Mark a point."""
+        x, y = self._front[number]
+        self._mark.setData([100.0 * x], [y])
+
+    def show_tries(self, step: Try, triangle: Try, unit: str) -> None:
+        """Draw how the loop answers."""
+        for view, one in ((self.step, step), (self.triangle, triangle)):
+            view.set_unit(unit)
+            time_ms = 1e3 * one.traces.time_s
+            view.draw("wanted", time_ms, _MICRO * one.traces.reference)
+            view.draw("position", time_ms, _MICRO * one.traces.position)
+
+    def nearest(self, x: float, y: float) -> int | None:
+        """Return the number of the point next to a place of the plot; None: none is near."""
+        if not len(self._front):
+            return None
+        size = self.front.plot.getViewBox().viewPixelSize()
+        apart = (self._front * (100.0, 1.0) - (x, y)) / size
+        distance = np.hypot(*apart.T)
+        number = int(np.argmin(distance))
+        return number if distance[number] <= _NEAR_PX else None
+
+    def set_theme(self, theme: Theme) -> None:
+        """Change all colours."""
+        for view in (self.front, self.step, self.triangle):
+            view.set_theme(theme)
+        self._dots.setBrush(QColor(theme.accent))
+        self._mark.setPen(pg.mkPen(QColor(theme.text), width=2))
+
+    def _draw(self, front: FloatArray) -> None:
+        self._front = front
+        self._dots.setData(100.0 * front[:, 0], front[:, 1])
+        self.front.draw("front", 100.0 * front[:, 0], front[:, 1])
+
+    def _clicked(self, event: "pg.GraphicsScene.mouseEvents.MouseClickEvent") -> None:
+        place = self.front.plot.getViewBox().mapSceneToView(event.scenePos())
+        number = self.nearest(place.x(), place.y())
+        if number is not None:
+            self.picked.emit(number)

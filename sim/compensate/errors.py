@@ -1,0 +1,11 @@
+"""Errors of the compensation."""
+
+from rotemina.sim.errors import InputError
+
+
+class CompensationError(InputError):
+    """A record, a file or a request that no inverse can be made of, or that it cannot serve."""
+
+
+class ConvergenceError(CompensationError):
+    """A training that did not converge; nothing takes the place of what was there."""

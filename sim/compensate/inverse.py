@@ -1,0 +1,199 @@
+"""An inverse at work: the command that brings a desired position about, sample by sample.
+
+    inverse = Inverse(model, sample_s=1e-3)
+    command = inverse.step(desired)      # one sample; never waits, about a microsecond
+    commands = inverse.run(desired)      # (n,) samples, the same numbers
+
+The command is a position in SI (what a record calls ``cmd``); a piezo's amplifier is given it over
+the axis' gain. What lies beyond what the inverse saw is clamped, and said.
+"""
+
+from enum import IntFlag
+from typing import Self
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.sim.compensate import kernel
+from rotemina.sim.compensate.errors import CompensationError
+from rotemina.sim.compensate.kernel import Numbers
+from rotemina.sim.compensate.model import InverseModel
+
+_SLACK = 1e-9  # share of the span by which a position may lie outside unnoticed
+_REST = 1e-3  # share of the span by which a command at rest may be missed at the ends
+_HALVINGS = 50
+
+
+class Beyond(IntFlag):
+    """In what a sample went beyond what an inverse saw or the machine can do; 0: in nothing.
+
+    LOW, HIGH: the desired position, which was clamped. FAST: its speed, which was not. COMMAND: the
+    machine's range, at which the command was clamped.
+    """
+
+    LOW = kernel.BELOW
+    HIGH = kernel.ABOVE
+    FAST = kernel.FAST
+    COMMAND = kernel.COMMAND
+
+
+class Inverse:
+    """An inverse model in use at one sampling rate.
+
+    It begins at rest at the first desired position, long after a monotone rise to it from the low
+    end of the range, and begins so again after :meth:`reset`.
+
+    Parameters
+    ----------
+    model : InverseModel
+    sample_s : time from sample to sample, s.
+    preview : bool
+        Whether what is asked is what is desired ``model.lag_s`` ahead; the stage that makes up for
+        the lag by extrapolation is then left out.
+
+    Attributes
+    ----------
+    beyond : Beyond
+        In what the last sample, or the last run, went beyond.
+
+    Raises
+    ------
+    CompensationError
+        If ``sample_s`` is not a finite time above 0.
+    """
+
+    def __init__(self, model: InverseModel, sample_s: float, *, preview: bool = False) -> None:
+        if not (np.isfinite(sample_s) and sample_s > 0.0):
+            raise CompensationError(
+                f"inverse of axis {model.axis}: sample_s = {sample_s:g} s: must be finite, above 0"
+            )
+        self.model = model
+        self.sample_s = sample_s
+        self.beyond = Beyond(0)
+        self._numbers = numbers_of(model, sample_s, preview=preview)
+        self._state = np.zeros(kernel.FIXED + len(model.creep_times_s) + len(model.radii))
+
+    @property
+    def state(self) -> FloatArray:
+        """A copy of the memory; setting it goes on from there."""
+        return self._state.copy()
+
+    @state.setter
+    def state(self, state: FloatArray) -> None:
+        if np.shape(state) != self._state.shape or not np.isfinite(state).all():
+            raise CompensationError(
+                f"inverse of axis {self.model.axis}: a state of shape {np.shape(state)} with "
+                f"finite numbers must have shape {self._state.shape}; take one of this inverse"
+            )
+        self._state[:] = state
+
+    def reset(self) -> Self:
+        """Forget everything; the next sample begins at rest. Return the inverse itself."""
+        self._state[:] = 0.0
+        self.beyond = Beyond(0)
+        return self
+
+    def step(self, desired: float) -> float:
+        """Return the command for the next sample's desired position, both m or rad.
+
+        A desired position that is not finite is a fault of the caller and gives NaN; nothing is
+        remembered of it.
+        """
+        if not np.isfinite(desired):
+            return float("nan")
+        command, said = kernel.advance(self._numbers, self._state, desired)
+        self.beyond = Beyond(said)
+        return float(command)
+
+    def run(self, desired: FloatArray) -> FloatArray:
+        """Return the commands (n,) for the next n desired positions (n,).
+
+        Raises
+        ------
+        CompensationError
+            If one is not finite.
+        """
+        return self.run_and_tell(desired)[0]
+
+    def run_and_tell(self, desired: FloatArray) -> tuple[FloatArray, IntArray]:
+        """Return the commands (n,), and in what each (n,) of them goes beyond."""
+        desired = np.ascontiguousarray(desired, dtype=np.float64)
+        if desired.ndim != 1 or not np.isfinite(desired).all():
+            raise CompensationError(
+                f"inverse of axis {self.model.axis}: desired positions of shape {desired.shape} "
+                "must be one column of finite numbers"
+            )
+        command = np.empty_like(desired)
+        said = kernel.advance_all(self._numbers, self._state, desired, command)
+        self.beyond = Beyond(int(np.bitwise_or.reduce(said)) if len(said) else 0)
+        return command, said
+
+    def check(self, desired: FloatArray) -> None:
+        """Refuse desired positions (n,) of which one lies beyond what the inverse saw.
+
+        Raises
+        ------
+        CompensationError
+            With the axis, the sample, the value and the bound.
+        """
+        low, high = self.model.desired_range
+        slack = _SLACK * self.model.span
+        outside = ~((desired >= low - slack) & (desired <= high + slack))
+        if outside.any():
+            at = int(np.argmax(outside))
+            raise CompensationError(
+                f"inverse of axis {self.model.axis}: desired position {desired[at]:.6g} "
+                f"{self.model.unit} at sample {at} lies outside {low:.6g} to {high:.6g}, which the "
+                "inverse was trained on; stay inside, or train it on a wider record"
+            )
+
+
+def resting_at(model: InverseModel, sample_s: float, command: float) -> tuple[Inverse, float]:
+    """Return an inverse at rest that asks for ``command``, and the position desired there.
+
+    Raises
+    ------
+    CompensationError
+        If it asks for that nowhere in what it saw.
+    """
+    inverse = Inverse(model, sample_s)
+
+    def off(desired: float) -> float:
+        return inverse.reset().step(desired) - command
+
+    (low, high), slack = model.desired_range, _REST * model.span
+    ends = off(low), off(high)
+    if not (ends[0] <= slack and ends[1] >= -slack):
+        raise CompensationError(
+            f"inverse of axis {model.axis}: the axis stands at command {command:.6g} {model.unit}; "
+            f"the inverse reaches {ends[0] + command:.6g} to {ends[1] + command:.6g}: move the "
+            "axis there first, or train it on a wider record"
+        )
+    for _ in range(_HALVINGS):  # grows with the position; to the last bit of a share
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if off(middle) < 0.0 else (low, middle)
+    desired = 0.5 * (low + high)
+    inverse.reset().step(desired)
+    return inverse, desired
+
+
+def numbers_of(model: InverseModel, sample_s: float, *, preview: bool = False) -> Numbers:
+    """Return what the kernel needs of a model at one sampling rate."""
+    # The command of another rate is held for longer or shorter.
+    lag = 0.0 if preview else model.lag_s + 0.5 * (sample_s - model.sample_s)
+    # Differences to the back, of second order: 3/2, −2, 1/2 of ẏ; 1, −2, 1 of ÿ.
+    slope, bow = lag / (2.0 * sample_s), (0.5 * lag**2 + model.mode_s2) / sample_s**2
+    premises = model.premises
+    taps = (1.0 + 3.0 * slope + bow, -4.0 * slope - 2.0 * bow, slope + bow)
+    shares = (model.origin, model.command_origin, model.span)
+    ranges = (*model.desired_range, *model.command_range)
+    moved = -np.expm1(-sample_s / model.creep_times_s)
+    return Numbers(
+        fixed=np.array([*shares, *ranges, model.speed * sample_s, *taps]),
+        creep=np.stack([moved, model.creep_weights]),
+        bend=np.stack([np.concatenate([[model.bend_offset], model.bend_at]), model.bend]),
+        plays=np.stack([model.radii, model.initial]),
+        premise=np.array(premises.plays, dtype=np.int64),
+        memberships=np.stack([premises.centres, premises.widths]),
+        consequents=np.array(model.consequents),
+    )

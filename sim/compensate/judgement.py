@@ -1,0 +1,109 @@
+"""How far an inverse is from what was commanded, and which of several is recommended."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+
+import numpy as np
+
+from rotemina.sim.compensate.errors import CompensationError
+from rotemina.sim.compensate.inverse import Inverse
+from rotemina.sim.compensate.model import InverseModel, Kind
+from rotemina.sim.compensate.samples import Samples
+from rotemina.sim.compensate.stages import delayed
+
+_ALIKE = 1.02  # residuals that differ by less are taken for the same: the simpler kind is chosen
+_MODEST: frozenset[Kind] = frozenset({"prandtl_ishlinskii", "linear"})
+NAMES: dict[Kind, str] = {
+    "anfis": "ANFIS",
+    "modified_prandtl_ishlinskii": "modified Prandtl–Ishlinskii",
+    "prandtl_ishlinskii": "Prandtl–Ishlinskii",
+    "linear": "linear",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Residual:
+    """What is left between the command of an inverse and the one that was given.
+
+    Attributes
+    ----------
+    rms, worst : SI, of the command.
+    aligned : rms without the mean, for records whose offset is unknown.
+    share : rms over the range of the commands given.
+    mse : mean square over the square of that range.
+    offset : SI, mean; it is part of the others.
+    beyond : share of rows whose position lay beyond what the inverse saw; they are not judged.
+    """
+
+    rms: float
+    aligned: float
+    worst: float
+    share: float
+    mse: float
+    offset: float
+    beyond: float
+
+    def as_json(self) -> dict[str, float]:
+        """Return the figures by name."""
+        return asdict(self)
+
+
+def residual(model: InverseModel, runs: Sequence[tuple[Samples, int]]) -> Residual:
+    """Feed measured positions to an inverse and compare what it commands with what was commanded.
+
+    Each of ``runs`` is gone through from its first row, and judged from the row given with it on.
+    What was commanded is taken as late as the axis follows it.
+    """
+    apart, given, beyond = [], [], []
+    low, high = model.desired_range
+    # Not clamped here: the memory of rows that are judged would be that of others.
+    free = replace(model, desired_range=(-np.inf, np.inf))
+    for samples, first in runs:
+        command = Inverse(free, samples.sample_s, preview=True).run(samples.position)
+        late = model.lag_s + 0.5 * (samples.sample_s - model.sample_s) if model.lag_s else 0.0
+        true = delayed(samples.command, late / samples.sample_s)
+        apart.append((command - true)[first:])
+        given.append(true[first:])
+        beyond.append(((samples.position < low) | (samples.position > high))[first:])
+    left, span = np.concatenate(apart), float(np.ptp(np.concatenate(given)))
+    outside = np.concatenate(beyond)
+    if outside.all():
+        raise CompensationError(
+            f"axis {model.axis}: no row lies within {low:.6g} to {high:.6g} {model.unit}, which "
+            "the inverse was trained on; judge it on such a record, or train it on a wider one"
+        )
+    left = left[~outside]
+    rms = float(np.sqrt(np.mean(left**2)))
+    return Residual(
+        rms=rms,
+        aligned=float(np.std(left)),
+        worst=float(np.abs(left).max()),
+        share=rms / span,
+        mse=(rms / span) ** 2,
+        offset=float(left.mean()),
+        beyond=float(np.mean(outside)),
+    )
+
+
+def recommended(residuals: Mapping[Kind, Residual], *, one_size: bool) -> tuple[Kind, str]:
+    """Return the kind that leaves least, and why; among equals the simpler one.
+
+    ``residuals`` go from the richest kind to the simplest. Of ``one_size`` of swings the kinds with
+    a bend or rules learn more than the swings tell, which rows of that size do not show.
+    """
+    fit = {k: one for k, one in residuals.items() if not one_size or k in _MODEST}
+    least = min(one.rms for one in fit.values())
+    chosen = [kind for kind, one in fit.items() if one.rms <= _ALIKE * least][-1]
+    others = [f"{NAMES[kind]} {one.share:.3%}" for kind, one in residuals.items() if kind != chosen]
+    why = (
+        f"{NAMES[chosen]} leaves {residuals[chosen].share:.3%} of the range on rows that no "
+        f"inverse was trained on; {', '.join(others)}."
+    )
+    if one_size:
+        why += (
+            " All swings are of one size, so that richer kinds would guess at other sizes: "
+            "train on swings that grow or fade"
+        )
+    elif residuals[chosen].rms > least:
+        why += f" It is the simplest of those within {_ALIKE - 1.0:.0%} of the least"
+    return chosen, why.rstrip(".")

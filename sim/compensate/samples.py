@@ -1,0 +1,143 @@
+"""What an inverse is trained and judged on: commands and the positions that they brought about."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.compensate.errors import CompensationError
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.model import PiezoAxis, Robot
+
+_UNEVEN = 1e-3  # of a sample
+_SEEN = 0.02  # of the range of a command: so near is a turning point of the greatest loop
+_FEWEST = 200  # rows
+_FEWEST_SWINGS = 4
+_QUANTILE, _SAME = 0.15, 0.7  # so many swings are larger than such a share of the largest
+_LEAST_TRAVEL = 0.05  # of the axis' range: less holds no loop to learn
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Samples:
+    """One run of one axis, SI.
+
+    Attributes
+    ----------
+    name : of the record, for messages.
+    sample_s : from row to row.
+    command, position : (n,)
+        What the axis was told, and where it came.
+    first : int
+        Row from which on memory and offset are known: before, they are those of an unknown past.
+    """
+
+    name: str
+    axis: str
+    unit: str
+    sample_s: float
+    command: FloatArray
+    position: FloatArray
+    first: int = 0
+
+
+def samples_of(robot: Robot, axis: str, record: Record, name: str = "record") -> Samples:
+    """Return what a record holds of a piezo axis.
+
+    The position is ``meas``, or ``ref`` where the record lacks it. In closed loop the command is
+    what the controller put out, ``u`` times the axis' gain.
+
+    Raises
+    ------
+    CompensationError
+        If the axis is no piezo, its channels are missing, time is uneven or the record is short or
+        moves too little.
+    """
+    said = robot.axes.get(axis)
+    if not isinstance(said, PiezoAxis):
+        piezos = [n for n, each in robot.axes.items() if isinstance(each, PiezoAxis)]
+        raise CompensationError(
+            f"axis {axis!r}: robot {robot.name!r} has no such piezo axis; use one of "
+            f"{', '.join(piezos) or 'another robot'}"
+        )
+    source = Tap.U if record.closed_loop else Tap.CMD
+    taps = [tap for tap in (Tap.MEAS, Tap.REF) if record.has(axis, tap)]
+    if not record.has(axis, source) or not taps:
+        raise CompensationError(
+            f"{name}: axis {axis} needs the columns {axis}.{source} and {axis}.{Tap.MEAS} or "
+            f"{axis}.{Tap.REF}; record them, or name an axis that has them"
+        )
+    command = record.signal(axis, source) * (said.gain if source is Tap.U else 1.0)
+    sample_s = _sample_s(record.time_s, name)
+    travel = float(np.ptp(command))
+    if travel < _LEAST_TRAVEL * said.span:
+        raise CompensationError(
+            f"{name}: axis {axis} is commanded over {travel:.4g} {record.units[axis]}, less than "
+            f"{_LEAST_TRAVEL:.0%} of its range of {said.span:.4g}; record larger motions"
+        )
+    position = record.signal(axis, taps[0])
+    first = _known_from(command) if record.history == "unknown" else 0
+    return Samples(name, axis, record.units[axis], sample_s, command, position, first)
+
+
+def _sample_s(time_s: FloatArray, name: str) -> float:
+    if len(time_s) < _FEWEST:
+        raise CompensationError(f"{name}: {len(time_s)} rows are too few; {_FEWEST} are needed")
+    lengths = np.diff(time_s)
+    sample_s = float(np.median(lengths))
+    uneven = np.abs(lengths - sample_s) > _UNEVEN * sample_s
+    if uneven.any():
+        row = int(np.argmax(uneven)) + 1
+        raise CompensationError(
+            f"{name}: row {row} comes {lengths[row - 1]:.6g} s after the one before, others "
+            f"{sample_s:.6g} s; an inverse needs even time: resample the record (rotemina convert)"
+        )
+    return sample_s
+
+
+def _known_from(command: FloatArray) -> int:
+    """Return the row by which the greatest loop has been run through: it wipes the past out."""
+    near = _SEEN * float(np.ptp(command))
+    high = int(np.argmax(command >= command.max() - near))
+    low = int(np.argmax(command <= command.min() + near))
+    return max(high, low)
+
+
+def one_size(samples: Sequence[Samples]) -> bool:
+    """Tell whether nearly all swings of the commands are of one size.
+
+    Then they cannot tell how a loop grows with its size, nor apart what comes late and what turns
+    late: an inverse rich enough to follow that loop would only guess at others.
+    """
+    swings = np.concatenate([_swings(each.command[each.first :]) for each in samples])
+    return len(swings) < _FEWEST_SWINGS or bool(
+        np.quantile(swings, _QUANTILE) > _SAME * swings.max()
+    )
+
+
+def _swings(command: FloatArray) -> FloatArray:
+    """Return the ways (s,) between turning points, small wiggles left aside."""
+    least = _SEEN * float(np.ptp(command))
+    turns = [float(command[0])]
+    for value in command[1:]:
+        way = float(value) - turns[-1]
+        onward = len(turns) > 1 and way * (turns[-1] - turns[-2]) > 0.0
+        if onward:
+            turns[-1] = float(value)
+        elif abs(way) > least:
+            turns.append(float(value))
+    return np.abs(np.diff(turns))
+
+
+def common(samples: Sequence[Samples]) -> Samples:
+    """Return the first of the samples, after a check that all are of one axis and rate."""
+    if not samples:
+        raise CompensationError("there is no record to train on; name at least one")
+    first = samples[0]
+    for each in samples[1:]:
+        if abs(each.sample_s - first.sample_s) > _UNEVEN * first.sample_s:
+            raise CompensationError(
+                f"{each.name}: its rows come every {each.sample_s:.6g} s, those of {first.name} "
+                f"every {first.sample_s:.6g} s; resample them to one rate (rotemina convert)"
+            )
+    return first

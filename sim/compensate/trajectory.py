@@ -1,0 +1,118 @@
+"""A trajectory sent through inverses: what a machine is told so that it goes as it should."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.compensate.errors import CompensationError
+from rotemina.sim.compensate.inverse import Beyond, Inverse
+from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.model import PiezoAxis, Robot
+from rotemina.sim.trajectory.limits import commands_of
+
+_UNEVEN = 1e-3  # of a row's interval
+
+
+def compensated(
+    robot: Robot,
+    trajectory: Record,
+    inverses: Mapping[str, tuple[InverseModel, str]],
+    *,
+    preview: bool = True,
+) -> Record:
+    """Return a trajectory with the commands that bring its own about; axes without inverse as is.
+
+    Rows stay. The axis begins at rest at the first row, as after a rise from the low end of its
+    range. Metadata name the inverse: ``compensation zn``.
+
+    Parameters
+    ----------
+    robot : Robot
+    trajectory : Record
+        Evenly sampled in time.
+    inverses : by axis, with what they are to be called.
+    preview : whether the lag is made up for by looking ahead on the path; else as a machine that
+        does not know it does, by extrapolation.
+
+    Raises
+    ------
+    CompensationError
+        If rows are uneven, an axis is not commanded or no piezo, the trajectory goes beyond what
+        an inverse saw, or the machine cannot be told what it asks for.
+    """
+    commands = commands_of(robot, trajectory)
+    sample_s = _sample_s(trajectory.time_s)
+    metadata = dict(trajectory.metadata)
+    for axis, (model, name) in inverses.items():
+        if not isinstance(robot.axes.get(axis), PiezoAxis) or axis not in commands:
+            raise CompensationError(
+                f"inverse of axis {axis}: the trajectory commands {', '.join(commands)}; it must "
+                "command this piezo axis, or take the inverse of another one"
+            )
+        if f"compensation {axis}" in metadata:
+            raise CompensationError(
+                f"axis {axis}: the trajectory went through an inverse before "
+                f"({metadata[f'compensation {axis}']}); take the one that was wanted at first"
+            )
+        commands[axis] = _sent(model, commands[axis], sample_s, preview=preview)
+        metadata[f"compensation {axis}"] = name
+    return Record.from_signals(
+        trajectory.time_s,
+        {(axis, Tap.CMD): signal for axis, signal in commands.items()},
+        trajectory.units,
+        metadata,
+    )
+
+
+def on_ticks(trajectory: Record, period_s: float) -> Record:
+    """Return a trajectory as a machine applies it that holds each row until a tick after the next.
+
+    It has a row for each tick of ``period_s``, from its first row to its last.
+    """
+    since_s = trajectory.time_s - trajectory.time_s[0]
+    # What is late by rounding is on time.
+    ticks = np.arange(int(np.ceil(since_s[-1] / period_s - _UNEVEN)) + 1)
+    row = np.searchsorted(since_s, (ticks + _UNEVEN) * period_s, side="right") - 1
+    commanded = [axis for axis in trajectory.axes if trajectory.has(axis, Tap.CMD)]
+    signals = {(axis, Tap.CMD): trajectory.signal(axis, Tap.CMD)[row] for axis in commanded}
+    time_s = np.asarray(ticks * period_s, dtype=np.float64)
+    return Record.from_signals(time_s, signals, trajectory.units, trajectory.metadata)
+
+
+def _sent(
+    model: InverseModel, desired: FloatArray, sample_s: float, *, preview: bool
+) -> FloatArray:
+    inverse = Inverse(model, sample_s, preview=preview)
+    inverse.check(desired)
+    if preview and model.lag_s:
+        rows = np.arange(len(desired), dtype=np.float64)
+        ahead = model.lag_s + 0.5 * (sample_s - model.sample_s)
+        desired = np.interp(rows + ahead / sample_s, rows, desired)
+    sent, said = inverse.run_and_tell(desired)
+    beyond = (said & Beyond.COMMAND) != 0
+    if beyond.any():
+        low, high = model.command_range
+        row = int(np.argmax(beyond))
+        raise CompensationError(
+            f"inverse of axis {model.axis}: row {row} of the trajectory asks for a command beyond "
+            f"{low:.6g} to {high:.6g} {model.unit}, which is all the machine can be told; stay "
+            "farther from the ends of the range"
+        )
+    return sent
+
+
+def _sample_s(time_s: FloatArray) -> float:
+    lengths = np.diff(time_s)
+    if len(lengths) == 0:
+        raise CompensationError("trajectory: it has one row; an inverse needs a path of several")
+    sample_s = float(np.median(lengths))
+    uneven = np.abs(lengths - sample_s) > _UNEVEN * sample_s
+    if uneven.any():
+        row = int(np.argmax(uneven)) + 1
+        raise CompensationError(
+            f"trajectory: row {row} comes {lengths[row - 1]:.6g} s after the one before, others "
+            f"{sample_s:.6g} s; an inverse needs even time: resample the trajectory"
+        )
+    return sample_s

@@ -1,0 +1,1 @@
+"""Feedback of an axis: a sampled controller, the stability of its loop, the loop simulated."""

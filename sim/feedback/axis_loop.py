@@ -1,0 +1,238 @@
+"""One axis under a controller, simulated with all that its robot file and effects say.
+
+The plant is the engine's own (:mod:`rotemina.sim.plant`), stepped from sample to sample as a live
+one is; the controller is the one that runs live.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.feedback import loop_kernel
+from rotemina.sim.feedback.controller import Controller, numbers_of, rested
+from rotemina.sim.feedback.errors import FeedbackError
+from rotemina.sim.feedback.feed_forward import FeedForward
+from rotemina.sim.feedback.gains import Gains, OutputLimits
+from rotemina.sim.feedback.sampled_axis import SampledAxis, late_intervals
+from rotemina.sim.feedback.stability import PEAK_SENSITIVITY, check_stability
+from rotemina.sim.plant import kernel
+from rotemina.sim.plant.chance import Chance
+from rotemina.sim.plant.group import asked_position
+from rotemina.sim.plant.machine import Machine
+from rotemina.sim.plant.plant import Plant
+from rotemina.sim.plant.sampling import cut
+from rotemina.sim.plant.state import Behind, PlantState
+from rotemina.sim.plant.steps import steps_through
+from rotemina.sim.robot.model import ForceAxis, Robot, StepperAxis
+
+_TRIES = 60  # of the command that holds an axis at a position
+_NEAR = 1e-12  # share of the range within which it is held there
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Traces:
+    """What happened, each (n,), m or rad.
+
+    ``output`` is what the controller asked for from its sample on, ``position`` the true one,
+    ``reading`` what the sensor said (offset taken off); ``limited`` counts the samples at which a
+    limit cut the output off.
+    """
+
+    time_s: FloatArray
+    reference: FloatArray
+    output: FloatArray
+    position: FloatArray
+    reading: FloatArray
+    limited: int
+
+
+class AxisLoop:
+    """The loop around one axis; the others of its group are held in mid-range.
+
+    Parameters
+    ----------
+    robot : Robot
+        With its effects.
+    axis : str
+    rate_hz : float
+        Of the loop.
+    delay : int
+        Intervals by which an output acts late, beside the effects' own.
+    gain : float
+        Share of its nominal gain that the actuator has.
+
+    Raises
+    ------
+    FeedbackError
+        If the axis cannot be put under this loop.
+    EffectError
+        If an effect cannot be used.
+    """
+
+    def __init__(
+        self, robot: Robot, axis: str, rate_hz: float, *, delay: int = 0, gain: float = 1.0
+    ) -> None:
+        _check(robot, axis, rate_hz, delay)
+        self.axis = axis
+        self.interval_s = 1.0 / rate_hz
+        self.plant = Plant.of(robot, only=[axis])
+        self.robot_axis = self.plant.robot.axes[axis]
+        self._column = self.plant.axes.index(axis)
+        self._extra, self._gain = delay, gain
+        self._late = delay + late_intervals(self.plant, axis, self.interval_s)
+        self._rests: dict[float, tuple[float, PlantState]] = {}
+
+    @cached_property
+    def sampled(self) -> SampledAxis:
+        """The axis as a linear system, for the analysis of stability."""
+        own = SampledAxis.of(self.plant, self.axis, self.interval_s, delay=self._extra)
+        return own.scaled(self._gain)
+
+    @cached_property
+    def limits(self) -> OutputLimits:
+        """What may be asked of the axis: its range, or what its voltages reach."""
+        low, high = self.robot_axis.range
+        voltages = (
+            None if isinstance(self.robot_axis, StepperAxis) else self.robot_axis.voltage_range
+        )
+        if voltages is not None:
+            asked = asked_position(self.robot_axis)
+            low, high = sorted(asked * voltage for voltage in voltages)
+        return OutputLimits(low, high)
+
+    def controller(
+        self,
+        gains: Gains,
+        *,
+        limits: OutputLimits | None = None,
+        feed_forward: FeedForward | None = None,
+        peak_sensitivity: float = PEAK_SENSITIVITY,
+    ) -> Controller:
+        """Return a controller for the axis; gains are checked first.
+
+        Raises
+        ------
+        UnstableError
+            If the loop would be unstable, or nearer to it than ``peak_sensitivity`` allows.
+        """
+        check_stability(self.sampled, gains, peak_sensitivity)
+        return Controller(gains, self.interval_s, limits or self.limits, feed_forward)
+
+    def follow(
+        self,
+        gains: Gains,
+        reference: FloatArray,
+        *,
+        limits: OutputLimits | None = None,
+        feed_forward: FeedForward | None = None,
+        feed: FloatArray | None = None,
+        rng: np.random.Generator | None = None,
+    ) -> Traces:
+        """Return how the axis follows a reference (n,), from rest at its first position.
+
+        ``feed`` (n,) is what ``feed_forward`` makes of the reference, if it is known already;
+        ``rng`` gives noise, rounding and random effects.
+        """
+        if feed is None:
+            feed = (feed_forward or FeedForward()).run(reference)
+        numbers = numbers_of(gains, self.interval_s, limits or self.limits)
+        start = float(reference[0])
+        if start not in self._rests:  # a search begins at the same places again and again
+            self._rests[start] = self._held(start)
+        held, state = self._rests[start]
+        memory = rested(numbers, float(feed[0]), held)
+        rows = self._rows(state, len(reference))
+        moving = kernel.State(state.x.copy(), state.memory.copy(), state.seen.copy())
+        drawn = np.zeros((0, len(self.plant.axes)))
+        if rng is not None:
+            axes, random = len(self.plant.axes), self.plant.assembly.random
+            drawn = Chance(rng).draw(len(reference), axes, random)
+        output = np.empty(len(reference))
+        loop = loop_kernel.Loop(self._column, self._per_asked, self.robot_axis.offset, self._late)
+        limited = loop_kernel.follow(
+            self._machine, self._steps, moving, rows, drawn, loop, numbers, memory,
+            np.ascontiguousarray(reference), np.ascontiguousarray(feed), output,
+        )  # fmt: skip
+        return Traces(
+            np.asarray(self.interval_s * np.arange(len(reference)), dtype=np.float64),
+            reference,
+            output,
+            rows.position[1:, self._column].copy(),
+            np.asarray(rows.reading[1:, self._column] - self.robot_axis.offset),
+            int(limited),
+        )
+
+    @property
+    def _per_asked(self) -> float:
+        return self._gain / asked_position(self.robot_axis)
+
+    def _rows(self, state: PlantState, samples: int) -> loop_kernel.Rows:
+        """Make room for a run; its first row is the rest before it."""
+        shape = (samples + 1, len(self.plant.axes))
+        filled = [np.zeros(shape) for _ in range(4)]
+        first = (state.inputs, state.position, state.velocity, state.reading)
+        for whole, row in zip(filled, first, strict=True):
+            whole[0] = row[-1]
+        return loop_kernel.Rows(self.interval_s * np.arange(samples + 1.0), *filled)
+
+    @cached_property
+    def _machine(self) -> Machine:
+        """The plant's tables; the loop brings delays along itself."""
+        machine = self.plant.machine(Behind.COMMAND)
+        table = machine.axis.copy()
+        table["late"] = 0
+        return machine._replace(axis=table)
+
+    @cached_property
+    def _steps(self) -> kernel.Steps:
+        return steps_through(
+            cut(np.array([0.0, self.interval_s]), 1, (0.0,)),
+            self.plant.assembly.all_groups,
+            inner_step_s=self.plant.assembly.inner_step_s,
+            with_holds=bool(self.plant.effects),
+        )
+
+    def _held(self, position: float) -> tuple[float, PlantState]:
+        """Return what to ask for so that the axis rests at ``position``, and the state then.
+
+        After a rise from the low end, long ago; found by the secant rule, as what effects make of
+        a command grows with it.
+        """
+        span = self.robot_axis.span
+        asked, last = position, None
+        state = self._at_rest(asked)
+        for _ in range(_TRIES):
+            off = float(state.position[-1, self._column]) - position
+            if abs(off) <= _NEAR * span:
+                break
+            slope = 1.0
+            if last is not None and asked != last[0] and off != last[1]:
+                slope = (off - last[1]) / (asked - last[0])
+            last = asked, off
+            asked -= off / min(max(slope, 0.2), 5.0)
+            state = self._at_rest(asked)
+        return asked, state
+
+    def _at_rest(self, asked: float) -> PlantState:
+        command = np.array([sum(one.range) / 2.0 for one in self.plant.robot.axes.values()])
+        command[self._column] = self._gain * asked
+        return self.plant.at_rest(0.0, command)
+
+
+def _check(robot: Robot, axis: str, rate_hz: float, delay: int) -> None:
+    if axis not in robot.axes:
+        raise FeedbackError(
+            f"axis {axis!r}: robot {robot.name!r} has no such axis; use one of "
+            f"{', '.join(robot.axes)}"
+        )
+    if isinstance(robot.axes[axis], ForceAxis):
+        raise FeedbackError(
+            f"axis {axis}: it is moved by a force and keeps no position by itself; give it a "
+            "cascade controller in the robot file"
+        )
+    if not 0.0 < rate_hz < float("inf"):
+        raise FeedbackError(f"loop rate {rate_hz} Hz: must be positive and finite")
+    if delay < 0:
+        raise FeedbackError(f"loop delay of {delay} intervals: must be 0 or more")

@@ -1,0 +1,135 @@
+"""A sampled PI or PID controller with notch, low-pass, feed-forward and limits.
+
+One recurrence (:func:`rotemina.sim.feedback.kernel.control`) serves the simulated loop, the live
+one, and the analysis of stability.
+"""
+
+from math import exp, isfinite
+
+import numpy as np
+
+from rotemina.sim.arrays import ComplexArray, FloatArray
+from rotemina.sim.feedback import kernel
+from rotemina.sim.feedback.errors import FeedbackError
+from rotemina.sim.feedback.feed_forward import FeedForward
+from rotemina.sim.feedback.filters import THROUGH, Biquad, low_pass, notch
+from rotemina.sim.feedback.gains import AntiWindup, Gains, OutputLimits
+
+NO_LIMITS = OutputLimits()
+
+
+class Controller:
+    """Gives what to ask of an axis, sample by sample; begin with :meth:`start`.
+
+    Parameters
+    ----------
+    gains : Gains
+    interval_s : float
+        From sample to sample.
+    limits : OutputLimits
+    feed_forward : FeedForward, optional
+        What is asked for a reference without feedback; the reference itself without.
+
+    Raises
+    ------
+    FeedbackError
+        If a filter does not fit the rate, or the interval is none.
+    """
+
+    def __init__(
+        self,
+        gains: Gains,
+        interval_s: float,
+        limits: OutputLimits = NO_LIMITS,
+        feed_forward: FeedForward | None = None,
+    ) -> None:
+        self._numbers = numbers_of(gains, interval_s, limits)
+        self._feed_forward = feed_forward or FeedForward()
+        self._state = np.zeros(kernel.MEMORY)
+
+    def start(self, reference: float, output: float | None = None) -> None:
+        """Rest at a reference, with an output that holds the axis there.
+
+        Without ``output`` it is what the feed-forward asks for. The controller takes over without
+        a jump: the integral begins with the difference.
+        """
+        feed = self._feed_forward.start(reference)
+        self._state = rested(self._numbers, feed, feed if output is None else output)
+
+    def step(self, reference: float, measured: float) -> float:
+        """Return the output of this sample, m or rad, held until the next.
+
+        Raises
+        ------
+        FeedbackError
+            If a number is not finite; the controller is as before then.
+        """
+        if not (isfinite(reference) and isfinite(measured)):
+            raise FeedbackError(
+                f"controller: reference {reference:g}, measured {measured:g}: both must be finite; "
+                "hold the last output until the sensor answers again"
+            )
+        feed = self._feed_forward.step(reference)
+        return float(kernel.control(self._numbers, self._state, reference - measured, feed))
+
+    @property
+    def limited(self) -> bool:
+        """Whether a limit cut the last output off."""
+        return bool(self._state[kernel.OUTPUT] != self._state[kernel.ASKED])
+
+    @property
+    def integral(self) -> float:
+        """What the integral adds to the output, m or rad."""
+        return float(self._state[kernel.INTEGRAL])
+
+
+def numbers_of(gains: Gains, interval_s: float, limits: OutputLimits) -> FloatArray:
+    """Return the numbers of the recurrence."""
+    if not (isfinite(interval_s) and interval_s > 0.0):
+        raise FeedbackError(f"loop interval {interval_s:g} s: must be positive and finite")
+    pole = _pole(gains, interval_s)
+    numbers = np.zeros(kernel.NUMBERS)
+    numbers[kernel.P] = gains.proportional
+    numbers[kernel.I_STEP] = gains.integral * interval_s
+    numbers[kernel.D_STEP] = gains.derivative * (1.0 - pole) / interval_s
+    numbers[kernel.D_POLE] = pole
+    numbers[kernel.BACK] = min(interval_s / gains.tracking_s, 1.0) if gains.integral else 0.0
+    numbers[kernel.CONDITIONAL] = gains.anti_windup is AntiWindup.CONDITIONAL
+    numbers[kernel.LOW], numbers[kernel.HIGH] = limits.low, limits.high
+    numbers[kernel.MOST] = limits.rate * interval_s
+    for place, biquad in zip(
+        (kernel.NOTCH, kernel.LOW_PASS), _filters(gains, interval_s), strict=True
+    ):
+        numbers[place : place + len(biquad)] = biquad
+    return numbers
+
+
+def rested(numbers: FloatArray, feed: float, output: float) -> FloatArray:
+    """Return the memory of a controller at rest, with ``output`` within its limits."""
+    state = np.zeros(kernel.MEMORY)
+    output = min(max(output, numbers[kernel.LOW]), numbers[kernel.HIGH])
+    state[kernel.INTEGRAL] = output - feed
+    state[kernel.OUTPUT] = state[kernel.ASKED] = output
+    return state
+
+
+def response(gains: Gains, interval_s: float, z: ComplexArray) -> ComplexArray:
+    """Return the frequency response (…,) from error to output at points of the unit circle."""
+    first, second = _filters(gains, interval_s)
+    pole, back = _pole(gains, interval_s), 1.0 / z
+    own = gains.proportional + gains.integral * interval_s / (1.0 - back)
+    own = own + gains.derivative * (1.0 - pole) / interval_s * (1.0 - back) / (1.0 - pole * back)
+    return np.asarray(first.response(z) * second.response(z) * own)
+
+
+def _pole(gains: Gains, interval_s: float) -> float:
+    """Return a of the derivative's filter, which keeps a ramp's slope exactly."""
+    slow = gains.derivative_filter_s
+    return exp(-interval_s / slow) if slow > 0.0 else 0.0
+
+
+def _filters(gains: Gains, interval_s: float) -> tuple[Biquad, Biquad]:
+    rate_hz, own = 1.0 / interval_s, gains.notch
+    first = notch(own.frequency_hz, own.damping, own.depth, rate_hz) if own else THROUGH
+    second = low_pass(gains.low_pass_hz, rate_hz) if gains.low_pass_hz else THROUGH
+    return first, second

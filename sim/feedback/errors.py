@@ -1,0 +1,7 @@
+"""What the feedback of an axis refuses."""
+
+from rotemina.sim.errors import InputError
+
+
+class FeedbackError(InputError):
+    """Gains, limits or a loop that cannot be used."""

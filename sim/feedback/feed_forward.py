@@ -1,0 +1,76 @@
+"""What is asked of an axis for a reference, before any feedback.
+
+The reference is led by what the axis and the held command would lag behind it
+(:mod:`rotemina.sim.feedback.lead`), then sent through an inverse of what the actuator does to a
+position.
+"""
+
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+
+
+class SampledInverse(Protocol):
+    """What position to ask for so that the axis takes the one that is wanted, sample by sample.
+
+    :class:`rotemina.sim.compensate.inverse.Inverse` is one.
+    """
+
+    def reset(self) -> object:
+        """Forget everything: the next sample begins at rest, after a rise from the low end."""
+
+    def step(self, desired: float, /) -> float:
+        """Return what to ask for at the next sample."""
+
+    def run(self, desired: FloatArray, /) -> FloatArray:
+        """Return what to ask for at the next n samples, the same numbers."""
+
+
+class FeedForward:
+    """Lead and inverse, sample by sample.
+
+    Parameters
+    ----------
+    taps : sequence of float
+        Weights of the present reference and those before it.
+    inverse : SampledInverse, optional
+        None: what is wanted is asked for. One that has a stage against lag of its own must do
+        without it (``preview``), as the lead is in its place.
+    """
+
+    def __init__(
+        self, taps: Sequence[float] | FloatArray = (1.0,), inverse: SampledInverse | None = None
+    ) -> None:
+        self._taps = tuple(float(tap) for tap in taps)
+        self._inverse = inverse
+        self._before = [0.0] * (len(self._taps) - 1)
+
+    def start(self, reference: float) -> float:
+        """Rest at a reference and return what is asked there."""
+        self._before = [reference] * (len(self._taps) - 1)
+        if self._inverse is None:
+            return reference
+        self._inverse.reset()
+        return self._inverse.step(reference)
+
+    def step(self, reference: float) -> float:
+        """Return what to ask for at the next sample."""
+        wanted = self._taps[0] * reference
+        for tap, before in zip(self._taps[1:], self._before, strict=True):
+            wanted += tap * before
+        self._before = [reference, *self._before][: len(self._before)]
+        return wanted if self._inverse is None else self._inverse.step(wanted)
+
+    def run(self, reference: FloatArray) -> FloatArray:
+        """Return what to ask for at every sample (n,), begun at rest at the first."""
+        self.start(float(reference[0]))
+        rows, history = len(reference), len(self._before)
+        led = np.concatenate([np.repeat(reference[:1], history), reference])
+        wanted = self._taps[0] * led[history:]
+        for late, tap in enumerate(self._taps[1:], start=1):
+            wanted = wanted + tap * led[history - late : history - late + rows]
+        self._before = [float(led[-1 - late]) for late in range(history)]
+        return wanted if self._inverse is None else self._inverse.run(wanted)

@@ -1,0 +1,127 @@
+"""What a controller is set to: its gains, its filters, its limits.
+
+The controller gives positions to ask for (m or rad; V of an axis that a force moves), so that a
+proportional gain has no unit on a piezo or a stepper.
+"""
+
+from dataclasses import dataclass, fields
+from enum import StrEnum
+from math import inf, isfinite
+
+from pydantic import ConfigDict
+
+from rotemina.sim.feedback.errors import FeedbackError
+
+_STRICT = ConfigDict(extra="forbid")  # where a file is read
+
+
+class AntiWindup(StrEnum):
+    """What the integral does while the output is at a limit.
+
+    ``BACK_CALCULATION``: it is led back by what the limit cuts off, within ``tracking_s``
+    (Åström and Hägglund, "Advanced PID Control" (2006), sec. 3.5). ``CONDITIONAL``: it stands
+    still where it would drive the output further beyond.
+    """
+
+    BACK_CALCULATION = "back_calculation"
+    CONDITIONAL = "conditional"
+
+
+@dataclass(frozen=True, slots=True)
+class Notch:
+    """Takes a resonance out of the loop.
+
+    Attributes
+    ----------
+    frequency_hz : float
+    damping : float
+        ζ of its poles: how wide it is.
+    depth : float
+        Its gain at the frequency, less than 1.
+    """
+
+    __pydantic_config__ = _STRICT
+    frequency_hz: float
+    damping: float = 0.7
+    depth: float = 0.05
+
+    def __post_init__(self) -> None:
+        _check("notch frequency", self.frequency_hz, 0.0, inf, "Hz", open_below=True)
+        _check("notch damping", self.damping, 0.0, 10.0, "", open_below=True)
+        _check("notch depth", self.depth, 0.0, 1.0, "")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Gains:
+    """Of ``u = feed-forward + P e + I ∫e dt + D ė``, with e behind notch and low-pass.
+
+    Attributes
+    ----------
+    proportional : float
+        P.
+    integral : float
+        I, 1/s.
+    derivative : float
+        D, s.
+    derivative_filter_s : float
+        Time constant of the first-order filter of ė.
+    low_pass_hz : float, optional
+        Of second order.
+    notch : Notch, optional
+    anti_windup : AntiWindup
+    tracking_s : float
+        Of the back-calculation.
+    """
+
+    __pydantic_config__ = _STRICT
+    proportional: float = 0.0
+    integral: float = 0.0
+    derivative: float = 0.0
+    derivative_filter_s: float = 0.0
+    low_pass_hz: float | None = None
+    notch: Notch | None = None
+    anti_windup: AntiWindup = AntiWindup.BACK_CALCULATION
+    tracking_s: float = 0.01
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            if field.name in ("proportional", "integral", "derivative", "derivative_filter_s"):
+                _check(field.name, getattr(self, field.name), 0.0, inf, "")
+        _check("tracking_s", self.tracking_s, 0.0, inf, "s", open_below=True)
+        if self.low_pass_hz is not None:
+            _check("low_pass_hz", self.low_pass_hz, 0.0, inf, "Hz", open_below=True)
+
+
+@dataclass(frozen=True, slots=True)
+class OutputLimits:
+    """Between what, and how fast, the output may move.
+
+    Attributes
+    ----------
+    low, high : float
+        m or rad (V of an axis that a force moves).
+    rate : float
+        Greatest change per second.
+    """
+
+    low: float = -inf
+    high: float = inf
+    rate: float = inf
+
+    def __post_init__(self) -> None:
+        if not self.low < self.high:
+            raise FeedbackError(
+                f"output limits: low {self.low:g}, high {self.high:g}: low must be less than high"
+            )
+        if not self.rate > 0.0:
+            raise FeedbackError(f"output limits: rate {self.rate:g} per s: must be more than 0")
+
+
+def _check(
+    name: str, value: float, low: float, high: float, unit: str, *, open_below: bool = False
+) -> None:
+    if isfinite(value) and low <= value <= high and not (open_below and value == low):
+        return
+    bound = f"more than {low:g}" if open_below else f"at least {low:g}"
+    above = f", at most {high:g}" if isfinite(high) else ""
+    raise FeedbackError(f"{name} {value:g} {unit}".rstrip() + f": must be finite, {bound}{above}")

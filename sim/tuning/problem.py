@@ -1,0 +1,204 @@
+"""Gains of one axis as a search problem: from numbers between 0 and 1 to figures.
+
+The axis is taken as it is, and with gain and resonance off by ±5 % in all four combinations. Ms is
+the worst of the five. The motion, with effects, noise and rounding, is simulated of three: as it
+is, with more gain at a lower resonance (the liveliest) and with less gain at a higher one (the
+slowest). The other figures are the worst of those.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import log, pi
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.effects.facts import Facts
+from rotemina.sim.feedback.axis_loop import AxisLoop, Traces
+from rotemina.sim.feedback.feed_forward import FeedForward, SampledInverse
+from rotemina.sim.feedback.gains import Gains, Notch
+from rotemina.sim.feedback.lead import lead_taps
+from rotemina.sim.feedback.stability import (
+    LoopAnalysis,
+    check_stability,
+    sensitivity_peak,
+)
+from rotemina.sim.robot.model import AxisEffect, Robot
+from rotemina.sim.tuning.errors import TuningError
+from rotemina.sim.tuning.figures import UNUSABLE, Figures, figures_of, worst
+from rotemina.sim.tuning.objectives import Constraints
+from rotemina.sim.tuning.scenario import Scenario, step_of, triangle_of
+
+SPREAD = 0.05
+VARIABLES = ("integral", "proportional", "derivative", "low_pass_hz", "notch_damping")
+_SEED = 20_101  # of the noise that every individual meets
+# Bounds, in the axis' own pace: I over ω, P, D ω, low-pass over the resonance, ζ of the notch.
+_INTEGRAL, _PROPORTIONAL, _DERIVATIVE = (0.02, 2.0), 1.0, 0.5
+_LOW_PASS, _HIGHEST_SHARE, _NOTCH = 0.5, 0.45, (0.1, 2.0)
+_DERIVATIVE_FILTER = 0.1  # of 1/ω
+_SHALLOWEST, _DEEPEST = 0.5, 0.01  # of the notch
+_TRACKING = 2.0  # over ω·I: how soon the integral is led back
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Try:
+    """A loop on one scenario: what is fed forward (n,), and what happened."""
+
+    scenario: Scenario
+    feed: FloatArray
+    traces: Traces
+
+
+class TuningProblem:
+    """The loop of one axis to be tuned.
+
+    Parameters
+    ----------
+    robot : Robot
+        With the effects that are to act.
+    axis : str
+    rate_hz : float
+        Of the loop.
+    delay : int
+        Intervals by which an output acts late.
+    inverse : SampledInverse, optional
+        In the feed-forward, at the loop's rate, without a stage against lag of its own.
+    constraints : Constraints
+    spread : float
+        By how much gain and resonance may be off.
+
+    Raises
+    ------
+    FeedbackError, EffectError, TuningError
+        If the axis cannot be tuned.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        axis: str,
+        rate_hz: float,
+        *,
+        delay: int = 0,
+        inverse: SampledInverse | None = None,
+        constraints: Constraints | None = None,
+        spread: float = SPREAD,
+    ) -> None:
+        self.robot, self.axis, self.rate_hz, self.delay = robot, axis, rate_hz, delay
+        self.constraints, self.spread = constraints or Constraints(), spread
+        self.loop = AxisLoop(robot, axis, rate_hz, delay=delay)
+        own = self.loop.robot_axis
+        self._facts = Facts.of(own)
+        self._resonates = self._facts.frequency_hz > 0.0
+        self._check_pace()
+        self._variants = [
+            self.loop,
+            *(
+                AxisLoop(_detuned(robot, axis, off), axis, rate_hz, delay=delay, gain=1.0 + gain)
+                for gain, off in _corners(spread, resonates=self._resonates)
+            ),
+        ]
+        self._analyses = [LoopAnalysis(one.sampled) for one in self._variants]
+        # The liveliest and the slowest stand in the middle of the corners.
+        self._simulated = (
+            self._variants if len(self._variants) < 4 else [self._variants[k] for k in (0, 2, 3)]
+        )
+        feed_forward = FeedForward(lead_taps(own, 1.0 / rate_hz, delay=delay), inverse)
+        scenarios = step_of(own, rate_hz), triangle_of(own, rate_hz)
+        self._given = [(one, feed_forward.run(one.reference)) for one in scenarios]
+
+    def gains_of(self, shares: Sequence[float] | FloatArray) -> Gains:
+        """Return the gains for shares (5,) between 0 and 1, in the order of ``VARIABLES``."""
+        rate = 2.0 * pi * self._facts.pace_hz
+        integral = rate * _between(_INTEGRAL, shares[0])
+        lowest = min(_LOW_PASS * self._facts.pace_hz, 0.5 * _HIGHEST_SHARE * self.rate_hz)
+        notch = None
+        if self._resonates:
+            damping = _between(_NOTCH, shares[4])
+            depth = min(max(self._facts.damping_ratio / damping, _DEEPEST), _SHALLOWEST)
+            notch = Notch(self._facts.frequency_hz, damping, depth)
+        return Gains(
+            proportional=_PROPORTIONAL * float(shares[1]),
+            integral=integral,
+            derivative=_DERIVATIVE / rate * float(shares[2]),
+            derivative_filter_s=_DERIVATIVE_FILTER / rate,
+            low_pass_hz=_between((lowest, _HIGHEST_SHARE * self.rate_hz), shares[3]),
+            notch=notch,
+            tracking_s=_TRACKING / integral,
+        )
+
+    def evaluate(self, gains: Gains) -> Figures:
+        """Return the worst figures over the axes; all infinite where one is unstable.
+
+        Where Ms alone forbids the gains, nothing is simulated and the others are infinite.
+        """
+        peak = max(sensitivity_peak(analysis, gains) for analysis in self._analyses)
+        if peak > self.constraints.peak_sensitivity:
+            return replace(UNUSABLE, peak_sensitivity=peak)
+        return worst([self._figures(loop, gains, peak) for loop in self._simulated])
+
+    def try_out(self, gains: Gains) -> tuple[tuple[Try, Try], Figures]:
+        """Return step and triangle with the axis as it is, and the figures of these two.
+
+        Raises
+        ------
+        UnstableError
+            If the loop is unstable or nearer to it than allowed; nothing is simulated then.
+        """
+        found = check_stability(self.loop.sampled, gains, self.constraints.peak_sensitivity)
+        step, triangle = self._tries(self.loop, gains)
+        return (step, triangle), self._judged(step, triangle, found.peak_sensitivity)
+
+    def _figures(self, loop: AxisLoop, gains: Gains, peak: float) -> Figures:
+        step, triangle = self._tries(loop, gains)
+        return self._judged(step, triangle, peak)
+
+    def _tries(self, loop: AxisLoop, gains: Gains) -> tuple[Try, Try]:
+        step, triangle = (
+            Try(
+                scenario,
+                feed,
+                loop.follow(gains, scenario.reference, feed=feed, rng=np.random.default_rng(_SEED)),
+            )
+            for scenario, feed in self._given
+        )
+        return step, triangle
+
+    def _judged(self, step: Try, triangle: Try, peak: float) -> Figures:
+        return figures_of(
+            (step.scenario, step.traces, step.feed),
+            (triangle.scenario, triangle.traces, triangle.feed),
+            span=self._facts.span,
+            floor=self._facts.noise,
+            peak_sensitivity=peak,
+        )
+
+    def _check_pace(self) -> None:
+        if self._resonates and self._facts.frequency_hz >= 0.4 * self.rate_hz:
+            raise TuningError(
+                f"axis {self.axis}: a loop at {self.rate_hz:g} Hz is too slow for a resonance at "
+                f"{self._facts.frequency_hz:.4g} Hz; take a rate above "
+                f"{2.5 * self._facts.frequency_hz:.4g} Hz"
+            )
+
+
+def _between(bounds: tuple[float, float], share: float) -> float:
+    """Return what lies a share of the way between two bounds, by its logarithm."""
+    low, high = bounds
+    return float(low * np.exp(share * log(high / low)))
+
+
+def _corners(spread: float, *, resonates: bool) -> list[tuple[float, float]]:
+    """Return the errors of gain and resonance that are tried beside none."""
+    if spread == 0.0:
+        return []
+    if not resonates:
+        return [(spread, 0.0), (-spread, 0.0)]
+    return [(spread, spread), (spread, -spread), (-spread, spread), (-spread, -spread)]
+
+
+def _detuned(robot: Robot, axis: str, off: float) -> Robot:
+    if off == 0.0:
+        return robot
+    effect = AxisEffect(axis=axis, id="resonance_mismatch", parameters={"frequency_error": off})
+    return replace(robot, effects=(*robot.effects, effect))

@@ -1,0 +1,211 @@
+"""The result of a tuning, and its file: a small TOML that says how it came about."""
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import asdict, replace
+from importlib.metadata import version
+from os import PathLike, fspath
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+import tomli_w
+from pydantic import TypeAdapter, ValidationError
+from pydantic.dataclasses import dataclass
+
+from rotemina.sim.robot.numbers import FORBID_UNKNOWN
+from rotemina.sim.tuning.errors import TuningError
+from rotemina.sim.tuning.front import Point, knee_of
+from rotemina.sim.tuning.objectives import Against
+from rotemina.sim.tuning.problem import TuningProblem
+from rotemina.sim.tuning.search import Generation, SearchSettings, objectives_of
+from rotemina.sim.whole_files import replaced
+
+_MOST_BYTES = 4_000_000
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
+class Provenance:
+    """How a tuning came about.
+
+    Attributes
+    ----------
+    program, robot : str
+    effects : tuple of str
+        Those that acted on the simulated axis.
+    inverse : str
+        Of the feed-forward; empty without.
+    generations, done, population, seed : int
+        How many were asked for, and done.
+    against : Against
+    peak_sensitivity, overshoot, spread : float
+        Constraints, and by how much gain and resonance were off.
+    """
+
+    program: str
+    robot: str
+    effects: tuple[str, ...]
+    inverse: str
+    generations: int
+    done: int
+    population: int
+    seed: int
+    against: Against
+    peak_sensitivity: float
+    overshoot: float
+    spread: float
+
+    @property
+    def whole(self) -> bool:
+        """Whether the search was not stopped before its end."""
+        return self.done == self.generations
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
+class Tuning:
+    """A front of gains for one axis.
+
+    Attributes
+    ----------
+    axis : str
+    rate_hz : float
+    delay : int
+    recommended, chosen : int
+        Numbers of points, from 0.
+    points : tuple of Point
+        By rising tracking error.
+    provenance : Provenance
+    """
+
+    format: Literal["rotemina-tuning 1"] = "rotemina-tuning 1"
+    axis: str
+    rate_hz: float
+    delay: int
+    recommended: int
+    chosen: int
+    provenance: Provenance
+    points: tuple[Point, ...]
+
+    @property
+    def best(self) -> Point:
+        """The chosen point."""
+        return self.points[self.chosen]
+
+    def choosing(self, number: int) -> "Tuning":
+        """Return it with another point chosen.
+
+        Raises
+        ------
+        TuningError
+            If there is no such point.
+        """
+        if not 0 <= number < len(self.points):
+            raise TuningError(
+                f"point {number}: the front has points 0 to {len(self.points) - 1}; choose one"
+            )
+        return replace(self, chosen=number)
+
+
+def tuning_of(
+    problem: TuningProblem, settings: SearchSettings, last: Generation, *, inverse: str = ""
+) -> Tuning:
+    """Return the result of a search that came as far as ``last``; the knee is recommended.
+
+    Raises
+    ------
+    TuningError
+        If no point keeps the constraints.
+    """
+    if not last.front:
+        bounds = problem.constraints
+        raise TuningError(
+            f"axis {problem.axis}: after {last.done} generations no gains keep Ms ≤ "
+            f"{bounds.peak_sensitivity:g} and overshoot ≤ {100.0 * bounds.overshoot:g} %; "
+            "search longer, take a faster loop, or allow more"
+        )
+    objectives = np.array([objectives_of(one.figures, settings.against) for one in last.front])
+    knee = knee_of(objectives)
+    provenance = Provenance(
+        program=f"rotemina {version('rotemina')}",
+        robot=problem.robot.name,
+        effects=tuple(str(one) for one in problem.loop.plant.effects),
+        inverse=inverse,
+        generations=settings.generations,
+        done=last.done,
+        population=settings.population,
+        seed=settings.seed,
+        against=settings.against,
+        peak_sensitivity=problem.constraints.peak_sensitivity,
+        overshoot=problem.constraints.overshoot,
+        spread=problem.spread,
+    )
+    return Tuning(
+        axis=problem.axis,
+        rate_hz=problem.rate_hz,
+        delay=problem.delay,
+        recommended=knee,
+        chosen=knee,
+        provenance=provenance,
+        points=last.front,
+    )
+
+
+def document_of(tuning: Tuning) -> dict[str, Any]:
+    """Return a tuning as plain tables, those that say nothing left out."""
+    found: dict[str, Any] = _without_none(asdict(tuning))
+    return found
+
+
+def save_tuning(tuning: Tuning, path: str | PathLike[str]) -> None:
+    """Write a tuning as TOML, whole or not at all.
+
+    Raises
+    ------
+    FileWriteError
+        If nothing can be written there.
+    """
+    with replaced(path) as file:
+        file.write(tomli_w.dumps(document_of(tuning)).encode("utf-8"))
+
+
+def load_tuning(path: str | PathLike[str]) -> Tuning:
+    """Read a tuning.
+
+    Raises
+    ------
+    TuningError
+        With file, key, value and bound.
+    """
+    name = fspath(path)
+    try:
+        data = Path(name).read_bytes()
+        if len(data) > _MOST_BYTES:
+            raise TuningError(f"{name}: {len(data)} bytes: a tuning has {_MOST_BYTES} at most")
+        found = TypeAdapter(Tuning).validate_python(tomllib.loads(data.decode("utf-8")))
+    except OSError as error:
+        raise TuningError(f"{name}: it cannot be read ({error.strerror or error})") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise TuningError(f"{name}: it is no TOML file: {error}") from error
+    except ValidationError as error:
+        first = error.errors()[0]
+        key = ".".join(str(part) for part in first["loc"])
+        raise TuningError(f"{name}: {key} = {first['input']!r:.80}: {first['msg']}") from error
+    except TuningError:
+        raise
+    except ValueError as error:  # of the gains' own checks
+        raise TuningError(f"{name}: {error}") from error
+    last = len(found.points) - 1
+    for key in ("recommended", "chosen"):
+        if not 0 <= getattr(found, key) <= last:
+            raise TuningError(
+                f"{name}: {key} = {getattr(found, key)}: the file has points 0 to {last}"
+            )
+    return found
+
+
+def _without_none(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {key: _without_none(own) for key, own in value.items() if own is not None}
+    if isinstance(value, list | tuple):
+        return [_without_none(own) for own in value]
+    return str(value) if isinstance(value, Against) else value

@@ -1,0 +1,210 @@
+"""The compensation panel: learn, check, put on and take off, try, tune."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rotemina.app.motion.state import PlaybackFinished
+from rotemina.plugins.compensation.learning import Learned, learned_from
+from rotemina.plugins.compensation.trial import trial_motion, trial_of
+from rotemina.plugins.compensation.words import beyond, judged, left, micro
+from rotemina.sim.compensate import anfis
+from rotemina.sim.compensate.errors import CompensationError
+from rotemina.sim.compensate.file import Provenance, write_trained
+from rotemina.sim.compensate.inverse import Beyond
+from rotemina.sim.compensate.judgement import Residual
+from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.compensate.training import Trained
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import AxisEffect
+
+LONG_MS = 30_000
+ROBOT = load_robot("rotemina")
+SPAN = ROBOT.axes["zn"].span
+
+
+def _model(kind="prandtl_ishlinskii"):
+    return InverseModel(
+        axis="zn",
+        unit="m",
+        kind=kind,
+        sample_s=1e-3,
+        origin=0.0,
+        command_origin=0.0,
+        span=SPAN,
+        desired_range=(1e-6, 60e-6),
+        command_range=(0.0, SPAN),
+        speed=1.0,
+        consequents=np.array([[0.0, 0.9, 0.1]]),
+        radii=np.array([0.1]),
+        initial=np.zeros(1),
+    )
+
+
+def _learned():
+    models = {kind: _model(kind) for kind in ("prandtl_ishlinskii", "linear")}
+    left_ = Residual(5e-8, 5e-8, 2e-7, 8e-4, 6e-7, 0.0, 0.0)
+    residuals = {"prandtl_ishlinskii": left_, "linear": replace(left_, rms=2e-6, share=0.03)}
+    why = "Prandtl–Ishlinskii leaves 0.080%"
+    trained = Trained(models, residuals, "prandtl_ishlinskii", why, ("Mind the gap.",))
+    provenance = Provenance(robot=ROBOT.name, trained_on=[], held_out=[], seed=0, versions={})
+    return Learned(trained, provenance, {})
+
+
+def _record(swing=0.48, rows=3000):
+    turn = np.linspace(0.0, 60.0, rows)
+    shares = 0.5 - swing * np.linspace(1.0, 0.2, rows) * np.cos(turn)
+    lost, play = np.empty(rows), 0.0
+    for k, x in enumerate(shares):
+        play = max(x - 0.1, min(x + 0.1, play))
+        lost[k] = 0.8 * x + 0.15 * play
+    signals = {("zn", Tap.CMD): SPAN * shares, ("zn", Tap.MEAS): SPAN * lost}
+    return Record.from_signals(np.arange(rows) * 1e-3, signals, {"zn": "m"})
+
+
+def _hasty(self):
+    """Set an ANFIS that is trained in an instant."""
+    for name, value in (("memberships", 3), ("plays", ()), ("epochs", 2), ("patience", 2)):
+        object.__setattr__(self, name, value)
+
+
+@pytest.fixture
+def panel(make_robot_window):
+    return make_robot_window("rotemina").panels["compensation"]
+
+
+def test_learn_put_on_and_take_off(qtbot, panel, tmp_path, monkeypatch):
+    monkeypatch.setattr(anfis.Settings, "__init__", _hasty)
+    controls, session = panel.controls, panel.workbench.session
+    assert [controls.axis.itemData(k) for k in range(3)] == ["thx", "thy", "zn"]
+    controls.axis.setCurrentIndex(2)
+    qtbot.waitUntil(lambda: "There is no inverse yet" in controls.switch.toolTip(), timeout=LONG_MS)
+    assert not controls.record.isEnabled()
+
+    panel.workbench.record = _record(swing=0.01)  # holds no loop: nothing is replaced
+    panel.learn_record()
+    qtbot.waitUntil(lambda: "nothing was replaced" in controls.doing.text(), timeout=LONG_MS)
+    assert panel.learned is None
+
+    panel.workbench.record = _record()
+    panel.learn_record()
+    qtbot.waitUntil(lambda: panel.learned is not None, timeout=LONG_MS)
+    assert panel.check.table.rowCount() == 4
+    assert "leaves" in panel.check.why.text()
+    assert controls.kind.currentData() == panel.learned.trained.chosen
+
+    path = tmp_path / "zn.json"
+    learned = _learned()
+    write_trained(path, learned.trained, learned.provenance)
+    panel.open_file(path)
+    qtbot.waitUntil(lambda: "Mind the gap" in panel.check.why.text(), timeout=LONG_MS)
+    controls.axis.setCurrentIndex(0)
+    qtbot.waitUntil(lambda: "is of axis zn" in controls.switch.toolTip(), timeout=LONG_MS)
+    controls.axis.setCurrentIndex(2)
+    qtbot.waitUntil(controls.switch.isEnabled, timeout=LONG_MS)
+    controls.switch.click()
+    qtbot.waitUntil(lambda: "zn" in session.compensated, timeout=LONG_MS)
+    assert session.compensated["zn"].name == "Prandtl–Ishlinskii, zn.json"
+    qtbot.waitUntil(lambda: controls.switch.text() == "Take off", timeout=LONG_MS)
+    qtbot.waitUntil(controls.switch.isEnabled, timeout=LONG_MS)
+
+    # What a play of the trial motion left is shown beside the other state's.
+    motion = trial_motion(ROBOT, "zn")
+    for metadata, state in (({}, False), ({"compensation zn": "PI"}, True)):
+        wanted = motion.signal("zn", Tap.CMD)
+        signals = {("zn", Tap.CMD): wanted, ("zn", Tap.MEAS): 1.01 * wanted}
+        said = {"trajectory": motion.metadata["name"], **metadata}
+        played = Record.from_signals(motion.time_s, signals, {"zn": "m"}, said)
+        panel._happened.emit(PlaybackFinished(played, True))
+        assert state in panel.trials
+    qtbot.waitUntil(lambda: "rms, mean" in controls.after.text(), timeout=LONG_MS)
+
+    controls.switch.click()
+    qtbot.waitUntil(lambda: session.compensated == {}, timeout=LONG_MS)
+
+
+def test_a_search_is_stopped_and_a_point_of_its_front_tried_and_kept(qtbot, panel, tmp_path):
+    controls = panel.controls
+    controls.axis.setCurrentIndex(2)
+    controls.generations.setValue(60)
+    panel.tune()
+    qtbot.waitUntil(lambda: "generations" in controls.doing.text(), timeout=LONG_MS)
+    controls.stop.setEnabled(True)
+    controls.stop.click()
+    qtbot.waitUntil(lambda: panel.tuning is not None, timeout=LONG_MS)
+    assert panel.tuning.provenance.done < 60
+    panel.pick(0)
+    assert panel.tuning.chosen == 0
+    assert controls.point.text().startswith("Point 0: tracking ")
+    curve = panel.front.step.plot._curves["position"]
+    qtbot.waitUntil(lambda: curve.getData()[0] is not None, timeout=LONG_MS)
+    x, y = panel.front._front[0] * (100.0, 1.0)
+    assert panel.front.nearest(x, y) == 0
+    panel.keep(tmp_path / "zn.toml")
+    qtbot.waitUntil((tmp_path / "zn.toml").exists, timeout=LONG_MS)
+
+
+@pytest.mark.slow
+def test_before_and_after_on_the_simulated_machine(qtbot, panel):
+    controls, session = panel.controls, panel.workbench.session
+    width = {"width": 0.12 * SPAN}
+    session.set_effects([AxisEffect(axis="zn", id="hysteresis", parameters=width)])
+    qtbot.waitUntil(lambda: bool(session.effects), timeout=LONG_MS)
+    controls.axis.setCurrentIndex(2)
+    panel.learn_simulated()
+    qtbot.waitUntil(lambda: panel.learned is not None, timeout=4 * LONG_MS)
+    for on in (False, True):
+        if on:
+            qtbot.waitUntil(controls.switch.isEnabled, timeout=LONG_MS)
+            controls.switch.click()
+            qtbot.waitUntil(lambda: "zn" in session.compensated, timeout=LONG_MS)
+        qtbot.waitUntil(lambda: "zn" not in session.snapshot().owners, timeout=LONG_MS)
+        qtbot.waitUntil(controls.trial.isEnabled, timeout=LONG_MS)
+        controls.trial.click()
+        qtbot.waitUntil(lambda on=on: on in panel.trials, timeout=LONG_MS)
+    assert panel.trials[True].rms < 0.15 * panel.trials[False].rms
+
+
+def test_a_trial_is_told_from_other_plays():
+    motion = trial_motion(ROBOT, "zn")
+    path = motion.signal("zn", Tap.CMD)
+    low, high = ROBOT.axes["zn"].range
+    assert low < path.min() < path.max() < high
+    assert path[0] == pytest.approx(0.5 * (low + high))
+    signals = {("zn", Tap.CMD): path, ("zn", Tap.MEAS): path + 2e-7}
+    said = {"trajectory": "compensation trial"}
+    trial = trial_of(Record.from_signals(motion.time_s, signals, {"zn": "m"}, said), "zn")
+    assert trial is not None
+    assert not trial.compensated
+    assert (trial.rms, trial.offset) == pytest.approx((0.0, 2e-7), abs=1e-12)
+    assert trial_of(Record.from_signals(motion.time_s, signals, {"zn": "m"}), "zn") is None
+    assert trial_of(Record.from_signals(motion.time_s, signals, {"zn": "m"}, said), "thx") is None
+
+
+def test_a_stopped_training_raises_where_it_tells():
+    class EnoughError(Exception):
+        pass
+
+    def tell(_what, share):
+        if share > 0.0:
+            raise EnoughError
+
+    with pytest.raises(EnoughError):
+        learned_from(ROBOT, "zn", [("a", _record())], tell)
+    with pytest.raises(CompensationError, match="a: axis thx needs the columns"):
+        learned_from(ROBOT, "thx", [("a", _record())], lambda *_: None)
+
+
+def test_words():
+    learned = _learned()
+    rows = judged(learned.trained)
+    assert rows[0] == ("Prandtl–Ishlinskii ◂", "50 nm", "0.2 µm", "0.08%")
+    assert rows[1][0] == "linear"
+    assert left(None, "m") == "–"
+    assert micro(-1.5e-6, "rad") == "-1.5 µrad"
+    assert beyond(Beyond(0)) == ""
+    assert beyond(Beyond.FAST | Beyond.COMMAND) == (
+        "It has been faster than it saw, at an end of the machine's range (clamped)."
+    )
