@@ -28,7 +28,7 @@ from rotemina.sim.vision.calibration import Demands, StageFit, fit_stage
 from rotemina.sim.vision.image import Image
 from rotemina.sim.vision.pipette import Pipette
 from rotemina.sim.vision.registration import register
-from rotemina.sim.vision.tip import find_tip, fit_depths, likeliest
+from rotemina.sim.vision.tip import find_body, find_tip, fit_depths, likeliest
 from rotemina.sim.vision.tip_fit import TipFit
 
 OWNER = "calibration"
@@ -101,6 +101,8 @@ class CalibrationRun:
     now_s : float
         The host's time.
     demands : Demands, optional
+    direction_known : bool
+        Whether the pipette's direction is roughly right; else it is found along with the tip.
     today : callable
         Return date and time, for the file.
 
@@ -121,10 +123,12 @@ class CalibrationRun:
         now_s: float,
         extent_m: float | None = None,
         demands: Demands | None = None,
+        direction_known: bool = True,
         today: Callable[[], datetime] = lambda: datetime.now(UTC),
     ) -> None:
         self._session, self._stage, self._pipette = session, stage, pipette
         self._demands, self._today = demands, today
+        self._find = find_tip if direction_known else find_body
         self._chain = Chain.of(session.robot)
         state = session.snapshot()
         if state.locked is not None:
@@ -172,11 +176,16 @@ class CalibrationRun:
             self._go_back(str(error), now_s)
         return self._status
 
-    def abort(self) -> None:
+    @property
+    def ended(self) -> bool:
+        """Whether it moves nothing any more."""
+        return self._status.phase in (Phase.DONE, Phase.FAILED)
+
+    def abort(self, reason: str = "the calibration was stopped") -> None:
         """Stop the machine and end; it stays where it is."""
-        if self._status.phase in (Phase.LOOKING, Phase.RETURNING):
+        if not self.ended:
             self._session.stop()
-            self._end(Phase.FAILED, "the calibration was stopped")
+            self._end(Phase.FAILED, reason)
 
     # --- the moves --------------------------------------------------------------------------------
 
@@ -195,6 +204,7 @@ class CalibrationRun:
     def _go_on(self, now_s: float) -> None:
         done = self._status.done
         if done <= len(self._plan) - 1:
+            self._looking.check()
             self._session.go_to(self._plan[done], OWNER)
         else:
             self._finish()
@@ -207,6 +217,7 @@ class CalibrationRun:
         """Return to where it began; a refusal of that ends it where it is."""
         self._status = replace(self._status, phase=Phase.RETURNING, reason=reason)
         try:
+            self._looking.check()
             self._session.go_to(self._begin, OWNER)
         except InputError as error:
             self._end(Phase.FAILED, f"{reason or 'calibrated'}; it could not go back: {error}")
@@ -240,7 +251,7 @@ class CalibrationRun:
         if pipette is None:
             return None
         if expected is None:
-            fit = find_tip(image, pipette)
+            fit = self._find(image, pipette)
             # Its direction is found with it, and kept.
             self._pipette = replace(pipette, direction=fit.direction)
             return fit

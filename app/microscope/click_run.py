@@ -62,6 +62,8 @@ class ClickRun:
     corrections : int
         At most.
     confirmed : bool
+    clear : bool
+        Whether ``before`` shows the goal without the tip for certain.
 
     Raises
     ------
@@ -81,9 +83,11 @@ class ClickRun:
         tolerance_px: float = TOLERANCE_PX,
         corrections: int = CORRECTIONS,
         confirmed: bool = False,
+        clear: bool = False,
     ) -> None:
         self._clicks, self._goal, self._stage = clicks, move.pixel, move.stage
         self._track, self._ghost, self._before = track, move.ghost, before
+        self._clear = clear
         self._tolerance_px, self._corrections = tolerance_px, corrections
         self._looking = Looking(clicks.session, newest)
         clicks.go(move, confirmed=confirmed)
@@ -92,7 +96,7 @@ class ClickRun:
 
     def step(self, now_s: float) -> VisitStatus:
         """Go on; never raises for what a device or a camera does."""
-        if self.status.visit is not Visit.UNDER_WAY:
+        if self.ended:
             return self.status
         try:
             look = self._looking.step(now_s)
@@ -101,6 +105,17 @@ class ClickRun:
         except InputError as error:
             self.status = replace(self.status, visit=Visit.FAILED, reason=str(error))
         return self.status
+
+    @property
+    def ended(self) -> bool:
+        """Whether it moves nothing any more."""
+        return self.status.visit is not Visit.UNDER_WAY
+
+    def abort(self, reason: str) -> None:
+        """Stop the machine and end; it stays where it is."""
+        if not self.ended:
+            self._clicks.session.stop()
+            self.status = replace(self.status, visit=Visit.FAILED, reason=reason)
 
     def _judge(self, look: Look, now_s: float) -> None:
         tip = self._seen(look)
@@ -123,6 +138,7 @@ class ClickRun:
             )
         self._ghost = self._goal
         move = self._correction(tip)
+        self._looking.check()
         self._clicks.go(move)
         self.status = replace(self.status, corrections=self.status.corrections + 1)
         self._looking.begin(now_s)
@@ -155,6 +171,8 @@ class ClickRun:
         before, track = self._before, self._track
         if before is None or before[window].shape != part.shape:
             return part
+        if self._clear:
+            return over(part, before[window])
         corner = np.array([window[1].start, window[0].start])
         covered = track.pipette.drawn(track.pixel - corner, track.depth.distance, part.shape)[0]
         return part if covered.max() > _COVERED else over(part, before[window])

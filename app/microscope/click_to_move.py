@@ -137,12 +137,17 @@ class ClickToMove:
         OutOfLimitsError, RefusedError
             What the session says: keep-out, owners, locks.
         """
-        if move.confirm and not confirmed:
+        if not confirmed:
+            self.check(move)
+        self.session.go_to(move.targets, OWNER)
+
+    def check(self, move: PlannedMove) -> None:
+        """Refuse a move that must be confirmed, with MicroscopeError."""
+        if move.confirm:
             raise MicroscopeError(
                 f"the tip would go {readable(move.distance, 'm')}, more than "
                 f"{readable(self.confirm_m, 'm')}; confirm the move first"
             )
-        self.session.go_to(move.targets, OWNER)
 
     def go_back(self) -> None:
         """Return to where the machine rested before its latest move; raises as ``undo``."""

@@ -66,7 +66,7 @@ class FocusRun:
         now_s: float,
         part: tuple[slice, slice] = (slice(None), slice(None)),
     ) -> None:
-        self._move, self._part = move, part
+        self._session, self._move, self._part = session, move, part
         self._autofocus = Autofocus.over(low, high)
         self._looking = Looking(session, newest)
         self.status = FocusStatus(Search.UNDER_WAY)
@@ -74,7 +74,7 @@ class FocusRun:
 
     def step(self, now_s: float) -> FocusStatus:
         """Go on; never raises for what a device or a camera does."""
-        if self.status.search is not Search.UNDER_WAY:
+        if self.ended:
             return self.status
         try:
             look = self._looking.step(now_s)
@@ -87,10 +87,22 @@ class FocusRun:
             self._autofocus = self._autofocus.told(sharpness(look.image[self._part]))
             found = self._autofocus
             self.status = replace(self.status, places=found.places, values=found.values)
+            self._looking.check()
             self._go(now_s)
         except InputError as error:
             self.status = replace(self.status, search=Search.FAILED, reason=str(error))
         return self.status
+
+    @property
+    def ended(self) -> bool:
+        """Whether it moves nothing any more."""
+        return self.status.search is not Search.UNDER_WAY
+
+    def abort(self, reason: str) -> None:
+        """Stop the machine and end; it stays where it is."""
+        if not self.ended:
+            self._session.stop()
+            self.status = replace(self.status, search=Search.FAILED, reason=reason)
 
     def _go(self, now_s: float) -> None:
         target = self._autofocus.target

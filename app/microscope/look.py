@@ -122,6 +122,18 @@ class Looking:
             )
         return None
 
+    def check(self) -> None:
+        """Refuse if nothing may be moved any more; to be asked right before every move.
+
+        What is computed from a picture takes a while, in which somebody may stop the machine.
+
+        Raises
+        ------
+        MicroscopeError
+            As :meth:`step`.
+        """
+        self._refuse_if_broken(self._session.snapshot())
+
     def _restart(self) -> None:
         self._rested_s = None
         self._watch = Watch()

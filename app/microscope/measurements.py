@@ -25,15 +25,18 @@ CHANNEL = "tip"
 _UM = 1e6
 
 
-def tip_columns(track: TipTrack, calibration: StageCalibration) -> dict[str, float]:
+def tip_columns(track: TipTrack, calibration: StageCalibration | None) -> dict[str, float]:
     """Return what a recording keeps of a tip, by column; positions in µm, ``sd`` their doubts.
 
-    All are NaN while the tip is lost, but ``quality``, which is 0 then. ``z`` is the distance from
-    focus; ``z sign known`` is 0 where its sign may as well be the other one.
+    ``x`` and ``y`` are NaN where nothing is calibrated. All are NaN while the tip is lost, but
+    ``quality``, which is 0 then. ``z`` is the distance from focus; ``z sign known`` is 0 where its
+    sign may as well be the other one.
     """
     if track.lost:
         return {**dict.fromkeys(_COLUMNS, float("nan")), "quality": 0.0}
-    tip_m, spread = tip_in_plane(track.pixel, track.covariance, calibration)
+    tip_m, spread = np.full(2, np.nan), np.full((2, 2), np.nan)
+    if calibration is not None:
+        tip_m, spread = tip_in_plane(track.pixel, track.covariance, calibration)
     doubts = np.sqrt(np.diag(spread))
     values = (
         float(tip_m[0]) * _UM,

@@ -1,10 +1,15 @@
 """What the robot file says of microscope and tool, as the finder of the tip takes it."""
 
+import re
+from dataclasses import replace
 from math import pi
 
 import numpy as np
 
 from rotemina.app.microscope.errors import MicroscopeError
+from rotemina.sim.microscope.optics import APERTURE as SIMULATED_APERTURE
+from rotemina.sim.microscope.optics import MAGNIFICATION, PIXEL_SIZE_M
+from rotemina.sim.microscope.scene import Pin
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.vision.pipette import Pipette
 
@@ -12,8 +17,10 @@ APPROACH = pi / 4  # rad, where a file says nothing
 APERTURE = 0.4
 
 
-def nominal_pixel_m(robot: Robot) -> float:
+def nominal_pixel_m(robot: Robot, objective: str = "") -> float:
     """Return the size of a pixel in the specimen, m, by the robot file.
+
+    An ``objective`` whose name tells its magnification counts instead of the file's.
 
     Raises
     ------
@@ -26,7 +33,34 @@ def nominal_pixel_m(robot: Robot) -> float:
             f"robot {robot.name!r}: [microscope] pixel_size and magnification are missing; the "
             "tip's shape cannot be known without them"
         )
-    return given.pixel_size / given.magnification
+    return given.pixel_size / (magnification_of(objective) or given.magnification)
+
+
+def as_simulated(robot: Robot) -> Robot:
+    """Return a robot whose file says of microscope and tool what the simulated one takes."""
+    given, angle = robot.microscope, robot.tool.approach_angle
+    return replace(
+        robot,
+        microscope=replace(
+            given,
+            pixel_size=given.pixel_size or PIXEL_SIZE_M,
+            magnification=given.magnification or MAGNIFICATION,
+            numerical_aperture=given.numerical_aperture or SIMULATED_APERTURE,
+        ),
+        tool=replace(robot.tool, approach_angle=Pin().approach_rad if angle is None else angle),
+    )
+
+
+def magnification_of(objective: str) -> float | None:
+    """Return what the name of an objective says of its magnification: ``40x``, ``Plan 40x/0.6``."""
+    found = re.search(r"(\d+(?:\.\d+)?)\s*[x×]", objective, re.IGNORECASE)
+    return float(found[1]) if found and float(found[1]) > 0.0 else None
+
+
+def objective_of(robot: Robot) -> str:
+    """Return what the robot file's objective is called."""
+    magnification = robot.microscope.magnification
+    return "objective" if magnification is None else f"{magnification:g}x"
 
 
 def pipette_of(robot: Robot, direction: float, pixel_m: float | None = None) -> Pipette:

@@ -52,7 +52,7 @@ class Tour:
         """
         self._refuse_under_way()
         self.targets.clear()
-        self._present = None
+        self._present = self._run = None
 
     def next(self) -> Target:
         """Go to the first target that nobody has been sent to.
@@ -73,6 +73,36 @@ class Tour:
                 return self.targets[index]
         raise MicroscopeError("every target has been visited; mark further ones")
 
+    @property
+    def ended(self) -> bool:
+        """Whether nothing is moved any more."""
+        return self._run is None or self._run.ended
+
+    @property
+    def run(self) -> ClickRun | None:
+        """The present visit, or the latest one."""
+        return self._run
+
+    def remove(self, index: int) -> None:
+        """Forget one target.
+
+        Raises
+        ------
+        MicroscopeError
+            If there is no such one, or on the way to one.
+        """
+        self._refuse_under_way()
+        if not 0 <= index < len(self.targets):
+            raise MicroscopeError(f"there is no target {index + 1}; there are {len(self.targets)}")
+        del self.targets[index]
+        self._present = self._run = None
+
+    def abort(self, reason: str) -> None:
+        """Stop the machine and end the present visit."""
+        if self._run is not None:
+            self._run.abort(reason)
+            self._note()
+
     def step(self, now_s: float) -> Target | None:
         """Go on with the present visit; return its target, or None before the first."""
         if self._run is None or self._present is None:
@@ -88,5 +118,5 @@ class Tour:
         self.targets[self._present] = Target(target.column, target.row, status.visit, status.reason)
 
     def _refuse_under_way(self) -> None:
-        if self._run is not None and self._run.status.visit is Visit.UNDER_WAY:
+        if not self.ended:
             raise MicroscopeError("the tip is on its way to a target; wait, or stop it first")

@@ -8,6 +8,7 @@ from typing import ClassVar
 from rotemina.drivers.cameras.camera import Camera, CameraIdentity, Wait
 from rotemina.drivers.cameras.errors import CameraRefusedError
 from rotemina.drivers.clock import Clock
+from rotemina.sim.plugin_points import API_VERSIONS
 
 
 class CameraSource(ABC):
@@ -19,7 +20,8 @@ class CameraSource(ABC):
         As of :class:`Camera`. An entry point's class is made with these alone.
     """
 
-    api_version: ClassVar[int] = 1
+    #: The version of this interface that the class was written for.
+    api_version: ClassVar[int] = API_VERSIONS["rotemina.cameras"]
     #: How screens call this kind of camera.
     name: ClassVar[str] = "camera"
     #: What can be typed to name a camera that no list shows; empty: nothing.

@@ -50,6 +50,8 @@ class Pipette:
         What comes back through it, as a share of the light that the tube takes; 0 for a solid pin.
     end : float
         Where a square end would stand, px from the tip, for the light of the true one.
+    yielding : float
+        How far about the tip a cell that it presses on gives way, px.
     """
 
     direction: float
@@ -61,6 +63,7 @@ class Pipette:
     bore: float = 0.6
     lumen: float = 0.5
     end: float = 0.0
+    yielding: float = 45.0
 
     def __post_init__(self) -> None:
         least = {"radius": self.radius, "sharpest": self.sharpest}
@@ -81,6 +84,7 @@ class Pipette:
         wavelength_m: float = 550e-9,
         bore: float = 0.6,
         lumen: float = 0.5,
+        yielding_m: float = 15e-6,
     ) -> Self:
         """Return how a pipette of this make is seen.
 
@@ -98,6 +102,8 @@ class Pipette:
         tip_radius_m, taper : float
             Radius at the tip, and its growth per length of the body.
         wavelength_m, bore, lumen : float
+        yielding_m : float
+            How far about the tip a cell gives way.
 
         Raises
         ------
@@ -120,6 +126,7 @@ class Pipette:
             defocus=0.45 * aperture / pixel_m,
             bore=bore,
             lumen=lumen,
+            yielding=yielding_m / pixel_m,
         )
 
     def blur(self, depth: FloatArray | float) -> FloatArray:

@@ -30,6 +30,8 @@ MOST_DOUBT_PX = 3.0
 _LEAST_CLEARER = 30.0  # of squares over noise, by which one sign must fit better
 _FINDING_PX = 96  # of the template that a whole image is searched with
 _FINDING_DEPTHS = (0.0, 8e-6, -8e-6, 20e-6, -20e-6)
+_DIRECTIONS = 30  # that a body may lead in, if nobody knows: each is found within half of a step
+_TRIED = 4  # of the likeliest of them
 
 
 def fit_depths(
@@ -97,6 +99,38 @@ def find_tip(image: Image, pipette: Pipette, *, turning: bool = True) -> TipFit:
             "view and near focus, or correct its direction in the image"
         )
     return best
+
+
+def find_body(image: Image, pipette: Pipette) -> TipFit:
+    """Find the tip in a whole image, whatever direction its body leads in.
+
+    It takes some ten times as long as :func:`find_tip`.
+
+    Raises
+    ------
+    VisionError
+        If nothing looks like it.
+    """
+    # A longer part of the body than shows the tip: that is what tells the direction.
+    long = 2 * _FINDING_PX if min(image.shape) >= 4 * _FINDING_PX else _FINDING_PX
+    flat = flattened(image)
+    scores = []
+    for turn in np.linspace(-np.pi, np.pi, _DIRECTIONS, endpoint=False):
+        aimed = replace(pipette, direction=float(turn))
+        scores.append((likeliest(flat, aimed, _FINDING_DEPTHS, long // 24, long)[0], aimed))
+    scores.sort(key=lambda one: -one[0])
+    fits, refusal = [], VisionError("")
+    for _, aimed in scores[:_TRIED]:
+        try:
+            fits.append(find_tip(image, aimed))
+        except VisionError as error:
+            refusal = error
+    if not fits:
+        raise VisionError(
+            "tip: nothing in the picture looks like a pipette, in whatever direction; bring the "
+            "tip into view and near focus"
+        ) from refusal
+    return min(fits, key=lambda fit: fit.uncertainty_px)
 
 
 def plausible(fit: TipFit) -> bool:

@@ -191,14 +191,14 @@ class _Fitting:
             drawn = pipette.drawn(place, depth, self.seen.shape, self.stride)
             drawn = drawn.reshape(6, -1)
             if turn == 0:
-                light = _least_squares(np.vstack([ground, drawn[:1]]), aim, weights)
+                light = least_squares(np.vstack([ground, drawn[:1]]), aim, weights)
                 if light is None:
                     return None
                 contrast, level = float(light[self.body]), float(light[0])
             free = self.free if turn >= self.placed else self.free[:2]
             rows = np.vstack([ground, drawn[:2], contrast * drawn[free]])
             ties = self._ties(contrast, level, variance)
-            solved = _least_squares(rows, aim, weights, ties)
+            solved = least_squares(rows, aim, weights, ties)
             if solved is None:
                 return None
             found = solved
@@ -216,7 +216,7 @@ class _Fitting:
                 return None
             residual = aim - found @ rows
             if turn >= self.placed:
-                weights = _tukey(residual)
+                weights = tukey(residual)
             variance = float((weights * residual**2).sum()) / float(weights.sum())
             turn += 1
             last = max(float(np.abs(step).max()), abs(deeper) * self.pipette.defocus)
@@ -286,7 +286,7 @@ class _Fitting:
         )
 
 
-def _least_squares(
+def least_squares(
     rows: FloatArray, aim: FloatArray, weights: FloatArray, ties: tuple[Tie, ...] = ()
 ) -> FloatArray | None:
     """Return the coefficients (k,) of functions (k, pixels) that come nearest to ``aim``."""
@@ -327,6 +327,7 @@ def _sum_up(
             normal[i, j] = normal[j, i] = total
 
 
-def _tukey(residual: FloatArray) -> FloatArray:
+def tukey(residual: FloatArray) -> FloatArray:
+    """Return the weights (pixels,) of residuals: none for what is far off the others."""
     scale = max(1.4826 * float(np.median(np.abs(residual))), 1e-9) * _TUKEY
     return np.asarray(np.clip(1.0 - (residual / scale) ** 2, 0.0, None) ** 2)

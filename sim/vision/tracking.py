@@ -1,12 +1,21 @@
-"""A tip followed from frame to frame: kept, lost with the reason, found again."""
+"""A tip followed from frame to frame: kept, lost with the reason, found again.
 
-from dataclasses import dataclass, replace
+Where it presses on a membrane its end is hidden, and it is placed by its body
+(:mod:`rotemina.sim.vision.body_fit`). What a single frame tells is then weighed against where the
+tip should be: where it was, and by how much it was told to move since (Kalman's filter, with the
+covariances of both).
+"""
+
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.vision.body_fit import fit_body, learn_body
 from rotemina.sim.vision.errors import VisionError
-from rotemina.sim.vision.image import Image
+from rotemina.sim.vision.image import Image, over
 from rotemina.sim.vision.pipette import Pipette
 from rotemina.sim.vision.tip import (
     LEAST_USED,
@@ -25,6 +34,12 @@ _ANEW = 5  # frames after which the whole image is searched, and again after as 
 _LEAST_CONTRAST, _MOST_CONTRAST = 0.4, 2.0  # of that when it was found
 _AWAY = (8e-6, -8e-6, 20e-6, -20e-6)  # m that it may have gone in depth between two frames
 _SMOOTHED = 0.5  # share of the new in the running speed
+_PART_PX = 90  # beyond what is searched, that a fit may look at
+# By how much a tip that presses may be off where it should be after a frame: whatever drifts, a
+# share of the way that it was told to go, and where nobody says how far that is.
+_WANDERS_PX, _WAY_DOUBT, _UNTOLD_PX = 0.05, 0.2, 0.3
+_BENEATH_PX = 6.0, 0.5  # along the body and across, that a cell leaves that is not taken off
+_JUMP = 5.0  # standard deviations beyond which it was moved by something else
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -46,6 +61,10 @@ class TipTrack:
         What it had when it was found.
     dimple : bool
         Whether the tip may press something in that shades it.
+    learnt : int
+        Frames from which :func:`learn` knows the body.
+    offset : (2,)
+        From where the body tells the tip to where it is, px, as learnt.
     lost_for : int
         Frames since it was seen.
     reason : str
@@ -60,6 +79,8 @@ class TipTrack:
     quality: float
     contrast: float
     dimple: bool = False
+    learnt: int = 0
+    offset: FloatArray = field(default_factory=lambda: np.zeros(2))
     lost_for: int = 0
     reason: str = ""
 
@@ -84,16 +105,44 @@ def begin_track(
     return replace(_found(find_tip(image, pipette, turning=turning), pipette), dimple=dimple)
 
 
-def follow(track: TipTrack, image: Image) -> TipTrack:
-    """Return the track after one more frame (rows, columns)."""
-    fit = _near(track, image)
+def follow(
+    track: TipTrack,
+    image: NDArray[Any],
+    *,
+    background: Image | None = None,
+    moved: FloatArray | None = None,
+) -> TipTrack:
+    """Return the track after one more frame.
+
+    Parameters
+    ----------
+    track : TipTrack
+    image : (rows, columns)
+        Numbers of any kind; mostly a part of them is looked at.
+    background : (rows, columns), optional
+        The same view without the tip.
+    moved : (2,), optional
+        By how many px the tip should have moved since the frame before, by kinematics and
+        calibration; by default as it did before.
+    """
+    fit = None
+    if track.dimple and not track.lost:
+        start = track.pixel - track.offset + (0.0 if moved is None else moved)
+        fit = fit_body(
+            image, track.pipette, start, track.depth.distance, track.contrast, background
+        )
+        if fit is not None and not _doubt(fit, track):
+            return _weighed(track, fit, moved, background is not None)
+    fit = _near(track, image, background, moved)
     reason = _doubt(fit, track)
     if fit is not None and not reason:
-        return _kept(track, fit)
+        return _kept(track, _doubted(fit) if track.dimple and background is None else fit)
     lost_for = track.lost_for + 1
     if lost_for % _ANEW == 0:
+        whole = np.asarray(image, dtype=np.float32)
         try:
-            fit = find_tip(image, track.pipette, turning=False)
+            whole = whole if background is None else over(whole, background)
+            fit = find_tip(whole, track.pipette, turning=False)
         except VisionError as error:
             reason = str(error)
         else:
@@ -105,8 +154,51 @@ def follow(track: TipTrack, image: Image) -> TipTrack:
     )
 
 
-def _near(track: TipTrack, image: Image) -> TipFit | None:
-    """Look for it where it should be, then at other depths."""
+def learn(track: TipTrack, image: NDArray[Any], *, background: Image | None = None) -> TipTrack:
+    """Return the track after a frame in which the tip presses on nothing yet, and nears it.
+
+    What the body looks like is kept as the mean of all frames so far: its direction, the light
+    that it takes, and how far the tip is from where the body alone would place it. All three
+    become better with the square root of the frames; 30 are enough.
+    """
+    depth = track.depth.distance
+    fit = learn_body(image, track.pipette, track.pixel, depth, track.contrast, background)
+    if fit is None or _doubt(fit, track):
+        return follow(track, image, background=background)
+    share = 1.0 / (track.learnt + 1)
+    old = track.pipette.direction if track.learnt else fit.direction
+    turned = replace(track.pipette, direction=old + share * (fit.direction - old))
+    light = track.contrast if track.learnt else fit.contrast
+    light += share * (fit.contrast - light)
+    blind = fit_body(image, turned, fit.pixel, fit.depth.distance, light, background)
+    if blind is None:
+        return follow(track, image, background=background)
+    offset = track.offset + share * (fit.pixel - blind.pixel - track.offset)
+    known = replace(track, pipette=turned, contrast=light, offset=offset, learnt=track.learnt + 1)
+    return _kept(known, fit)
+
+
+def _near(
+    track: TipTrack, image: NDArray[Any], background: Image | None, moved: FloatArray | None
+) -> TipFit | None:
+    """Look for it where it should be, in the part of the picture that may be needed."""
+    expected = track.pixel + (track.speed if moved is None else moved)
+    half = round(REACH_PX + _WIDER_PX * track.lost_for) + _LOOK_PX + _PART_PX
+    middle = np.rint(expected).astype(int)
+    low = np.maximum(middle - half, 0)
+    high = np.minimum(middle + half + 1, image.shape[::-1])
+    if (high - low < 2 * _LOOK_PX).any():
+        return None
+    window = slice(low[1], high[1]), slice(low[0], high[0])
+    part = np.ascontiguousarray(image[window], dtype=np.float32)
+    if background is not None:
+        part = over(part, background[window])
+    fit = _fitted(replace(track, pixel=expected - low), part)
+    return None if fit is None else replace(fit, pixel=fit.pixel + low)
+
+
+def _fitted(track: TipTrack, image: Image) -> TipFit | None:
+    """Look for it about ``track.pixel``, then at other depths."""
     depth = track.depth.distance
     place = _likely_place(track, image, (depth,))
     if place is None:
@@ -129,7 +221,7 @@ def _near(track: TipTrack, image: Image) -> TipFit | None:
 
 def _likely_place(track: TipTrack, image: Image, depths: tuple[float, ...]) -> FloatArray | None:
     half = round(REACH_PX + _WIDER_PX * track.lost_for) + _LOOK_PX
-    middle = np.rint(track.pixel + track.speed).astype(int)
+    middle = np.rint(track.pixel).astype(int)
     low = np.maximum(middle - half, 0)
     high = np.minimum(middle + half + 1, image.shape[::-1])
     if (high - low < 2 * _LOOK_PX).any():
@@ -167,6 +259,30 @@ def _kept(track: TipTrack, fit: TipFit) -> TipTrack:
         lost_for=0,
         reason="",
     )
+
+
+def _weighed(track: TipTrack, fit: TipFit, moved: FloatArray | None, alone: bool) -> TipTrack:
+    """Weigh what a frame tells of a pressing tip against where it should be."""
+    way = np.zeros(2) if moved is None else np.asarray(moved, dtype=np.float64)
+    off = _UNTOLD_PX if moved is None else _WANDERS_PX + _WAY_DOUBT * float(np.hypot(*way))
+    before = track.covariance + off**2 * np.eye(2)
+    fit = replace(fit, pixel=fit.pixel + track.offset)
+    if not alone:  # what lies beneath is no noise: it does not become less with more frames
+        return _kept(track, _doubted(fit))
+    news = fit.pixel - track.pixel - way
+    total = before + fit.covariance
+    if float(news @ np.linalg.solve(total, news)) > _JUMP**2:
+        return _kept(track, fit)  # it is where it is seen, whatever it was told
+    gain = before @ np.linalg.inv(total)
+    pixel, covariance = track.pixel + way + gain @ news, before - gain @ before
+    return _kept(track, replace(fit, pixel=pixel, covariance=covariance))
+
+
+def _doubted(fit: TipFit) -> TipFit:
+    """Return a fit over a cell whose picture is not taken off, with what that leaves."""
+    body = np.array([np.cos(fit.direction), np.sin(fit.direction)])
+    left = _BENEATH_PX[0] ** 2 * np.outer(body, body) + _BENEATH_PX[1] ** 2 * np.eye(2)
+    return replace(fit, covariance=fit.covariance + left)
 
 
 def _found(fit: TipFit, pipette: Pipette) -> TipTrack:

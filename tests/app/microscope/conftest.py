@@ -1,10 +1,15 @@
-"""A machine under a simulated microscope whose mounting nobody tells, on a clock set by hand."""
+"""A machine under a simulated microscope whose mounting nobody tells, on a clock set by hand.
+
+``Bench`` has session and camera beside each other; ``Workplace`` the whole microscope over them.
+"""
 
 from types import MappingProxyType
 
 import numpy as np
 import pytest
 
+from rotemina.app.cameras.feed import FeedState, FeedView
+from rotemina.app.cameras.watch import Showing, Watch
 from rotemina.app.microscope.calibration_file import (
     MICRO,
     NANO,
@@ -14,7 +19,10 @@ from rotemina.app.microscope.calibration_file import (
 )
 from rotemina.app.microscope.calibration_run import CalibrationRun, Phase
 from rotemina.app.microscope.click_run import Visit
+from rotemina.app.microscope.microscope import Microscope
+from rotemina.app.microscope.sight import TipState
 from rotemina.app.motion.session import MotionSession
+from rotemina.drivers.cameras.hub import CameraHub
 from rotemina.drivers.cameras.simulated import SimulatedMicroscope
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.samples import DeviceState
@@ -166,6 +174,155 @@ class Bench:
 
     def true_map(self):
         return StageMap(self.optics.mapping[:, :2], np.zeros((4, 4)))
+
+
+class SteppedFeed:
+    """A camera feed without a thread."""
+
+    def __init__(self, camera):
+        self.camera = camera
+        self.view = FeedView()
+        self._listeners = []
+        self._watch = Watch()
+        self.spoil = lambda frame: frame
+
+    @property
+    def newest(self):
+        return self.view.frame
+
+    def start(self, settings=None):
+        self.camera.open()
+        if settings is not None:
+            self.camera.configure(settings)
+        self.view = FeedView(FeedState.LIVE, description=self.camera.description)
+
+    def close(self, timeout_s=2.0):
+        self.camera.close()
+        self.view = FeedView()
+        return True
+
+    def configure(self, settings):
+        self.camera.configure(settings)
+
+    def listen(self, tell):
+        self._listeners.append(tell)
+        return lambda: self._listeners.remove(tell)
+
+    def lose(self, reason):
+        self.view = FeedView(FeedState.LOST, reason, self.view.frame)
+
+    def grab(self):
+        if self.view.state in (FeedState.LOST, FeedState.CLOSED):
+            return
+        frame = self.camera.grab(0.0)
+        if frame is None:
+            return
+        frame = self.spoil(frame)
+        showing = self._watch.judge(frame)
+        state = {Showing.FROZEN: FeedState.FROZEN, Showing.BLACK: FeedState.BLACK}
+        self.view = FeedView(state.get(showing, FeedState.LIVE), f"it is {showing}", frame)
+        for tell in self._listeners:
+            tell(frame)
+
+
+class Workplace:
+    """Session, camera and microscope; ``step`` lets all of them go on."""
+
+    def __init__(self, folder, mounting=HIDDEN, seconds=0.08, **options):
+        self.clock, self.seconds = VirtualClock(5.0), seconds
+        self.robot = load_robot("rotemina")
+        self.driver = Simulator(self.robot, clock=self.clock)
+        self.session = MotionSession(self.driver, clock=self.clock)
+        self.session.connect()
+        self.session.run_once()
+        source = SimulatedMicroscope(
+            lambda: self.session.driver,
+            clock=self.clock,
+            wait=self.clock.advance,
+            mounting=mounting,
+        )
+        self.feed = None
+        self.microscope = Microscope(
+            self.session,
+            folder,
+            hub=CameraHub({"simulated": source}),
+            clock=self.clock,
+            feed_of=self._feed_of,
+            **options,
+        )
+        self.chain = Chain.of(self.robot)
+
+    def _feed_of(self, camera):
+        self.feed = SteppedFeed(camera)
+        return self.feed
+
+    def step(self, times=1):
+        for _ in range(times):
+            self.clock.advance(self.seconds)
+            self.session.run_once()
+            if self.feed is not None:
+                self.feed.grab()
+            self.microscope.step(self.clock())
+
+    def look(self):
+        """Have somebody look at the picture from now on."""
+        assert not self.microscope.sight.cameras
+        self.step(3)
+
+    def until(self, done, most=2000):
+        for _ in range(most):
+            self.step()
+            if done(self.microscope.sight):
+                return self.microscope.sight
+        raise AssertionError(f"still {self.microscope.sight}")
+
+    @property
+    def optics(self):
+        return self.feed.camera.scene.optics
+
+    def true_tip(self):
+        return tip_position(self.chain, np.array(self.driver.true_positions))
+
+    def true_pixel(self):
+        return self.optics.pixel_of(self.true_tip())
+
+    def calibrate_by_truth(self):
+        """Keep calibrations as good as the truth, without the moves."""
+        tip_m = self.true_tip()
+        stage = StageCalibration(
+            date="2026-11-21T10:00:00+00:00",
+            matrix=tuple(map(tuple, self.optics.mapping[:, :2].tolist())),
+            covariance=tuple(map(tuple, (1e4 * np.eye(4)).tolist())),
+            tip_m=tuple(tip_m.tolist()),
+            tip_px=tuple(self.true_pixel().tolist()),
+            residual_px=0.05,
+        )
+        for name in (MICRO, NANO):
+            self.microscope.known.keep_stage(name, stage, self.feed.newest.region)
+
+    def tracking(self):
+        """Track the tip, whose direction is roughly known."""
+        body = self.optics.mapping @ np.array([1.0, 0.0, 0.0])
+        self.microscope.known.learn_direction(float(np.arctan2(body[1], body[0])) + 0.03)
+        self.microscope.track(True)
+        self.step(2)
+        assert self.microscope.sight.tip.state is TipState.TRACKED
+        return self
+
+
+@pytest.fixture
+def make_work():
+    return Workplace
+
+
+@pytest.fixture
+def work(tmp_path):
+    """A workplace at whose picture somebody looks, calibrated by the truth."""
+    made = Workplace(tmp_path)
+    made.look()
+    made.calibrate_by_truth()
+    made.step()
+    return made
 
 
 @pytest.fixture

@@ -42,7 +42,7 @@ def test_uncertainties_are_those_that_repeated_calibrations_show():
             RING @ matrix.T + 0.1 * rng.standard_normal(RING.shape),
             np.tile(0.01 * np.eye(2), (9, 1, 1)),
         ).map.geometry
-        for _ in range(300)
+        for _ in range(120)
     ]
     for values, doubts in (
         ([t.rotation for t in told], [t.rotation_uncertainty for t in told]),

@@ -1,0 +1,125 @@
+"""A picture kept as a file, with what was known when it was taken."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from importlib.metadata import version
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+import tifffile
+from numpy.typing import NDArray
+from PIL import Image, PngImagePlugin
+
+from rotemina.drivers.cameras.frame import Frame
+from rotemina.sim.whole_files import replaced
+
+
+@dataclass(frozen=True, slots=True)
+class Circumstances:
+    """What is known beside a picture.
+
+    Attributes
+    ----------
+    taken : str
+        Date and time, ISO 8601, for people; ``host_time_s`` of the frame is what is computed with.
+    camera, objective : str
+    gain : float or None
+    pixel_m : float or None
+        Size of a pixel in the specimen, m; None: not calibrated.
+    command, measured : mapping axis -> float
+        Joint positions, m or rad.
+    recording : str
+        The recording of the session that it belongs to; empty: none.
+    """
+
+    taken: str = ""
+    camera: str = ""
+    objective: str = ""
+    gain: float | None = None
+    pixel_m: float | None = None
+    command: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
+    measured: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
+    recording: str = ""
+
+
+def program() -> str:
+    """Return name and version of the program."""
+    return f"RoTeMiNa {version('rotemina')}"
+
+
+def description(frame: Frame, about: Circumstances) -> str:
+    """Return all that is known of a picture as JSON of plain ASCII, as TIFF demands."""
+    facts = {
+        "program": program(),
+        "taken": about.taken,
+        "camera": about.camera,
+        "objective": about.objective,
+        "pixel_m": about.pixel_m,
+        "gain": about.gain,
+        **frame_facts(frame),
+        "region_px": [frame.region.left, frame.region.top, frame.region.width, frame.region.height],
+        "command": dict(about.command),
+        "measured": dict(about.measured),
+        "recording": about.recording,
+        "camera_says": dict(frame.metadata),
+    }
+    return json.dumps(facts, default=str)
+
+
+def frame_facts(frame: Frame) -> dict[str, object]:
+    """Return what differs from picture to picture of one camera."""
+    return {
+        "host_time_s": frame.host_time_s,
+        "number": frame.number,
+        "bits": frame.bits,
+        "exposure_s": frame.exposure_s,
+    }
+
+
+def write_tiff(path: Path, frame: Frame, about: Circumstances) -> None:
+    """Write the camera's own numbers, 8 or 16 bits, whole or not at all.
+
+    Raises
+    ------
+    FileWriteError
+        If it cannot be written.
+    """
+    per_cm = 0.01 / about.pixel_m if about.pixel_m else None
+    with replaced(path) as file:
+        tifffile.imwrite(
+            file,
+            frame.pixels,
+            photometric="rgb" if frame.colour else "minisblack",
+            description=description(frame, about),
+            metadata=None,
+            software=program(),
+            resolution=None if per_cm is None else (per_cm, per_cm),
+            resolutionunit=None if per_cm is None else "CENTIMETER",
+        )
+
+
+def write_png(path: Path, shown: NDArray[np.uint8], frame: Frame, about: Circumstances) -> None:
+    """Write a picture as it is looked at, whole or not at all.
+
+    Parameters
+    ----------
+    path : Path
+    shown : (rows, columns) or (rows, columns, 3)
+        With contrast and colours.
+    frame : Frame
+        What it was made of.
+    about : Circumstances
+
+    Raises
+    ------
+    FileWriteError
+        If it cannot be written.
+    """
+    text = PngImagePlugin.PngInfo()
+    text.add_text("Software", program())
+    text.add_text("Description", description(frame, about))
+    scale = {"dpi": (0.0254 / about.pixel_m,) * 2} if about.pixel_m else {}
+    with replaced(path) as file:
+        Image.fromarray(np.ascontiguousarray(shown)).save(file, "PNG", pnginfo=text, **scale)

@@ -1,0 +1,177 @@
+"""Calibration and autofocus: runs whose outcome is kept for camera and objective."""
+
+from collections.abc import Callable
+from datetime import UTC, datetime
+
+import numpy as np
+
+from rotemina.app.microscope.calibration_file import FocusCalibration
+from rotemina.app.microscope.calibration_run import CalibrationRun, Phase
+from rotemina.app.microscope.camera_in_use import CameraInUse
+from rotemina.app.microscope.errors import MicroscopeError
+from rotemina.app.microscope.focus_run import FocusRun, Search
+from rotemina.app.microscope.known import Known
+from rotemina.app.microscope.runs import Runs
+from rotemina.app.microscope.sight import Activity, FocusPlace
+from rotemina.app.microscope.tip_tracker import TipTracker
+from rotemina.app.motion.session import MotionSession
+from rotemina.drivers.cameras.camera import FocusDrive
+from rotemina.drivers.clock import Clock
+from rotemina.sim.errors import InputError
+
+FOCUS = "focus"  # the microscope's own drive
+AUTOFOCUS = "autofocus"
+FOCUSED_M = 50e-6  # searched each way by default
+_AXES = ("z", "zn")  # that bring something into focus
+_SHARP_PX = 30  # about the tip, that is to be sharp
+
+
+class Adjustments:
+    """Begins them, and keeps what they find.
+
+    Parameters
+    ----------
+    session : MotionSession
+    camera : CameraInUse
+    known : Known
+    tracker : TipTracker
+    runs : Runs
+    clock : callable
+    told : callable
+        Gets why something could not be kept.
+    """
+
+    def __init__(
+        self,
+        session: MotionSession,
+        camera: CameraInUse,
+        known: Known,
+        tracker: TipTracker,
+        runs: Runs,
+        clock: Clock,
+        told: Callable[[str], None],
+    ) -> None:
+        self._session, self._camera, self._known = session, camera, known
+        self._tracker, self._runs, self._clock, self._told = tracker, runs, clock, told
+        #: The present ones, or the latest.
+        self.calibrating: CalibrationRun | None = None
+        self.focusing: FocusRun | None = None
+
+    @property
+    def focus_places(self) -> tuple[FocusPlace, ...]:
+        """What can be focused with."""
+        camera, places = self._camera.camera, []
+        if isinstance(camera, FocusDrive):
+            places.append(FocusPlace(FOCUS, camera.focus_m, *camera.focus_range_m))
+        command, axes = self._session.snapshot().command, self._session.robot.axes
+        for axis in _AXES:
+            if axis in axes:
+                low, high = axes[axis].range
+                places.append(FocusPlace(axis, command.get(axis), low, high))
+        kept = self._known.calibration
+        focus = None if kept is None else kept.focus
+        return tuple(
+            FocusPlace(one.name, one.place, one.low, one.high, focus.sharpest, focus.uncertainty)
+            if focus is not None and focus.axis == one.name
+            else one
+            for one in places
+        )
+
+    def calibrate(self, stage: str, *, whole_picture: bool) -> None:
+        """Begin the calibration of a stage; raises as :class:`CalibrationRun`, `Runs.begin`."""
+        pipette, known = (None, True) if whole_picture else self._known.pipette()
+
+        def make() -> CalibrationRun:
+            self.calibrating = CalibrationRun(
+                self._session,
+                lambda: self._camera.newest,
+                stage,
+                pipette,
+                now_s=self._clock(),
+                direction_known=known,
+            )
+            return self.calibrating
+
+        self._runs.begin(Activity.CALIBRATION, make, lambda: self._calibrated(stage))
+
+    def autofocus(self, name: str, low: float | None, high: float | None) -> None:
+        """Begin a search between two places, m; raises as :class:`FocusRun`, `Runs.begin`."""
+        place = self._focus_place(name)
+        if place.place is None:
+            raise MicroscopeError(f"{name}: its place is not known; connect the machine first")
+        begin = max(place.low, place.place - FOCUSED_M) if low is None else low
+        end = min(place.high, place.place + FOCUSED_M) if high is None else high
+
+        def make() -> FocusRun:
+            self.focusing = FocusRun(
+                self._session,
+                lambda: self._camera.newest,
+                self.focus_mover(name),
+                begin,
+                end,
+                now_s=self._clock(),
+                part=self._sharp_part(),
+            )
+            return self.focusing
+
+        self._runs.begin(Activity.AUTOFOCUS, make, lambda: self._focused(name))
+
+    def focus_mover(self, name: str) -> Callable[[float], None]:
+        """Return what goes to a focus place, m.
+
+        Raises
+        ------
+        MicroscopeError
+            If the microscope's focus has no motor.
+        """
+        camera = self._camera.camera
+        if name != FOCUS:
+            return lambda place: self._session.go_to({name: place}, AUTOFOCUS)
+        if not isinstance(camera, FocusDrive):
+            raise MicroscopeError("this microscope has no motor at its focus; use an axis, or turn")
+        return camera.move_focus
+
+    def _focus_place(self, name: str) -> FocusPlace:
+        places = self.focus_places
+        found = next((one for one in places if one.name == name), None)
+        if found is None:
+            known = ", ".join(one.name for one in places) or "nothing"
+            raise MicroscopeError(f"{name!r} does not focus here; there is: {known}")
+        return found
+
+    def _sharp_part(self) -> tuple[slice, slice]:
+        tip = self._tracker.tip
+        if tip is None:
+            return slice(None), slice(None)
+        low = np.maximum(np.rint(tip.pixel).astype(int) - _SHARP_PX, 0)
+        return slice(low[1], low[1] + 2 * _SHARP_PX), slice(low[0], low[0] + 2 * _SHARP_PX)
+
+    def _calibrated(self, stage: str) -> None:
+        run, frame = self.calibrating, self._camera.newest
+        if run is None or frame is None or run.status.phase is not Phase.DONE:
+            return
+        if run.pipette is not None:
+            self._known.learn_direction(run.pipette.direction)
+        found = run.status.calibration
+        assert found is not None
+        self._keep(lambda: self._known.keep_stage(stage, found, frame.region))
+
+    def _focused(self, name: str) -> None:
+        run, frame = self.focusing, self._camera.newest
+        if run is None or frame is None or run.status.search is not Search.DONE:
+            return
+        peak = run.status.peak
+        assert peak is not None
+        found = FocusCalibration(
+            date=datetime.now(UTC).isoformat(timespec="seconds"),
+            axis=name,
+            sharpest=peak.place,
+            uncertainty=peak.uncertainty,
+        )
+        self._keep(lambda: self._known.keep_focus(found, frame.region))
+
+    def _keep(self, keep: Callable[[], None]) -> None:
+        try:
+            keep()
+        except InputError as error:  # it is known until the program ends all the same
+            self._told(f"Microscope: {error}")

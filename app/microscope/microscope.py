@@ -1,0 +1,342 @@
+"""The microscope in use: camera, calibration, clicks and vision behind one door."""
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from rotemina.app.cameras.feed import CameraFeed
+from rotemina.app.microscope.adjustments import FOCUS, Adjustments
+from rotemina.app.microscope.camera_in_use import CameraInUse
+from rotemina.app.microscope.camera_memory import CameraMemory
+from rotemina.app.microscope.click_to_move import PlannedMove
+from rotemina.app.microscope.errors import MicroscopeError
+from rotemina.app.microscope.frame_recording import FrameRecording
+from rotemina.app.microscope.known import Known
+from rotemina.app.microscope.picture_jobs import PictureJobs
+from rotemina.app.microscope.runs import Runs
+from rotemina.app.microscope.sight import Activity, Sight, TipState
+from rotemina.app.microscope.sight_of import sight_of
+from rotemina.app.microscope.tip_tracker import Pressing, TipTracker
+from rotemina.app.microscope.visits import Visits
+from rotemina.app.motion.penetration.status import Phase as PenetrationPhase
+from rotemina.app.motion.recording.session_recorder import SessionRecorder
+from rotemina.app.motion.session import MotionSession
+from rotemina.app.motion.ticker import Ticker
+from rotemina.app.settings import Settings
+from rotemina.drivers.cameras.camera import Camera
+from rotemina.drivers.cameras.frame import Frame
+from rotemina.drivers.cameras.hub import CameraHub
+from rotemina.drivers.cameras.settings import CameraSettings
+from rotemina.drivers.cameras.simulated import SimulatedMicroscope
+from rotemina.drivers.clock import Clock
+from rotemina.sim.arrays import FloatArray
+
+FOLDER = "microscope"  # of calibrations, in the user's own
+RUN_S, TRACK_S, KEEP_S = 0.02, 0.008, 0.1
+_ARMED = (PenetrationPhase.ARMED,)
+_AT_REST = (
+    PenetrationPhase.DISARMED,
+    PenetrationPhase.DONE,
+    PenetrationPhase.ABORTED,
+    PenetrationPhase.FAILED,
+)
+
+
+class Microscope:
+    """What a panel holds; every method may be called from any thread and never waits.
+
+    A method raises InputError where what is asked can be refused at once; what goes wrong later is
+    in :attr:`sight`.
+
+    Parameters
+    ----------
+    session : MotionSession
+    folder : Path
+        Of the user's files; calibrations are in a folder of it.
+    hub : CameraHub, optional
+        Of all cameras; by default the installed ones and the simulated microscope.
+    recorder : callable
+        Return what records now, or None.
+    penetration : callable
+        Return the phase of the penetration.
+    clock : callable
+        The host's; the session's and the cameras' too.
+    told : callable
+        Gets what the operator must know and no state shows, on any thread.
+    feed_of : callable
+        Make the feed of a camera.
+    settings : Settings, optional
+        Where the camera in use is remembered for the next start.
+    """
+
+    def __init__(
+        self,
+        session: MotionSession,
+        folder: Path,
+        *,
+        hub: CameraHub | None = None,
+        recorder: Callable[[], SessionRecorder | None] = lambda: None,
+        penetration: Callable[[], PenetrationPhase] = lambda: PenetrationPhase.DISARMED,
+        clock: Clock = time.monotonic,
+        told: Callable[[str], None] = lambda _: None,
+        feed_of: Callable[[Camera], CameraFeed] | None = None,
+        settings: Settings | None = None,
+    ) -> None:
+        self.session, self.clock = session, clock
+        self._penetration, self._told = penetration, told
+        simulated = SimulatedMicroscope(lambda: session.driver, clock=clock)
+        hub = CameraHub.installed({"simulated": simulated}, clock=clock) if hub is None else hub
+        made = feed_of or (lambda camera: CameraFeed(camera, clock=clock))
+        memory = CameraMemory(settings)
+        self.camera = CameraInUse(hub, lambda: session.driver, made, memory)
+        self.known = Known(session, folder / FOLDER, lambda: self.camera.camera)
+        self.recording = FrameRecording(recorder, lambda: self.known.calibration)
+        self.tracker = TipTracker(
+            lambda: self.camera.view,
+            self.known.pipette,
+            self.known.expected,
+            self._pressing,
+            self.recording.tip,
+        )
+        self.jobs = PictureJobs(lambda: self.camera.newest)
+        self.runs = Runs(session, lambda: self.camera.view, lambda what: self.visits.doubt(what))
+        self.visits = Visits(session, self.camera, self.known, self.tracker, self.runs, clock)
+        self.adjustments = Adjustments(
+            session, self.camera, self.known, self.tracker, self.runs, clock, told
+        )
+        self.measured: tuple[FloatArray, FloatArray] | None = None
+        self._leave = self.camera.listen(self.recording.frame)
+        self._tickers = (
+            Ticker("microscope", RUN_S, lambda: self.runs.step(self.clock()), self._failed),
+            Ticker("tip tracking", TRACK_S, self.tracker.step, self._failed),
+            Ticker("cameras", KEEP_S, lambda: self.keep(self.clock()), self._failed),
+        )
+
+    # --- life -------------------------------------------------------------------------------------
+
+    def start(self) -> None:
+        """Look for cameras and begin to work, on threads of its own."""
+        for ticker in self._tickers:
+            ticker.start()
+
+    def close(self) -> None:
+        """End what is under way, and let go of the camera."""
+        self.runs.stop("the program is being closed")
+        for ticker in self._tickers:
+            ticker.close()
+        self._leave()
+        self.camera.close()
+
+    def step(self, now_s: float) -> None:
+        """Do all that the threads do, once; for a test."""
+        self.keep(now_s)
+        self.tracker.step()
+        self.runs.step(now_s)
+
+    def keep(self, now_s: float) -> None:
+        """Mind cameras, calibrations and slow looks at pictures; may take a while."""
+        self.camera.step(now_s)
+        self.known.step()
+        self.jobs.step(now_s)
+        track = self.tracker.tracked.track
+        if track is not None:
+            self.known.learn_direction(track.pipette.direction)
+
+    @property
+    def sight(self) -> Sight:
+        """All that a view shows now; to be read once a frame, while somebody looks at it.
+
+        Cameras are looked for from the first time on.
+        """
+        self.camera.watched = True
+        return sight_of(self)
+
+    # --- camera -----------------------------------------------------------------------------------
+
+    def open_camera(self, key: str, settings: CameraSettings | None = None) -> None:
+        """Use a listed camera; raises MicroscopeError if none is, or a run is under way."""
+        self._refuse_under_way()
+        self.camera.open(key, settings)
+
+    def open_address(
+        self, source: str, address: str, settings: CameraSettings | None = None
+    ) -> None:
+        """Use a file, stream or configuration; raises MicroscopeError while a run is under way."""
+        self._refuse_under_way()
+        self.camera.open_address(source, address, settings)
+
+    def close_camera(self) -> None:
+        """Use none any more; raises MicroscopeError while a run is under way."""
+        self._refuse_under_way()
+        self.camera.let_go()
+
+    def configure(self, settings: CameraSettings) -> None:
+        """Set the camera; raises MicroscopeError without one, or while a run is under way."""
+        self._refuse_under_way()
+        self.camera.configure(settings)
+
+    def trigger(self) -> None:
+        """Have one picture taken; raises MicroscopeError without a camera."""
+        self.camera.trigger()
+
+    def listen(self, tell: Callable[[Frame], None]) -> Callable[[], None]:
+        """Have every picture told, on the camera's thread, until what is returned is called."""
+        return self.camera.listen(tell)
+
+    def choose_objective(self, name: str) -> None:
+        """Say which objective is in; raises MicroscopeError without a name, or in a run."""
+        self._refuse_under_way()
+        self.visits.planned = None
+        self.known.choose_objective(name)
+
+    # --- what moves; one at a time ----------------------------------------------------------------
+
+    def calibrate(self, stage: str, *, whole_picture: bool = False) -> None:
+        """Begin the guided calibration of ``micro`` or ``nano``; from then on the tip is tracked.
+
+        ``whole_picture``: what is seen moves as a whole with the stage, and no tip before it.
+
+        Raises
+        ------
+        InputError
+            As :class:`CalibrationRun` and :meth:`Runs.begin`; then nothing has moved.
+        """
+        self.adjustments.calibrate(stage, whole_picture=whole_picture)
+        if not whole_picture and self.tracker.tracked.state is TipState.OFF:
+            self.tracker.switch(True)  # what it uncovers on its way becomes the background
+
+    def autofocus(
+        self, name: str = FOCUS, low: float | None = None, high: float | None = None
+    ) -> None:
+        """Bring the tip, or where none is tracked the picture, into focus.
+
+        Parameters
+        ----------
+        name : str
+            ``focus`` for the microscope's drive, or an axis of the machine.
+        low, high : float, optional
+            Where to search, m; by default 50 µm each way, as far as it goes.
+
+        Raises
+        ------
+        InputError
+            As :class:`FocusRun` and :meth:`Runs.begin`.
+        """
+        self.adjustments.autofocus(name, low, high)
+
+    def move_focus(self, focus_m: float) -> None:
+        """Move the microscope's focus drive, m; raises InputError if it has none, or cannot."""
+        self._refuse_under_way()
+        self.adjustments.focus_mover(FOCUS)(focus_m)
+
+    def plan(self, pixel: FloatArray, *, stage: str | None = None) -> PlannedMove:
+        """Think a click or drag through; nothing moves. Its ghost is shown until another is.
+
+        Raises
+        ------
+        InputError
+            As :meth:`ClickToMove.plan`.
+        """
+        return self.visits.plan(pixel, stage)
+
+    def cancel_plan(self) -> None:
+        """Forget the planned move."""
+        self.visits.planned = None
+
+    def go(self, *, confirmed: bool = False) -> None:
+        """Make the planned move, look, and correct until the tip is there.
+
+        Raises
+        ------
+        MicroscopeError
+            If nothing is planned, the tip is not tracked, or a large move is not confirmed.
+        InputError
+            As :meth:`ClickToMove.go` and :meth:`Runs.begin`.
+        """
+        self.visits.go(confirmed=confirmed)
+
+    def go_back(self) -> None:
+        """Return to where the machine rested before its latest move; raises as ``undo``."""
+        self._refuse_under_way()
+        self.session.undo()
+
+    def stop(self) -> None:
+        """Halt the machine, and end what is under way."""
+        self.runs.stop("it was stopped")
+        self.session.stop()
+
+    # --- targets ----------------------------------------------------------------------------------
+
+    def mark_target(self, pixel: FloatArray) -> None:
+        """Add a target behind the others."""
+        self.visits.tour.mark(np.asarray(pixel, dtype=np.float64))
+
+    def remove_target(self, index: int) -> None:
+        """Forget a target; raises MicroscopeError if there is none such, or on the way to one."""
+        self.visits.tour.remove(index)
+
+    def clear_targets(self) -> None:
+        """Forget all targets; raises MicroscopeError on the way to one."""
+        self.visits.tour.clear()
+
+    def visit_next(self, *, confirmed: bool = False) -> None:
+        """Go to the next target.
+
+        Raises
+        ------
+        MicroscopeError
+            If there is none, or the way is so large that it must be confirmed.
+        InputError
+            As :meth:`go`.
+        """
+        self.visits.next(confirmed=confirmed)
+
+    # --- vision -----------------------------------------------------------------------------------
+
+    def track(self, on: bool, *, near: FloatArray | None = None) -> None:
+        """Follow the tip, or do not; ``near`` (2,), px, says about where it is."""
+        self.tracker.switch(on, near)
+
+    def take_background(self) -> None:
+        """Make the background anew of the present picture, but for what the pipette covers."""
+        self.tracker.take_ground()
+
+    def outline_cell(self, near: FloatArray) -> None:
+        """Look for the outline of the cell about ``near`` (2,), px."""
+        self.jobs.outline(np.asarray(near, dtype=np.float64), self.known.pixel_m)
+
+    def forget_cell(self) -> None:
+        """Show no outline any more."""
+        self.jobs.forget()
+
+    def measure(self, begin: FloatArray, end: FloatArray) -> None:
+        """Measure from one pixel (2,) to another."""
+        ends = np.asarray(begin, dtype=np.float64), np.asarray(end, dtype=np.float64)
+        if not (np.isfinite(ends[0]).all() and np.isfinite(ends[1]).all()):
+            raise MicroscopeError("measure: a pixel is not a finite number; draw the line again")
+        self.measured = ends
+
+    def forget_measure(self) -> None:
+        """Show no line any more."""
+        self.measured = None
+
+    def watch_drift(self, on: bool) -> None:
+        """Tell by how much the background moves from now on, or do not."""
+        self.jobs.watch_drift(on)
+
+    # --- inside -----------------------------------------------------------------------------------
+
+    def _pressing(self) -> Pressing:
+        phase = self._penetration()
+        if phase in _ARMED:
+            return Pressing.SOON
+        return Pressing.NO if phase in _AT_REST else Pressing.YES
+
+    def _refuse_under_way(self) -> None:
+        if self.runs.activity is not Activity.NONE:
+            raise MicroscopeError(f"a {self.runs.activity} is under way; wait, or stop it first")
+
+    def _failed(self, error: Exception) -> None:
+        self._told(f"The microscope failed: {type(error).__name__}: {error}")

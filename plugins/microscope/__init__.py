@@ -1,0 +1,1 @@
+"""Microscope panel: the picture, and what the microscope does with the machine."""

@@ -1,0 +1,104 @@
+"""Guided calibration of each stage: what it needs, how it goes, what came of it."""
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QCheckBox, QLabel, QProgressBar, QWidget
+
+from rotemina.app.microscope.calibration_file import MICRO, NANO
+from rotemina.app.microscope.calibration_run import CalibrationStatus
+from rotemina.app.microscope.microscope import Microscope
+from rotemina.app.microscope.sight import Activity, Sight
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.workbench import Workbench
+from rotemina.plugins.microscope.section import Section, button, show_text
+from rotemina.plugins.microscope.standing import against_moving
+from rotemina.plugins.microscope.words import (
+    ENDED,
+    calibration_text,
+    residual_lines,
+    stage_text,
+)
+
+_GUIDE = (
+    "1. Bring the tip into the middle of the picture and into focus.\n"
+    "2. Choose the objective under Camera: it has a calibration of its own.\n"
+    "3. Calibrate the micro stage, then the nano stage: the tip goes small ways about where it is "
+    "and comes back."
+)
+
+
+class CalibrationSection(Section):
+    """One button a stage, progress, residuals, and what is kept for the objective."""
+
+    def __init__(self, workbench: Workbench, microscope: Microscope) -> None:
+        super().__init__("Calibration")
+        self._workbench, self._microscope = workbench, microscope
+        guide = self.add_text()
+        guide.setText(_GUIDE)
+        self.whole = QCheckBox("the whole picture moves")
+        self.whole.setToolTip(
+            plain_tip(
+                "Without a pipette in sight, where stage and specimen move together: the picture "
+                "itself is followed"
+            )
+        )
+        self.column.addWidget(self.whole)
+        self.micro = button("Micro stage", lambda: self._begin(MICRO))
+        self.nano = button("Nano stage", lambda: self._begin(NANO))
+        self.add_row(self.micro, self.nano)
+        self.abort = button("Abort", lambda: workbench.ask(microscope.stop))
+        self.progress = QProgressBar()
+        self.progress.setTextVisible(False)
+        self.progress.setAccessibleName("Progress of the calibration")
+        self.add_row(self.progress, self.abort)
+        self.said = self.add_text()
+        self.residuals = self.add_text()
+        self.known = self.add_text()
+        self.known.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+
+    def refresh(self, sight: Sight, state: SessionState) -> None:
+        """Show how it goes, and what is known."""
+        why = against_moving(sight, state)
+        allow(self.micro, why, "Move x and y by 40 µm about where they are, and look")
+        allow(self.nano, why, "Move the tip by 15 µm with the piezos about where it is, and look")
+        running = sight.activity is Activity.CALIBRATION
+        for widget in (self.progress, self.abort):
+            _show(widget, running)
+        allow(self.abort, None, "Stop the machine where it is, and keep what was calibrated before")
+        self._show_status(sight.calibrating)
+        show_text(self.known, "\n".join(_known(sight)))
+
+    def _show_status(self, status: CalibrationStatus | None) -> None:
+        show_text(self.said, calibration_text(status))
+        if status is None:
+            show_text(self.residuals, "")
+            return
+        self.progress.setRange(0, status.moves)
+        self.progress.setValue(status.done)
+        lines = residual_lines(status.fit) if status.phase in ENDED else []
+        show_text(self.residuals, "\n".join(lines))
+
+    def _begin(self, stage: str) -> None:
+        whole = self.whole.isChecked()
+        self._workbench.ask(lambda: self._microscope.calibrate(stage, whole_picture=whole))
+
+
+def _known(sight: Sight) -> list[str]:
+    if sight.calibration_problem:
+        return [sight.calibration_problem]
+    calibration = sight.calibration
+    if calibration is None:
+        return [f"Nothing is kept for objective {sight.objective!r}."] if sight.objective else []
+    lines = [stage_text(MICRO, calibration.micro), stage_text(NANO, calibration.nano)]
+    focus = calibration.focus
+    if focus is not None:
+        lines.append(
+            f"focus: sharpest at {1e6 * focus.sharpest:.2f} ± {1e6 * focus.uncertainty:.2f} µm of "
+            f"{focus.axis}"
+        )
+    return lines
+
+
+def _show(widget: QWidget | QLabel, on: bool) -> None:
+    if widget.isVisibleTo(widget.parentWidget()) != on:
+        widget.setVisible(on)

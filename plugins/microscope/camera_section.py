@@ -1,0 +1,209 @@
+"""Which camera, with which settings, behind which objective."""
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QCheckBox, QFormLayout, QLabel, QLineEdit, QWidget
+
+from rotemina.app.cameras.feed import FeedState
+from rotemina.app.microscope.microscope import Microscope
+from rotemina.app.microscope.sight import Sight
+from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.workbench import Workbench
+from rotemina.drivers.cameras.settings import CameraDescription, CameraSettings, Trigger
+from rotemina.plugins.microscope.camera_form import (
+    WHOLE,
+    CameraTexts,
+    bounds_text,
+    pixel_types,
+    region_text,
+    settings_of,
+    texts_of,
+)
+from rotemina.plugins.microscope.picture_view import PictureView
+from rotemina.plugins.microscope.section import Section, SteadyChoice, button, show_text
+
+_OPEN = (FeedState.CLOSED, FeedState.LOST)
+
+
+class CameraSection(Section):
+    """Cameras that are there, another one by its address, and the objective."""
+
+    def __init__(self, workbench: Workbench, microscope: Microscope) -> None:
+        super().__init__("Camera")
+        self._workbench, self._microscope = workbench, microscope
+        self.choice = SteadyChoice("Camera")
+        self.address = QLineEdit()
+        self.address.setPlaceholderText("or, say, opencv:film.avi")
+        self.address.setAccessibleName("Source and address of another camera")
+        self.address.setToolTip(
+            plain_tip(
+                "A camera that is not listed: its source, a colon, and a file, folder, stream or "
+                "number, such as opencv:film.avi or sequence:/data/pictures"
+            )
+        )
+        self.open = button("Open", self._open)
+        self.open.setProperty("primary", True)
+        self.close_button = button("Close", lambda: workbench.ask(microscope.close_camera))
+        self.objective = SteadyChoice("Objective")
+        self.objective.setEditable(True)
+        self.objective.setInsertPolicy(SteadyChoice.InsertPolicy.NoInsert)
+        self.objective.setToolTip(
+            plain_tip("The objective in use: each has a calibration of its own; write a new name")
+        )
+        edit = self.objective.lineEdit()
+        assert edit is not None
+        edit.editingFinished.connect(self._choose_objective)
+        self.objective.activated.connect(lambda _: self._choose_objective())
+        self.column.addWidget(self.choice)
+        self.column.addWidget(self.address)
+        self.add_row(self.open, self.close_button)
+        title = QLabel("Objective")
+        title.setBuddy(self.objective)
+        self.add_row(title, self.objective)
+        self.said = self.add_text()
+
+    def refresh(self, sight: Sight) -> None:
+        """Show what is there and in use."""
+        listed = [(one.name, one.key) for one in sight.cameras]
+        _offer(self.choice, listed, None if sight.camera is None else sight.camera.key)
+        _offer(self.objective, [(name, name) for name in sight.objectives], None)
+        edit = self.objective.lineEdit()
+        assert edit is not None
+        if not edit.hasFocus() and edit.text() != sight.objective:
+            edit.setText(sight.objective)
+        nothing = not listed and not self.address.text().strip()
+        why = "no camera is listed, and no address is written" if nothing else None
+        allow(self.open, why, "Open this camera; the one that is open is closed")
+        closed = "no camera is open" if sight.feed.state in _OPEN else None
+        allow(self.close_button, closed, "Let go of the camera")
+        problems = [f"{source}: {why}" for source, why in sight.camera_problems.items()]
+        show_text(self.said, "\n".join([one for one in (sight.truth, *problems) if one]))
+
+    def _open(self) -> None:
+        source, colon, address = self.address.text().strip().partition(":")
+        if colon:
+            self._workbench.ask(lambda: self._microscope.open_address(source, address))
+        elif self.choice.currentData() is not None:
+            self._workbench.ask(lambda: self._microscope.open_camera(self.choice.currentData()))
+
+    def _choose_objective(self) -> None:
+        name = self.objective.currentText().strip()
+        if name and name != self._microscope.sight.objective:
+            self._workbench.ask(lambda: self._microscope.choose_objective(name))
+
+
+class SettingsSection(Section):
+    """Exposure, gain, region, kind of pixels and trigger, as far as the camera has them."""
+
+    def __init__(self, workbench: Workbench, microscope: Microscope, view: PictureView) -> None:
+        super().__init__("Settings of the camera")
+        self._workbench, self._microscope, self._view = workbench, microscope, view
+        self._shown: CameraSettings | None = None
+        self._can: CameraDescription | None = None
+        self.form = QWidget()
+        rows = QFormLayout(self.form)
+        rows.setContentsMargins(0, 0, 0, 0)
+        rows.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
+        rows.setLabelAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+        self.exposure, self.gain, self.rate, self.region = (QLineEdit() for _ in range(4))
+        self.pixel_type, self.trigger = SteadyChoice("Kind of pixels"), SteadyChoice("Trigger")
+        self.repeat = QCheckBox("begin again at the end")
+        self.repeat.setToolTip(plain_tip("Of a file or a sequence of pictures"))
+        for text, field in (
+            ("Exposure [ms]", self.exposure),
+            ("Gain", self.gain),
+            ("Rate [Hz]", self.rate),
+            ("Region [px]", self.region),
+            ("Pixels", self.pixel_type),
+            ("Trigger", self.trigger),
+        ):
+            field.setAccessibleName(text)
+            field.setMinimumWidth(60)
+            rows.addRow(text, field)
+        rows.addRow(self.repeat)
+        self.column.addWidget(self.form)
+        self.apply = button("Set", self._apply)
+        self.cut = button("Region in sight", self._cut)
+        self.add_row(self.apply, self.cut)
+        self.shoot = button("Take a picture", lambda: workbench.ask(microscope.trigger))
+        self.column.addWidget(self.shoot)
+        self.problem = self.add_text()
+        self.problem.setProperty("bad", True)
+        for field in (self.exposure, self.gain, self.rate, self.region):
+            field.returnPressed.connect(self._apply)
+
+    def refresh(self, sight: Sight) -> None:
+        """Show what is in force, unless somebody is typing."""
+        feed = sight.feed
+        can = feed.description
+        self.form.setEnabled(can is not None)
+        why = "no camera is open" if can is None else None
+        allow(self.apply, why, "Set the camera so; what it refuses is said below")
+        no_frame = why or ("there is no picture yet" if feed.frame is None else None)
+        allow(self.cut, no_frame, "Read out only what is in sight now: smaller pictures, faster")
+        waits = why or (None if feed.settings.trigger is Trigger.SOFTWARE else "it runs freely")
+        allow(self.shoot, waits, "Trigger the camera once")
+        show_text(self.problem, feed.problem)
+        if can is None:
+            self._can = self._shown = None
+        elif can != self._can or (feed.settings != self._shown and not self._typing()):
+            self._can, self._shown = can, feed.settings
+            self._fill(can, texts_of(feed.settings))
+
+    def _typing(self) -> bool:
+        return any(one.hasFocus() for one in (self.exposure, self.gain, self.rate, self.region))
+
+    def _fill(self, can: CameraDescription, texts: CameraTexts) -> None:
+        for field, text, bounds, scale, unit in (
+            (self.exposure, texts.exposure, can.exposure_s, 1e3, "ms"),
+            (self.gain, texts.gain, can.gain, 1.0, ""),
+            (self.rate, texts.rate, can.rate_hz, 1.0, "Hz"),
+        ):
+            field.setText(text)
+            field.setEnabled(bounds is not None)
+            field.setPlaceholderText("as it is" if bounds is not None else "cannot be set")
+            field.setToolTip(plain_tip(bounds_text(bounds, scale, unit)))
+        self.region.setText(texts.region)
+        self.region.setToolTip(
+            plain_tip(
+                f"{WHOLE}, or first column, first row, width and height of the sensor's "
+                f"{can.width} × {can.height} px"
+            )
+        )
+        _offer(
+            self.pixel_type, [(one.value, one.value) for one in pixel_types(can)], texts.pixel_type
+        )
+        _offer(self.trigger, [(one.value, one.value) for one in can.triggers], texts.trigger)
+        self.repeat.setChecked(texts.repeat)
+
+    def _apply(self) -> None:
+        texts = CameraTexts(
+            self.exposure.text(),
+            self.gain.text(),
+            self.rate.text(),
+            self.region.text(),
+            self.pixel_type.currentData() or "",
+            self.trigger.currentData() or Trigger.FREE.value,
+            self.repeat.isChecked(),
+        )
+        self._workbench.ask(lambda: self._microscope.configure(settings_of(texts)))
+
+    def _cut(self) -> None:
+        region = self._view.region_in_sight()
+        if region is not None:
+            self.region.setText(region_text(region))
+            self._apply()
+
+
+def _offer(choice: SteadyChoice, items: list[tuple[str, str]], chosen: str | None) -> None:
+    """Offer items, a text and its value each; what was chosen stays, if it is still there."""
+    now = [(choice.itemText(row), choice.itemData(row)) for row in range(choice.count())]
+    if now != items:
+        kept = choice.currentData()
+        choice.blockSignals(True)
+        choice.clear()
+        for text, value in items:
+            choice.addItem(text, value)
+        choice.setCurrentIndex(max(choice.findData(kept), 0) if items else -1)
+        choice.blockSignals(False)
+        if chosen:
+            choice.setCurrentIndex(choice.findData(chosen))

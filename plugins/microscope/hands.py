@@ -1,0 +1,158 @@
+"""What a press, a drag and a release in the picture do, by the mode that is on."""
+
+from collections.abc import Callable
+
+import numpy as np
+from PySide6.QtCore import QObject, Signal
+
+from rotemina.app.microscope.microscope import Microscope
+from rotemina.app.microscope.sight import Sight
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.workbench import Workbench
+from rotemina.plugins.microscope.overlays import ghost_text
+from rotemina.plugins.microscope.picture_view import Hand, PictureView
+from rotemina.plugins.microscope.standing import against_aiming, against_clicking
+
+_LEAST_LINE = 2.0  # px; shorter is no line but a click
+
+
+class Hands(QObject):
+    """The mode, and the moves that it asks for: nothing moves unless the mode is Move.
+
+    Signals
+    -------
+    changed() : another mode.
+    asks(str) : a move that has to be confirmed; empty: none any more.
+    """
+
+    changed = Signal()
+    asks = Signal(str)
+
+    def __init__(self, workbench: Workbench, microscope: Microscope, view: PictureView) -> None:
+        super().__init__(view)
+        self._workbench, self._microscope, self._view = workbench, microscope, view
+        self.stage: str | None = None
+        self._stop_s = workbench.session.stop_asked_s
+        self._planned = False
+        self._confirmed: Callable[[], object] = lambda: None  # what a yes does
+        self._begin = (0.0, 0.0)
+        view.pressed.connect(self._press)
+        view.dragged.connect(self._drag)
+        view.released.connect(self._release)
+        view.left.connect(lambda: self.choose(Hand.PAN))
+
+    def choose(self, hand: Hand) -> None:
+        """Have the left button do something else; a move that was only planned is forgotten."""
+        self._forget()
+        if hand is not self._view.hand:
+            self._view.set_hand(hand)
+            self.changed.emit()
+
+    def against(self, sight: Sight, state: SessionState) -> dict[Hand, str | None]:
+        """Return why a mode cannot be switched on now; one that is on can be switched off."""
+        none = None if sight.feed.frame is not None else "there is no picture"
+        reasons = dict.fromkeys(Hand, none)
+        reasons[Hand.MOVE] = against_clicking(sight, state)
+        reasons[self._view.hand] = None
+        return reasons
+
+    def refresh(self, sight: Sight) -> None:
+        """End the mode Move where somebody has stopped, or the picture is not live any more."""
+        stop_s = self._workbench.session.stop_asked_s
+        stopped, self._stop_s = stop_s != self._stop_s, stop_s
+        doubtful = against_aiming(sight) is not None
+        if stopped or (doubtful and self._planned):
+            self._forget()
+        if self._view.hand is Hand.MOVE and (stopped or doubtful):
+            self.choose(Hand.PAN)
+
+    def visit_next(self) -> None:
+        """Go to the first target that was not visited; a large move is asked about first."""
+        microscope = self._microscope
+        targets = microscope.sight.targets
+        target = next((one for one in targets if one.visit is None), None)
+        if target is not None and self._plan(target.column, target.row):
+            self._go(microscope.visit_next, lambda: microscope.visit_next(confirmed=True))
+
+    def answer(self, yes: bool) -> None:
+        """Make the move that was asked about, or forget it."""
+        if yes and self._planned and self._may_move():
+            self._make(self._confirmed)
+        else:
+            self._forget()
+
+    # --- the mouse --------------------------------------------------------------------------------
+
+    def _press(self, column: float, row: float) -> None:
+        place = np.array([column, row])
+        hand, ask, microscope = self._view.hand, self._workbench.ask, self._microscope
+        self._begin = (column, row)
+        if hand is Hand.MOVE:
+            self._plan(column, row)
+        elif hand is Hand.MARK:
+            ask(lambda: microscope.mark_target(place))
+        elif hand is Hand.TIP:
+            ask(lambda: microscope.track(True, near=place))
+        elif hand is Hand.CELL:
+            ask(lambda: microscope.outline_cell(place))
+
+    def _drag(self, column: float, row: float) -> None:
+        if self._view.hand is Hand.MOVE and self._planned:
+            self._plan(column, row)
+        elif self._view.hand is Hand.MEASURE:
+            self._view.line = (self._begin, (column, row))
+            self._view.update()
+
+    def _release(self, column: float, row: float) -> None:
+        microscope = self._microscope
+        if self._view.hand is Hand.MOVE and self._planned:
+            self._go(microscope.go, lambda: microscope.go(confirmed=True))
+        elif self._view.hand is Hand.MEASURE:
+            self._view.line = None
+            begin, end = np.array(self._begin), np.array([column, row])
+            if float(np.linalg.norm(end - begin)) >= _LEAST_LINE:
+                self._workbench.ask(lambda: microscope.measure(begin, end))
+            else:
+                microscope.forget_measure()
+
+    def _plan(self, column: float, row: float) -> bool:
+        """Think a move through; one that is refused leaves none to be made."""
+        self.asks.emit("")
+        place = np.array([column, row])
+        planned = self._may_move() and self._workbench.ask(
+            lambda: self._microscope.plan(place, stage=self.stage)
+        )
+        if self._planned and not planned:
+            self._forget()
+        self._planned = planned
+        return planned
+
+    def _go(self, go: Callable[[], object], confirmed: Callable[[], object]) -> None:
+        """Make the planned move, or ask first."""
+        sight = self._microscope.sight
+        if sight.planned is None or not self._may_move():
+            self._forget()
+        elif sight.planned.confirm:
+            self._confirmed = confirmed
+            self.asks.emit(f"Move the tip {ghost_text(sight)}?")
+        else:
+            self._make(go)
+
+    def _make(self, move: Callable[[], object]) -> None:
+        self._planned = False
+        self.asks.emit("")
+        self._workbench.ask(move)
+        self._microscope.cancel_plan()
+
+    def _may_move(self) -> bool:
+        """Tell whether the machine may move by this picture, and say why not."""
+        why = against_clicking(self._microscope.sight, self._workbench.session.snapshot())
+        if why is not None:
+            self._workbench.refused.emit(f"nothing is moved: {why}")
+        return why is None
+
+    def _forget(self) -> None:
+        self.asks.emit("")
+        if self._planned:
+            self._planned = False
+            self._microscope.cancel_plan()

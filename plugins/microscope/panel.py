@@ -1,0 +1,195 @@
+"""The microscope: its picture, and beside it the tools that work with it."""
+
+from collections.abc import Callable
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QScrollArea,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.microscope.sight import Sight
+from rotemina.app.motion.state import SessionState
+from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.controls import ElidedLabel
+from rotemina.app.shell.theme import Theme
+from rotemina.app.shell.workbench import Workbench
+from rotemina.drivers.cameras.frame import Frame
+from rotemina.plugins.microscope.calibration_section import CalibrationSection
+from rotemina.plugins.microscope.camera_section import CameraSection, SettingsSection
+from rotemina.plugins.microscope.hands import Hands
+from rotemina.plugins.microscope.keeping_section import KeepingSection
+from rotemina.plugins.microscope.move_section import MoveSection, TargetSection
+from rotemina.plugins.microscope.picture_section import LayerSection, PictureSection
+from rotemina.plugins.microscope.picture_view import Hand, PictureView
+from rotemina.plugins.microscope.question import Question
+from rotemina.plugins.microscope.readout import cursor_text
+from rotemina.plugins.microscope.top_bar import TopBar
+from rotemina.plugins.microscope.vision_section import CellSection, FocusSection, TipSection
+
+TOOLS = ("Camera", "Picture", "Calibrate", "Move", "Vision", "Keep", "– no tools –")
+_WIDTH = 250  # of the tools, px
+
+
+class MicroscopePanel(Panel):
+    """The picture as large as there is room, and one page of tools at its side."""
+
+    title = "Microscope"
+    area = Area.CENTRE
+    order = 15
+    _came = Signal()
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__(workbench)
+        self.microscope = workbench.microscope
+        self._awaited = False  # whether a picture that came in is yet to be taken notice of
+        self.view = PictureView(workbench.theme)
+        self.hands = Hands(workbench, self.microscope, self.view)
+        self.bar = TopBar(self.view, TOOLS)
+        self.question = Question("Move", self.hands.answer)
+        self.readout = ElidedLabel()
+        self.readout.setProperty("quiet", True)
+        self._make_sections()
+        self._lay_out()
+        self._connect()
+
+    def refresh(self, state: SessionState) -> None:
+        """Show this moment of the microscope."""
+        if not (self.isVisible() or self.keeping.needed):
+            return  # whoever reads the sight has a camera work
+        sight = self.microscope.sight
+        self.hands.refresh(sight)
+        self.keeping.refresh(sight, state)  # a video goes on while nobody looks
+        if not self.isVisible():
+            return
+        self._show(sight)
+        self.bar.refresh(self.hands.against(sight, state))
+        page = self.bar.tools.currentIndex()
+        if page < len(self._refreshing):
+            self._refreshing[page](sight, state)
+
+    # --- parts ------------------------------------------------------------------------------------
+
+    def _make_sections(self) -> None:
+        bench, microscope, view = self.workbench, self.microscope, self.view
+        self.camera = CameraSection(bench, microscope)
+        self.settings = SettingsSection(bench, microscope, view)
+        self.picture = PictureSection(view, bench.theme)
+        self.layers = LayerSection(view, bench.settings)
+        self.calibration = CalibrationSection(bench, microscope)
+        self.move = MoveSection(bench, microscope)
+        self.targets = TargetSection(bench, microscope, self.hands.visit_next)
+        self.tip = TipSection(bench, microscope)
+        self.cell = CellSection(bench, microscope)
+        self.focus = FocusSection(bench, microscope)
+        self.keeping = KeepingSection(bench, microscope, view)
+        self._pages = (
+            (self.camera, self.settings),
+            (self.picture, self.layers),
+            (self.calibration,),
+            (self.move, self.targets),
+            (self.tip, self.cell, self.focus),
+            (self.keeping,),
+        )
+        self._refreshing: tuple[Callable[[Sight, SessionState], None], ...] = (
+            lambda sight, _: (self.camera.refresh(sight), self.settings.refresh(sight)),
+            lambda sight, _: self.picture.refresh(sight),
+            self.calibration.refresh,
+            lambda *now: (self.move.refresh(*now), self.targets.refresh(*now)),
+            lambda sight, state: (
+                self.tip.refresh(sight),
+                self.cell.refresh(sight),
+                self.focus.refresh(sight, state),
+            ),
+            lambda *_: None,
+        )
+
+    def _lay_out(self) -> None:
+        self.tools = QStackedWidget()
+        self.tools.setFixedWidth(_WIDTH)
+        for sections in self._pages:
+            self.tools.addWidget(_page(sections))
+        middle = QHBoxLayout()
+        middle.setSpacing(6)
+        middle.addWidget(self.view, 1)
+        middle.addWidget(self.tools)
+        self.setObjectName("panel")  # the central area gives no ground of its own
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(6, 4, 6, 4)
+        column.setSpacing(4)
+        column.addWidget(self.bar)
+        column.addLayout(middle, 1)
+        column.addWidget(self.question)
+        column.addWidget(self.readout)
+
+    def _connect(self) -> None:
+        bench = self.workbench
+        self.bar.chosen.connect(self.hands.choose)
+        self.bar.tools.currentIndexChanged.connect(self._choose_page)
+        self.hands.changed.connect(lambda: self.bar.show_hand(self.view.hand))
+        self.hands.asks.connect(self.question.ask)
+        self.move.stage.currentIndexChanged.connect(
+            lambda _: setattr(self.hands, "stage", self.move.stage.currentData())
+        )
+        self.view.hovered.connect(self._show_readout)
+        self._came.connect(self._take, Qt.ConnectionType.QueuedConnection)
+        leave = self.microscope.listen(self._hear)
+        bench.closing.connect(leave)
+        bench.refreshed.connect(self.refresh)
+        bench.theme_changed.connect(self._use_theme)
+
+    # --- what happens -----------------------------------------------------------------------------
+
+    def _hear(self, _: Frame) -> None:
+        """Wake the window up, once for however many pictures; on the camera's thread."""
+        if not self._awaited:
+            self._awaited = True
+            self._came.emit()
+
+    def _take(self) -> None:
+        """Show the newest picture, whichever it is by now."""
+        self._awaited = False
+        if self.isVisible():
+            self._show(self.microscope.sight)
+
+    def _show(self, sight: Sight) -> None:
+        self.view.show_sight(sight)
+        self._show_readout()
+
+    def _show_readout(self) -> None:
+        sight, hand = self.view.sight, self.view.hand
+        said = cursor_text(sight, self.view.cursor_at)
+        mode = "" if hand is Hand.PAN else f"{hand.value}: Esc ends it   "
+        self.readout.show_text(mode + said)
+
+    def _choose_page(self, page: int) -> None:
+        self.tools.setVisible(page < len(self._pages))
+        if page < len(self._pages):
+            self.tools.setCurrentIndex(page)
+        self.refresh(self.workbench.session.snapshot())
+
+    def _use_theme(self, theme: Theme) -> None:
+        self.view.set_theme(theme)
+        self.picture.set_theme(theme)
+
+
+def _page(sections: tuple[QWidget, ...]) -> QScrollArea:
+    content = QWidget()
+    column = QVBoxLayout(content)
+    column.setContentsMargins(8, 0, 8, 4)
+    column.setSpacing(4)
+    for section in sections:
+        column.addWidget(section)
+    column.addStretch(1)
+    scroll = QScrollArea()
+    scroll.setObjectName("panelScroll")
+    scroll.setFrameShape(QFrame.Shape.NoFrame)
+    scroll.setWidgetResizable(True)
+    scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+    scroll.setWidget(content)
+    return scroll

@@ -1,0 +1,99 @@
+"""How the picture is shown: levels, gamma, colours, and what lies over it."""
+
+from dataclasses import replace
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QCheckBox, QLabel, QSlider
+
+from rotemina.app.microscope.sight import Sight
+from rotemina.app.settings import Settings
+from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.theme import Theme
+from rotemina.plugins.microscope.contrast import GAMMA, Contrast, Table, histogram
+from rotemina.plugins.microscope.histogram_view import HistogramView
+from rotemina.plugins.microscope.overlays import Layer
+from rotemina.plugins.microscope.picture_view import PictureView
+from rotemina.plugins.microscope.section import Section, SteadyChoice, button
+
+_STEPS = 100.0  # of the slider, from the least gamma to the greatest, by its logarithm
+
+
+class PictureSection(Section):
+    """Contrast by hand or by itself, and the histogram that it is read from."""
+
+    def __init__(self, view: PictureView, theme: Theme) -> None:
+        super().__init__("Contrast")
+        self._view = view
+        self.histogram = HistogramView(theme)
+        self.histogram.moved.connect(self._set_levels)
+        self.auto = QCheckBox("levels by themselves")
+        self.auto.setToolTip(plain_tip("Black and white at 0.1 and 99.9 % of the pixels"))
+        self.auto.setChecked(True)
+        self.auto.toggled.connect(lambda on: self._change(auto=on))
+        self.whole = button("Whole range", lambda: self._set_levels(0.0, 1.0))
+        self.whole.setToolTip(plain_tip("Black at 0, white at the largest number"))
+        self.gamma = QSlider(Qt.Orientation.Horizontal)
+        self.gamma.setRange(0, int(_STEPS))
+        self.gamma.setValue(int(_STEPS / 2))
+        self.gamma.setAccessibleName("Gamma")
+        self.gamma.valueChanged.connect(lambda step: self._change(gamma=_gamma(step)))
+        self._gamma_text = QLabel()
+        self.table = SteadyChoice("Colours")
+        for table in Table:
+            self.table.addItem(table.value, table)
+        self.table.currentIndexChanged.connect(
+            lambda _: self._change(table=self.table.currentData())
+        )
+        self.column.addWidget(self.histogram)
+        self.column.addWidget(self.auto)
+        self.column.addWidget(self.whole)
+        self.add_row(self._gamma_text, self.gamma)
+        self.column.addWidget(self.table)
+        self._change()
+
+    def refresh(self, sight: Sight) -> None:
+        """Show the newest picture's histogram."""
+        if sight.feed.frame is not None:
+            self.histogram.show_counts(histogram(sight.feed.frame), self._view.span)
+
+    def set_theme(self, theme: Theme) -> None:
+        """Change the colours."""
+        self.histogram.theme = theme
+        self.histogram.update()
+
+    def _set_levels(self, low: float, high: float) -> None:
+        self.auto.blockSignals(True)
+        self.auto.setChecked(False)
+        self.auto.blockSignals(False)
+        self._change(auto=False, low=low, high=high)
+
+    def _change(self, **changes: object) -> None:
+        contrast: Contrast = replace(self._view.contrast, **changes)  # type: ignore[arg-type]
+        if changes.get("auto") is False and "low" not in changes:
+            low, high = self._view.span  # by hand from where it is
+            contrast = replace(contrast, low=low, high=high)
+        self._view.set_contrast(contrast)
+        self._gamma_text.setText(f"gamma {contrast.gamma:.2f}")
+        self.gamma.setToolTip(plain_tip("1: as light is; less brightens what is dark"))
+
+
+class LayerSection(Section):
+    """What is shown over the picture."""
+
+    def __init__(self, view: PictureView, settings: Settings) -> None:
+        super().__init__("Over the picture")
+        self.boxes: dict[Layer, QCheckBox] = {}
+        for layer in Layer:
+            box = QCheckBox(layer.value)
+            key = f"microscope.layer.{layer.name.lower()}"
+            box.setChecked(bool(settings.get(key, layer in view.layers)))
+            view.set_layer(layer, box.isChecked())
+            box.toggled.connect(lambda on, layer=layer: view.set_layer(layer, on))
+            box.toggled.connect(lambda on, key=key: settings.set(key, on))
+            self.boxes[layer] = box
+            self.column.addWidget(box)
+
+
+def _gamma(step: int) -> float:
+    low, high = GAMMA
+    return float(low * (high / low) ** (step / _STEPS))

@@ -1,0 +1,49 @@
+"""What is under the cursor, and angles and lengths in words. Free of Qt."""
+
+from math import degrees
+
+import numpy as np
+
+from rotemina.app.microscope.measurements import tip_in_plane
+from rotemina.app.microscope.sight import Measured, Sight
+from rotemina.drivers.cameras.frame import Frame
+from rotemina.sim.trajectory.wording import readable
+
+
+def cursor_text(sight: Sight, place: tuple[float, float] | None) -> str:
+    """Return pixel, value and place of the cursor; empty where it is not over the picture."""
+    frame = sight.feed.frame
+    if frame is None or place is None:
+        return ""
+    column, row = round(place[0]), round(place[1])
+    rows, columns = frame.pixels.shape[:2]
+    if not (0 <= column < columns and 0 <= row < rows):
+        return ""
+    parts = [f"{column}, {row} px", value_text(frame, column, row)]
+    micro = sight.calibration.micro if sight.calibration is not None else None
+    if micro is not None:
+        place_m, _ = tip_in_plane(np.array(place), np.zeros((2, 2)), micro)
+        parts.append(f"x {1e6 * place_m[0]:.2f}, y {1e6 * place_m[1]:.2f} µm")
+    elif sight.pixel_m is not None:
+        across, down = (1e6 * sight.pixel_m * one for one in place)
+        parts.append(f"{across:.1f}, {down:.1f} µm from the corner")
+    return "   ".join(parts)
+
+
+def value_text(frame: Frame, column: int, row: int) -> str:
+    """Return a pixel's number, or its three, of the largest possible."""
+    value = frame.pixels[row, column]
+    if frame.colour:
+        return "RGB " + " ".join(str(int(one)) for one in value)
+    return f"{int(value)} of {frame.largest}"
+
+
+def measured_text(line: Measured) -> str:
+    """Return length and angles of a drawn line."""
+    length = f"{line.length_px:.1f} px"
+    if line.length_m is not None:
+        length = f"{readable(line.length_m, 'm')} ({length})"
+    text = f"{length}, {degrees(line.angle):.1f}°"
+    if line.to_body is not None:
+        text += f", {degrees(line.to_body):.1f}° to the pipette"
+    return text

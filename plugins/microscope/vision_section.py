@@ -1,0 +1,153 @@
+"""What is found in the picture: tip, cell, focus, drift."""
+
+from PySide6.QtWidgets import QCheckBox, QLineEdit
+
+from rotemina.app.display import PLAIN_NUMBER
+from rotemina.app.microscope.errors import MicroscopeError
+from rotemina.app.microscope.microscope import Microscope
+from rotemina.app.microscope.sight import Activity, Sight, TipState
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.workbench import Workbench
+from rotemina.plugins.microscope.section import Section, SteadyChoice, button, show_text
+from rotemina.plugins.microscope.standing import against_moving
+from rotemina.plugins.microscope.words import (
+    cell_text,
+    drift_text,
+    focus_name,
+    focus_text,
+    tip_text,
+)
+
+_PRESET_M = 50e-6  # each way from where it is
+
+
+class TipSection(Section):
+    """Tracking on or off, and what it says."""
+
+    def __init__(self, workbench: Workbench, microscope: Microscope) -> None:
+        super().__init__("Tip")
+        self.track = QCheckBox("track the tip")
+        self.track.setToolTip(
+            plain_tip("Find the pipette's tip in every picture; Tip, above, shows where it is")
+        )
+        self.track.clicked.connect(lambda on: workbench.ask(lambda: microscope.track(on)))
+        self.background = button(
+            "Take background", lambda: workbench.ask(microscope.take_background)
+        )
+        self.drift = QCheckBox("watch the drift")
+        self.drift.setToolTip(plain_tip("By how much the background has moved since it was taken"))
+        self.drift.clicked.connect(lambda on: workbench.ask(lambda: microscope.watch_drift(on)))
+        self.column.addWidget(self.track)
+        self.said = self.add_text()
+        self.column.addWidget(self.background)
+        self.column.addWidget(self.drift)
+        self.drifted = self.add_text()
+
+    def refresh(self, sight: Sight) -> None:
+        """Show the tip's figures."""
+        on = sight.tip.state is not TipState.OFF
+        if self.track.isChecked() != on:
+            self.track.setChecked(on)
+        looked, passed = sight.frames_looked_at, sight.frames_passed_over
+        figures = f"\n{looked} pictures looked at, {passed} passed over" if on else ""
+        show_text(self.said, tip_text(sight.tip) + figures)
+        none = None if sight.feed.frame is not None else "there is no picture"
+        about = "taken" if sight.background else "not taken yet"
+        allow(
+            self.background,
+            none,
+            "Keep what lies beneath, with the tip out of the way, so that a cell misleads nobody; "
+            f"{about}",
+        )
+        if self.drift.isChecked() != sight.drift.watched:
+            self.drift.setChecked(sight.drift.watched)
+        show_text(self.drifted, drift_text(sight.drift))
+
+
+class CellSection(Section):
+    """The outline of a cell, and how far its membrane is."""
+
+    def __init__(self, workbench: Workbench, microscope: Microscope) -> None:
+        super().__init__("Cell")
+        self._guide = self.add_text()
+        self._guide.setText("Cell, above the picture, outlines the cell that is clicked.")
+        self.said = self.add_text()
+        self.forget = button("Forget the cell", lambda: workbench.ask(microscope.forget_cell))
+        self.column.addWidget(self.forget)
+
+    def refresh(self, sight: Sight) -> None:
+        """Show size and distance."""
+        show_text(self.said, cell_text(sight))
+        none = "no cell is outlined" if sight.cell.outline is None else None
+        allow(self.forget, none, "Take the outline away")
+
+
+class FocusSection(Section):
+    """Autofocus with the microscope's drive, or with an axis of the machine."""
+
+    def __init__(self, workbench: Workbench, microscope: Microscope) -> None:
+        super().__init__("Focus")
+        self._workbench, self._microscope = workbench, microscope
+        self._sight = Sight()
+        self.place = SteadyChoice("What is focused with")
+        self.reach = QLineEdit(f"{1e6 * _PRESET_M:g}")
+        self.reach.setAccessibleName("How far to search each way, µm")
+        self.reach.setToolTip(plain_tip("How far to search each way from where it is, µm"))
+        self.search = button("Autofocus", self._autofocus)
+        self.column.addWidget(self.place)
+        self.add_row(self.reach, self.search)
+        self.goal = QLineEdit()
+        self.goal.setPlaceholderText("focus at, µm")
+        self.goal.setAccessibleName("Place of the focus drive, µm")
+        self.move = button("Move focus", self._move)
+        self.goal.returnPressed.connect(self._move)
+        self.add_row(self.goal, self.move)
+        self.said = self.add_text()
+
+    def refresh(self, sight: Sight, state: SessionState) -> None:
+        """Show what can be focused with, and how the search goes."""
+        self._sight = sight
+        names = [one.name for one in sight.focus_places]
+        if names != [self.place.itemData(row) for row in range(self.place.count())]:
+            self.place.clear()
+            for name in names:
+                self.place.addItem(name, name)
+        for row, one in enumerate(sight.focus_places):
+            self.place.setItemText(row, focus_name(one))
+        none = None if names else "nothing can be focused with: open a camera, connect the machine"
+        why = none or against_moving(sight, state)
+        allow(self.search, why, "Look for the sharpest place, and stay there")
+        drive = None if "focus" in names else "this camera has no focus drive"
+        busy = None if sight.activity is Activity.NONE else f"{sight.activity.value} is under way"
+        allow(self.move, drive or busy, "Move the focus drive of the microscope")
+        show_text(self.said, focus_text(sight.focusing))
+
+    def _autofocus(self) -> None:
+        name = self.place.currentData()
+        chosen = next((one for one in self._sight.focus_places if one.name == name), None)
+
+        def begin() -> None:
+            reach_m = _micrometres("how far to search", self.reach.text())
+            if chosen is None or chosen.place is None:
+                self._microscope.autofocus(name)
+                return
+            low, high = (
+                max(chosen.place - reach_m, chosen.low),
+                min(chosen.place + reach_m, chosen.high),
+            )
+            self._microscope.autofocus(name, low, high)
+
+        self._workbench.ask(begin)
+
+    def _move(self) -> None:
+        self._workbench.ask(
+            lambda: self._microscope.move_focus(_micrometres("focus", self.goal.text()))
+        )
+
+
+def _micrometres(name: str, text: str) -> float:
+    plain = text.strip().replace(",", ".")
+    if not PLAIN_NUMBER.fullmatch(plain):
+        raise MicroscopeError(f"{name}: {text.strip()!r} is no number; write one in µm")
+    return 1e-6 * float(plain)

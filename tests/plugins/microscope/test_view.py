@@ -1,0 +1,236 @@
+"""The picture and the hands in it, on a microscope that does what the test says."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QColor, QWheelEvent
+
+from rotemina.app.cameras.feed import FeedState
+from rotemina.app.microscope.errors import MicroscopeError
+from rotemina.app.microscope.sight import TipSeen, TipState
+from rotemina.app.microscope.targets import Target
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.requests import Requests
+from rotemina.app.shell.theme import DARK
+from rotemina.drivers.cameras.frame import Frame, Region
+from rotemina.drivers.samples import DeviceState
+from rotemina.plugins.microscope.contrast import Contrast
+from rotemina.plugins.microscope.hands import Hands
+from rotemina.plugins.microscope.histogram_view import HistogramView
+from rotemina.plugins.microscope.overlays import Layer
+from rotemina.plugins.microscope.picture_view import Hand, PictureView
+
+LEFT = Qt.MouseButton.LeftButton
+
+
+@pytest.fixture
+def view(qtbot, microscope):
+    made = PictureView(DARK)
+    qtbot.addWidget(made)
+    made.resize(260, 206)  # two screen pixels a pixel
+    made.show_sight(microscope.sight)
+    made.show()
+    return made
+
+
+@pytest.fixture
+def session():
+    state = SessionState(activity=DeviceState.IDLE)
+    made = SimpleNamespace(robot=None, stop_asked_s=0.0, state=state)
+    made.snapshot = lambda: made.state
+    return made
+
+
+@pytest.fixture
+def hands(microscope, view, session):
+    microscope.change(tip=TipSeen(TipState.TRACKED, np.array([65.0, 51.0])))
+    made = Hands(Requests(session), microscope, view)
+    made.said = []
+    made.asked = []
+    made._workbench.refused.connect(made.said.append)
+    made.asks.connect(made.asked.append)
+    return made
+
+
+def at(view, column, row):
+    return QPointF(*view.viewport.to_screen(column, row)).toPoint()
+
+
+def names(microscope):
+    return [one[0] for one in microscope.asked]
+
+
+def test_the_newest_picture_is_painted_where_it_belongs(qtbot, view, microscope):
+    pixels = np.zeros((103, 130), np.uint16)
+    pixels[40:60, 30:50] = 4095
+    taken = Frame(pixels, 0.0, 1, 12, Region(0, 0, 130, 103))
+    for layer in Layer:
+        view.set_layer(layer, False)
+    view.set_contrast(Contrast(auto=False))
+    with qtbot.waitSignal(view.painted, check_params_cb=lambda frame: frame is taken):
+        microscope.feed(frame=taken)
+        view.show_sight(microscope.sight)
+    image = view.grab().toImage()
+    for column, row, level in ((31, 41, 255), (49, 59, 255), (29, 50, 0), (51, 50, 0), (40, 39, 0)):
+        place = at(view, column, row)
+        assert QColor(image.pixel(place.x(), place.y())).red() == level
+    microscope.feed(state=FeedState.FROZEN, reason="the same again")
+    view.show_sight(microscope.sight)
+    veiled = view.grab().toImage()
+    corner = QPoint(250, 200)
+    assert QColor(image.pixel(corner)).red() == 0
+    assert QColor(veiled.pixel(corner)).red() > 0  # greyed, so that all see it
+
+
+def test_wheel_pan_and_keys(qtbot, view):
+    about = QPointF(60.0, 40.0)
+    held = view.viewport.to_picture(60.0, 40.0)
+    wheel = QWheelEvent(
+        about,
+        view.mapToGlobal(about),
+        QPoint(),
+        QPoint(0, 240),
+        Qt.MouseButton.NoButton,
+        Qt.KeyboardModifier.NoModifier,
+        Qt.ScrollPhase.NoScrollPhase,
+        False,
+    )
+    view.wheelEvent(wheel)
+    assert view.viewport.zoom == pytest.approx(2.0 * 1.2**2)
+    assert view.viewport.to_screen(*held) == pytest.approx((60.0, 40.0))
+    qtbot.mousePress(view, Qt.MouseButton.MiddleButton, pos=QPoint(100, 100))
+    qtbot.mouseMove(view, QPoint(110, 95))
+    qtbot.mouseRelease(view, Qt.MouseButton.MiddleButton, pos=QPoint(110, 95))
+    assert view.viewport.to_screen(*held) == pytest.approx((70.0, 35.0))
+    view.set_hand(Hand.MARK)  # the left button has other work: the space bar makes it pan
+    before = view.viewport.at
+    with qtbot.assertNotEmitted(view.pressed):
+        qtbot.keyPress(view, Qt.Key.Key_Space)
+        qtbot.mousePress(view, LEFT, pos=QPoint(100, 100))
+        qtbot.mouseMove(view, QPoint(90, 100))
+        qtbot.mouseRelease(view, LEFT, pos=QPoint(90, 100))
+        qtbot.keyRelease(view, Qt.Key.Key_Space)
+    assert view.viewport.at != before
+    qtbot.keyClick(view, Qt.Key.Key_1)
+    assert view.viewport.zoom == pytest.approx(1.0)
+    qtbot.keyClick(view, Qt.Key.Key_F)
+    assert view.viewport.zoom == pytest.approx(2.0)
+
+
+def test_nothing_moves_unless_the_mode_is_on(qtbot, view, microscope, hands):
+    for hand in (Hand.PAN, Hand.MARK, Hand.TIP, Hand.CELL, Hand.MEASURE):
+        hands.choose(hand)
+        qtbot.mouseClick(view, LEFT, pos=at(view, 80, 40))
+    assert names(microscope) == ["mark_target", "track", "outline_cell", "forget_measure"]
+    hands.choose(Hand.MEASURE)
+    microscope.asked.clear()
+    qtbot.mousePress(view, LEFT, pos=at(view, 20, 20))
+    qtbot.mouseMove(view, at(view, 60, 50))
+    assert view.line is not None
+    qtbot.mouseRelease(view, LEFT, pos=at(view, 60, 50))
+    (name, begin, end), *_ = microscope.asked
+    assert name == "measure"
+    assert np.subtract(end, begin) == pytest.approx([40.0, 30.0])
+    assert view.line is None
+
+
+def test_a_click_plans_shows_and_goes_and_a_drag_follows(qtbot, view, microscope, hands):
+    hands.choose(Hand.MOVE)
+    qtbot.mousePress(view, LEFT, pos=at(view, 80, 40))
+    assert microscope.sight.planned is not None  # the ghost, before anything has moved
+    assert names(microscope) == ["plan"]
+    qtbot.mouseMove(view, at(view, 90, 45))
+    qtbot.mouseRelease(view, LEFT, pos=at(view, 90, 45))
+    assert names(microscope) == ["plan", "plan", "go", "cancel_plan"]
+    assert microscope.asked[1][1] == pytest.approx((90.0, 45.0), abs=0.5)
+    assert microscope.asked[2] == ("go", False)
+
+
+def test_a_large_move_waits_for_a_yes(qtbot, view, microscope, hands):
+    microscope.confirm = True
+    hands.choose(Hand.MOVE)
+    qtbot.mouseClick(view, LEFT, pos=at(view, 80, 40))
+    assert "go" not in names(microscope)
+    assert hands.asked[-1] == "Move the tip 20 µm with the micro stage, ± 0.5 px?"
+    hands.answer(False)
+    assert (names(microscope)[-1], hands.asked[-1]) == ("cancel_plan", "")
+    hands.answer(True)  # of a question that was answered already
+    assert "go" not in names(microscope)
+    qtbot.mouseClick(view, LEFT, pos=at(view, 80, 40))
+    hands.answer(True)
+    assert ("go", True) in microscope.asked
+
+
+@pytest.mark.parametrize("way", ["Esc", "stop", "hidden", "frozen", "mode off"])
+def test_what_ends_the_mode_forgets_the_move(qtbot, view, microscope, hands, session, way):
+    microscope.confirm = True
+    hands.choose(Hand.MOVE)
+    qtbot.mouseClick(view, LEFT, pos=at(view, 80, 40))
+    if way == "Esc":
+        qtbot.keyClick(view, Qt.Key.Key_Escape)
+    elif way == "stop":
+        session.stop_asked_s = 8.0
+    elif way == "hidden":
+        view.hide()
+    elif way == "frozen":
+        microscope.feed(state=FeedState.FROZEN)
+    else:
+        hands.choose(Hand.PAN)
+    hands.refresh(microscope.sight)
+    assert view.hand is Hand.PAN
+    assert microscope.sight.planned is None
+    assert hands.asked[-1] == ""
+    hands.answer(True)
+    assert "go" not in names(microscope)
+
+
+def test_what_speaks_against_a_move_is_said_and_nothing_is_planned(
+    qtbot, view, microscope, hands, session
+):
+    hands.choose(Hand.MOVE)
+    microscope.change(tip=TipSeen(TipState.LOST))
+    qtbot.mouseClick(view, LEFT, pos=at(view, 80, 40))
+    assert names(microscope) == []
+    assert "nothing is moved: the tip is not tracked" in hands.said[-1]
+    hands.choose(Hand.MARK)
+    against = hands.against(microscope.sight, session.state)
+    assert "tip is not tracked" in against[Hand.MOVE]
+    assert against[Hand.MARK] is None
+    hands.choose(Hand.MOVE)
+    microscope.change(tip=TipSeen(TipState.TRACKED))
+    microscope.refuses = MicroscopeError("outside the calibrated field")
+    qtbot.mouseClick(view, LEFT, pos=at(view, 80, 40))
+    assert hands.said[-1] == "outside the calibrated field"
+    assert "go" not in names(microscope)
+
+
+def test_targets_are_visited_in_order(view, microscope, hands):
+    microscope.change(targets=(Target(10.0, 20.0), Target(30.0, 40.0)))
+    hands.visit_next()
+    assert microscope.asked[0] == ("plan", (10.0, 20.0), None)
+    assert names(microscope)[1:] == ["visit_next", "cancel_plan"]
+    microscope.confirm = True
+    microscope.asked.clear()
+    hands.visit_next()
+    assert names(microscope) == ["plan"]
+    hands.answer(True)
+    assert ("visit_next", True) in microscope.asked
+
+
+def test_the_handles_of_the_histogram(qtbot):
+    view = HistogramView(DARK)
+    qtbot.addWidget(view)
+    view.resize(200, 70)
+    view.show_counts(np.arange(256), (0.25, 0.75))
+    moves = []
+    view.moved.connect(lambda low, high: moves.append((low, high)))
+    qtbot.mousePress(view, LEFT, pos=QPoint(50, 30))
+    qtbot.mouseMove(view, QPoint(80, 30))
+    qtbot.mouseMove(view, QPoint(190, 30))  # not past the other
+    qtbot.mouseRelease(view, LEFT, pos=QPoint(190, 30))
+    qtbot.mouseMove(view, QPoint(20, 30))
+    assert moves[0] == pytest.approx((0.4, 0.75))
+    assert moves[-1] == pytest.approx((0.75 - 1 / 256, 0.75))
+    view.grab()
