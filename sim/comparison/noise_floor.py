@@ -86,7 +86,8 @@ def _between_periods(record: Record, axis: str, tap: Tap) -> float | None:
         return None
     count = len(record.time_s) // period
     periods = record.signal(axis, tap)[: count * period].reshape(count, period)
-    return float(np.sqrt(np.mean(np.var(periods, axis=0, ddof=1))))
+    floor = float(np.sqrt(np.mean(np.var(periods, axis=0, ddof=1))))
+    return floor if _was_measured(floor, periods) else None
 
 
 def _at_rest(record: Record, axis: str, tap: Tap) -> float | None:
@@ -103,8 +104,12 @@ def _at_rest(record: Record, axis: str, tap: Tap) -> float | None:
     # Within a hold alone: from one hold to the next a reading moves by more than its step.
     step = min((size for part in held if (size := _reading_step(part)) > 0.0), default=0.0)
     floor = float(np.sqrt(np.mean(residual**2) + step**2 / 12.0))
-    # A computed signal holds without any noise: what is left then is rounding, no floor.
-    return floor if floor > _ROUNDING * float(np.abs(signal).max()) else None
+    return floor if _was_measured(floor, signal) else None
+
+
+def _was_measured(floor: float, signal: FloatArray) -> bool:
+    """Tell whether what scatters is noise: a computed signal has none but its rounding."""
+    return floor > _ROUNDING * float(np.abs(signal).max())
 
 
 def _holds(command: FloatArray) -> list[tuple[int, int]]:

@@ -25,6 +25,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.step import StepFunction
+from rotemina.sim.plugin_points import API_VERSIONS
 from rotemina.sim.robot.model import Axis
 
 Values = Mapping[str, float]
@@ -305,6 +306,8 @@ class Effect:
         The first is the usual one.
     coupled : bool
         Whether it needs a ``from_axis``.
+    api_version : int
+        The version of this interface that the effect was written for.
     """
 
     id: str
@@ -314,6 +317,7 @@ class Effect:
     kinds: frozenset[str]
     formulations: tuple[Formulation, ...]
     coupled: bool = False
+    api_version: int = API_VERSIONS["rotemina.effects"]
 
     def formulation(self, name: str | None = None) -> Formulation | None:
         """Return a formulation by name, the usual one without; None if there is none such."""

@@ -10,6 +10,7 @@ from importlib.metadata import EntryPoint, entry_points
 
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.effects.formulation import Effect, Stage
+from rotemina.sim.plugin_points import API_VERSIONS, PluginError, load, require_version
 
 GROUP = "rotemina.effects"
 
@@ -49,14 +50,12 @@ def effect_named(effect_id: str) -> Effect:
         known = ", ".join(sorted(_points()))
         raise EffectError(f"there is no effect {effect_id!r}; {meant}there are {known}")
     try:
-        effect = point.load()
-    except (Exception, SystemExit) as error:  # a plugin may raise anything, and must end nothing
-        raise EffectError(
-            f"effect {effect_id!r} ({point.value}) cannot be imported: "
-            f"{type(error).__name__}: {error}"
-        ) from error
-    if not isinstance(effect, Effect):
-        raise EffectError(f"effect {effect_id!r} ({point.value}) is no Effect")
+        effect = load(point)
+        if not isinstance(effect, Effect):
+            raise EffectError(f"effect {effect_id!r} ({point.value}) is no Effect")
+        require_version(point, effect.api_version, API_VERSIONS[GROUP])
+    except PluginError as error:
+        raise EffectError(f"effect {effect_id!r}: {error}") from error
     if effect.id != effect_id:
         raise EffectError(f"effect {effect_id!r} ({point.value}) calls itself {effect.id!r}")
     if not effect.formulations:

@@ -27,6 +27,19 @@ def cubic(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compil
     return force
 
 
+def cubic_quintic(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
+    """``f = −(K₃ d³ + K₅ d⁵)``, ``d = x − x₀``, in the same way. p: K₃, x₀, K₅."""
+    bent = x - p[1]
+    force = 0.0
+    for _ in range(3):
+        at = bent + 0.5 * a * force
+        square = at * at
+        gap = force + (p[0] + p[2] * square) * square * at
+        slope = 1.0 + 0.5 * a * (3.0 * p[0] + 5.0 * p[2] * square) * square
+        force -= gap / slope
+    return force
+
+
 def _numbers(values: Values, facts: Facts) -> tuple[float, ...]:
     """Make ``hardening`` the force at half the range from x₀, over that of the linear stiffness.
 
@@ -38,9 +51,20 @@ def _numbers(values: Values, facts: Facts) -> tuple[float, ...]:
     return (values["hardening"] * facts.stiffness / reach**2, middle + values["centre"])
 
 
+def _two_numbers(values: Values, facts: Facts) -> tuple[float, ...]:
+    reach = 0.5 * facts.span
+    return (*_numbers(values, facts), values["quintic"] * facts.stiffness / reach**4)
+
+
 def _inner_step(_values: Values, facts: Facts) -> float:
     return _INNER_SHARE / facts.frequency_hz
 
+
+_HARDENING = Parameter("hardening", "ε, share of further force at L from q₀", "", -0.01, 1.0, 0.05)
+_CENTRE = Parameter(
+    "centre", "where it is straight, from mid-range", "q", -0.5, 0.5, 0.0, per="span"
+)
+_TRAITS = frozenset({Trait.MEMORYLESS, Trait.RATE_INDEPENDENT, Trait.DISSIPATIVE})
 
 STIFFNESS_NONLINEARITY = Effect(
     id="stiffness_nonlinearity",
@@ -53,24 +77,25 @@ STIFFNESS_NONLINEARITY = Effect(
             name="cubic",
             equation="f = −ε k (q − q₀)³ / L², L half the range, k the linear stiffness",
             source="Kovacic and Brennan, The Duffing Equation (2011), ch. 2",
-            parameters=(
-                Parameter(
-                    "hardening", "ε, share of further force at L from q₀", "", -0.01, 1.0, 0.05
-                ),
-                Parameter(
-                    "centre",
-                    "where it is straight, from mid-range",
-                    "q",
-                    -0.5,
-                    0.5,
-                    0.0,
-                    per="span",
-                ),
-            ),
+            parameters=(_HARDENING, _CENTRE),
             acts=Force(step=cubic),
             prepare=_numbers,
             inner_step_s=_inner_step,
-            traits=frozenset({Trait.MEMORYLESS, Trait.RATE_INDEPENDENT, Trait.DISSIPATIVE}),
+            traits=_TRAITS,
+        ),
+        Formulation(
+            name="cubic_quintic",
+            equation="f = −k (ε (q − q₀)³ / L² + μ (q − q₀)⁵ / L⁴), L half the range",
+            source="Kovacic and Brennan, The Duffing Equation (2011), ch. 2",
+            parameters=(
+                _HARDENING,
+                _CENTRE,
+                Parameter("quintic", "μ, the same of the fifth power", "", 0.0, 1.0, 0.02),
+            ),
+            acts=Force(step=cubic_quintic),
+            prepare=_two_numbers,
+            inner_step_s=_inner_step,
+            traits=_TRAITS,
         ),
     ),
 )

@@ -12,7 +12,7 @@ from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.models import Explanation, explain, mean_squares
 from rotemina.sim.gap.richness import alike_axes
 from rotemina.sim.gap.rivals import Key, Rival, probability, rivals
-from rotemina.sim.gap.selection import Selection
+from rotemina.sim.gap.selection import LEAST_POWER, Selection
 from rotemina.sim.gap.verdict import closed
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
@@ -36,14 +36,19 @@ Ranking = Mapping[Key, tuple[Rival, ...]]
 
 
 def contested(
-    evidence: Evidence, selection: Selection, best: Explanation, aside: float, *, wanders: bool
+    evidence: Evidence,
+    selection: Selection,
+    best: Explanation,
+    aside: Mapping[Tap, float],
+    *,
+    wanders: bool,
 ) -> tuple[Explanation, Ranking]:
     """Return the explanation by the causes that stand, and the rivals of each.
 
     A rival that does about as well with fewer parameters takes a cause's place. A cause in whose
     place several others would do as well is none, as it stands for what the rest leaves; nor is
-    one that closes little where the sensor ``wanders``. ``aside`` is the power, in floors squared,
-    of what was set aside: a cause beside it closes a share of the whole.
+    one that closes little where the sensor ``wanders``. ``aside`` is the power at each tap, in its
+    floors squared, of what was set aside: a cause beside it closes a share of the whole.
     """
     ranked = _ranked(evidence, selection, best)
     likelier = _likelier(ranked)
@@ -57,7 +62,9 @@ def contested(
     ]
     if wanders:
         doubted += [key for key in best.ids if _bends_to(evidence, best, key)]
-    if doubted and (len(best.causes) > 1 or wanders or aside > selection.raw):
+    if doubted and (
+        len(best.causes) > 1 or wanders or max(aside.values(), default=0.0) > selection.raw
+    ):
         kept = [one for one in best.causes if (one.id, one.from_axis) not in doubted]
         best = _with_only(evidence, selection, kept)
         ranked = _ranked(evidence, selection, best)
@@ -75,13 +82,18 @@ def _likelier(ranked: Mapping[Key, Sequence[Rival]]) -> Explanation | None:
 
 
 def _least_sure(
-    evidence: Evidence, bare: Explanation, aside: float, best: Explanation, key: Key
+    evidence: Evidence,
+    bare: Explanation,
+    aside: Mapping[Tap, float],
+    best: Explanation,
+    key: Key,
 ) -> float:
     """Return the probability that a cause needs: more where it closes little of any tap's gap."""
     others = [one for one in best.causes if (one.id, one.from_axis) != key]
     before = mean_squares(evidence, evidence.residual(others))
     much = any(
-        before[tap] - left >= _LITTLE * (bare.by_tap[tap] + aside - 1.0)
+        before[tap] - left
+        >= max(_LITTLE * (bare.by_tap[tap] + aside.get(tap, 0.0) - 1.0), LEAST_POWER)
         for tap, left in best.by_tap.items()
     )
     return _DOUBTED if much else _DOUBTED_OF_LITTLE

@@ -13,11 +13,11 @@ import numpy as np
 from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.gap.coarseness import coarse_step
+from rotemina.sim.gap.crossings import at_crossings
 from rotemina.sim.gap.evidence import Evidence, Observation, Signals
 from rotemina.sim.gap.excursions import excursions
 from rotemina.sim.gap.jumps import jumps
 from rotemina.sim.gap.tones import tone_signals, tones
-from rotemina.sim.gap.wander import wandering
 from rotemina.sim.gap.whiteness import noise_level
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import StepperAxis
@@ -25,7 +25,6 @@ from rotemina.sim.robot.model import StepperAxis
 _MORE_NOISE = 1.3  # floors from which noise is more than declared
 _SETTLED_S = 0.3  # after which a held axis rests
 _AROUND_A_JUMP_S = 0.08
-_SEEN_BY_REF = 0.3  # of a wander, that the reference may see of what is left
 _JUMPING = 0.6  # of the gap's power in all records, that lost steps must close
 _SHAKEN = 0.1  # of its range, that another axis' going through all of its own may shake an axis
 _REST_ROWS = 100
@@ -84,36 +83,6 @@ def _without_jumps(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
         Disturbance("lost_steps", tap, total / _rows(evidence, tap), note)
         for tap, total in power.items()
     ]
-
-
-def wander(evidence: Evidence, left: FloatArray) -> Disturbance | None:
-    """Return how far a sensor wanders, by what the best explanation leaves (rows,)."""
-    total, rows, proven = 0.0, 0, False
-    for part in evidence.parts:
-        if part.tap is not Tap.MEAS:
-            continue
-        record = evidence.observations[part.record].record
-        own = wandering(record.time_s, left[part.rows], resting(record))
-        rows += part.rows.stop - part.rows.start
-        if own is not None and own.at_rest is not False:
-            total += own.power * (part.rows.stop - part.rows.start)
-            proven |= own.at_rest is True
-    if not proven or _true_motion_left(evidence, left) > _SEEN_BY_REF * total / rows:
-        return None
-    note = "The reading wanders, at rest as well, whatever the axis does."
-    return Disturbance("sensor_drift", Tap.MEAS, total / rows, note)
-
-
-def _true_motion_left(evidence: Evidence, left: FloatArray) -> float:
-    """Return the power that is left at the reference, in floors of the sensor."""
-    power, rows = 0.0, 0
-    for part in evidence.parts:
-        floors = evidence.observations[part.record].floor
-        if part.tap is Tap.REF and Tap.MEAS in floors:
-            share = floors[Tap.REF] / floors[Tap.MEAS]
-            power += share**2 * float(np.sum(left[part.rows] ** 2))
-            rows += part.rows.stop - part.rows.start
-    return power / rows if rows else 0.0
 
 
 def _late_left(gap: FloatArray, answer: FloatArray, time_s: FloatArray) -> float:
@@ -248,7 +217,7 @@ def _with_true_floors(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
         rows.append(int(kept.sum()))
     if not levels:
         return evidence, []
-    floor = _floor(evidence, Tap.MEAS)
+    floor = evidence.floor(Tap.MEAS)
     coarse = [step for step in steps if step is not None]
     level = float(np.sqrt(np.average(np.square(levels), weights=rows)))
     if len(coarse) > len(steps) / 2:
@@ -256,7 +225,8 @@ def _with_true_floors(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
         power = (step / floor) ** 2 / 12.0
         note = f"The sensor reads in steps of {step:.3g}."
         # At rest an error of up to half a step stays as it is, which no mean over errors tells.
-        return _raised(evidence, float(np.sqrt(1.0 + 3.0 * power))), [
+        raised = _raised(evidence, float(np.sqrt(1.0 + 3.0 * power)))
+        return at_crossings(evidence, raised, answers, step), [
             Disturbance("sensor_quantization", Tap.MEAS, power, note)
         ]
     if level > _MORE_NOISE:
@@ -332,12 +302,22 @@ def _rows(evidence: Evidence, tap: Tap) -> int:
     return sum(len(o.real[tap]) for o in evidence.observations if tap in o.real)
 
 
-def _floor(evidence: Evidence, tap: Tap) -> float:
-    floors = [o.floor[tap] for o in evidence.observations if tap in o.floor]
-    return float(np.sqrt(np.mean(np.square(floors))))
-
-
 def by_effect(found: Sequence[Disturbance]) -> Iterator[Disturbance]:
     """Give one disturbance of each effect, at the tap where it shows first."""
     seen: Mapping[str, Disturbance] = {one.effect: one for one in reversed(found)}
     yield from seen.values()
+
+
+def power_by_tap(evidence: Evidence, found: Sequence[Disturbance]) -> dict[Tap, float]:
+    """Return what disturbances add to the mean square at each tap, in declared floors.
+
+    What shows at the reference is a true motion, which the sensor sees as well, in floors of its
+    own.
+    """
+    power: dict[Tap, float] = {}
+    for one in found:
+        power[one.tap] = power.get(one.tap, 0.0) + one.power
+        if one.tap is Tap.REF and any(Tap.MEAS in own.floor for own in evidence.observations):
+            share = (evidence.floor(Tap.REF) / evidence.floor(Tap.MEAS)) ** 2
+            power[Tap.MEAS] = power.get(Tap.MEAS, 0.0) + share * one.power
+    return power

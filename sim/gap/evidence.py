@@ -113,6 +113,19 @@ class Evidence:
         """Tell whether any record holds a tap."""
         return any(tap in observation.real for observation in self.observations)
 
+    def floor(self, tap: Tap) -> float:
+        """Return the noise floor of a tap, SI: the quadratic mean of those of the records.
+
+        It is that of the rows that are kept: the others are zeros in a residual, whose mean is
+        over all rows.
+        """
+        floors = [
+            o.floor[tap] / np.sqrt(o.kept[tap].mean() if tap in o.kept else 1.0)
+            for o in self.observations
+            if tap in o.floor
+        ]
+        return float(np.sqrt(np.mean(np.square(floors))))
+
     @property
     def reach(self) -> tuple[float, float]:
         """The least and the greatest command, m or rad."""

@@ -9,7 +9,7 @@ from rotemina.sim.gap.attribution import attributed
 from rotemina.sim.gap.baseline import OWN
 from rotemina.sim.gap.contest import Ranking, contested
 from rotemina.sim.gap.diagnosis import Verdict
-from rotemina.sim.gap.disturbances import Disturbance, by_effect, set_aside, wander
+from rotemina.sim.gap.disturbances import Disturbance, by_effect, power_by_tap, set_aside
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.many_modes import many_modes
 from rotemina.sim.gap.models import Explanation, explain, mean_squares, untouched
@@ -18,6 +18,7 @@ from rotemina.sim.gap.richness import is_poor
 from rotemina.sim.gap.rivals import not_ruled_out
 from rotemina.sim.gap.selection import CLEARLY, LEAST_POWER, LEAST_SHARE, Selection, select
 from rotemina.sim.gap.verdict import decide
+from rotemina.sim.gap.wander import wander
 from rotemina.sim.robot.model import AxisEffect
 
 _GAP = 1.5  # mean square over the floor from which there is something to explain
@@ -75,13 +76,20 @@ def examine(whole: Evidence, told: Told, *, jobs: int = 1) -> Examination:
     aside = tuple(one for one in aside if not _was_explained(whole, evidence, best, one))
     told("deciding", None)
     drift = wander(evidence, best.fit.residual)
-    disturbances = _counting(whole, evidence, best, [*aside, *([drift] if drift else [])])
-    power = sum(one.power for one in disturbances)
-    best, ranked = contested(evidence, selection, best, power, wanders=drift is not None)
+    disturbances = _counting(whole, evidence, best, aside, drift)
+    found, aside_at = best, power_by_tap(whole, disturbances)
+    best, ranked = contested(evidence, selection, best, aside_at, wanders=drift is not None)
+    if best is not found:
+        # What a cause that does not stand had bent away of it is the sensor's wander as well.
+        drift = wander(evidence, best.fit.residual) or drift
+        disturbances = _counting(whole, evidence, best, aside, drift)
+    power = sum(one.power for one in disturbances if one.effect != "sensor_drift")
     ambiguous = [not_ruled_out(ranked[key], key) for key in best.ids]
-    wandered = sum(one.power for one in disturbances if one.effect == "sensor_drift")
+    wandered = 0.0
+    if drift is not None and any(one.effect == "sensor_drift" for one in disturbances):
+        wandered = drift.power
     verdict = decide(
-        selection.raw + power - wandered,
+        selection.raw + power,
         max(best.score - wandered, 1.0),
         ambiguous,
         wanders=drift is not None,
@@ -140,7 +148,7 @@ def _of_modes(evidence: Evidence, modal: Explanation) -> Examination:
     """Return what was found on an axis that rings in many modes; nothing else is looked for."""
     bare = untouched(evidence)
     selection = Selection(bare, explain(evidence, ()), modal, (modal,))
-    best, ranked = contested(evidence, selection, modal, 0.0, wanders=False)
+    best, ranked = contested(evidence, selection, modal, {}, wanders=False)
     verdict = decide(selection.raw, max(best.score, 1.0), ())
     return Examination(
         evidence, (), selection, best, verdict, ranked, probed(evidence, best.held_out)
@@ -157,9 +165,17 @@ def _explained(evidence: Evidence, told: Told, jobs: int) -> tuple[Selection, Ex
 
 
 def _counting(
-    whole: Evidence, evidence: Evidence, best: Explanation, found: Sequence[Disturbance]
+    whole: Evidence,
+    evidence: Evidence,
+    best: Explanation,
+    aside: Sequence[Disturbance],
+    drift: Disturbance | None,
 ) -> tuple[Disturbance, ...]:
     """Return the disturbances that are a cause: each closes its share, or clearly what is left."""
+    found = list(aside)
+    if drift is not None:
+        raised = (evidence.floor(drift.tap) / whole.floor(drift.tap)) ** 2
+        found.append(replace(drift, power=drift.power * raised))
     raw = mean_squares(whole, whole.residual())
     by_tap = {
         tap: mean

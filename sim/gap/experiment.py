@@ -84,8 +84,11 @@ def _sets(examination: Examination) -> Iterator[list[Rival]]:
             continue
         seen.append(names)
         own = [one for one in ranked if (one.effect, one.from_axis) == key]
-        rest = [next(one for one in ranked if one.effect == name) for name in others]
-        yield [*own, *rest][:_MOST_RIVALS]
+        # What stands for another without having been fitted predicts nothing.
+        first = [next((one for one in ranked if one.effect == name), None) for name in others]
+        rest = [one for one in first if one is not None]
+        if rest:
+            yield [*own, *rest][:_MOST_RIVALS]
 
 
 def _rich(axis: str, trial: Trial) -> Experiment:

@@ -158,17 +158,17 @@ class _Run:
         return AxisDiagnosis(name, Verdict.NONE, places, remarks=said)
 
     def _shaken(self, one: AxisDiagnosis, told: Mapping[str, AxisDiagnosis]) -> AxisDiagnosis:
-        """Return what is said of an axis that an unexplained one shakes through a coupling."""
+        """Return what is said of an axis that one without explanation shakes through a coupling."""
         if one.verdict not in (Verdict.UNKNOWN, Verdict.INSUFFICIENT):
             return one
         for group in coupled_axes(self.robot):
             for other in group - {one.axis} if one.axis in group else ():
                 if (
                     other in told
-                    and told[other].verdict is Verdict.UNKNOWN
+                    and told[other].verdict in (Verdict.UNKNOWN, Verdict.INSUFFICIENT)
                     and _excess(told[other]) > _SHAKES * _excess(one)
                 ):
-                    said = f"It is coupled to axis {other}, whose gap is unknown and larger."
+                    said = f"It is coupled to axis {other}, whose gap is larger and not explained."
                     return replace(
                         one, verdict=Verdict.NONE, causes=(), remarks=(said, *one.remarks)
                     )

@@ -1,12 +1,12 @@
 """How sure a cause is: its rivals, and which of them the data cannot tell from it."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.gap.baseline import OWN
+from rotemina.sim.gap.baseline import OWN, RESONANCE
 from rotemina.sim.gap.blocks import Blocks
 from rotemina.sim.gap.evidence import Evidence, block_rows
 from rotemina.sim.gap.models import Explanation
@@ -21,6 +21,9 @@ _SAME = 0.15  # of the likeliest one's probability, from which a rival is not ru
 _SIMPLER = 6.0  # times likelier, on a tie, for each parameter less
 _MOST_MORE = 2  # parameters that count so
 _ANOTHER_MACHINE = 0.02  # times as likely, with an own parameter of the model at its bound
+_SLIGHT = 0.01  # error of a frequency, below which a small mass on a spring may do it
+_SHORT_S = 2e-4  # of a delay, below which an amplifier's lag of some order is as late: 1.6 kHz
+_SLIGHTLY_DAMPED = 0.1  # the same for damping
 _PRIOR: Mapping[str, float] = {  # others: 1
     "sensor_gain": 0.5,
     "sensor_nonlinearity": 0.5,
@@ -30,6 +33,8 @@ _PRIOR: Mapping[str, float] = {  # others: 1
     "cross_coupling": 0.7,
     "clock_skew": 0.5,
 }
+
+DELAY = "delay"
 
 Key = tuple[str, str | None]
 
@@ -84,7 +89,41 @@ def not_ruled_out(ranked: Sequence[Rival], cause: Key) -> tuple[str, ...]:
         for one in ranked
         if one.effect != cause[0] and one.probability >= _SAME * likeliest
     ]
+    names += [other for own, other, tells in _IMITATED if own == cause and tells(ranked)]
     return tuple(dict.fromkeys(names))
+
+
+def _fitted_value(ranked: Sequence[Rival], cause: Key, name: str) -> float:
+    own = next(one for one in ranked if (one.effect, one.from_axis) == cause)
+    (effect,) = (one for one in own.explanation.fit.effects if one.id == cause[0])
+    return effect.parameters[name]
+
+
+def _is_slight(ranked: Sequence[Rival]) -> bool:
+    """Tell whether a resonance is so little off that a small mass on a spring may do it.
+
+    A mass m there, at a frequency well apart from the axis' own, moves that by about m/2M, and
+    shows by nothing else where its own narrow line is not excited.
+    """
+    error, damping = (
+        _fitted_value(ranked, (RESONANCE, None), name)
+        for name in ("frequency_error", "damping_error")
+    )
+    return abs(error) < _SLIGHT and abs(damping) < _SLIGHTLY_DAMPED
+
+
+def _is_short(ranked: Sequence[Rival]) -> bool:
+    """Tell whether a delay is so short that a lag of high order may do it.
+
+    A Butterworth filter of the third order that is as late passes all frequencies up to 2/2πτ.
+    """
+    return _fitted_value(ranked, (DELAY, None), "delay") < _SHORT_S
+
+
+_IMITATED: Sequence[tuple[Key, str, Callable[[Sequence[Rival]], bool]]] = (
+    ((RESONANCE, None), "flexible_mode", _is_slight),
+    ((DELAY, None), "amplifier_lag", _is_short),
+)
 
 
 def _prior(effect: str, more_parameters: int) -> float:

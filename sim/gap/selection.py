@@ -1,7 +1,7 @@
 """Which effects explain the gap of an axis: forward selection on data that no fit has seen."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from joblib import Parallel, delayed
@@ -19,6 +19,7 @@ from rotemina.sim.gap.models import (
     untouched,
 )
 from rotemina.sim.gap.screening import Screened, screen
+from rotemina.sim.gap.starts import from_stop
 from rotemina.sim.gap.verdict import closed
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
@@ -44,6 +45,7 @@ _HOPELESS = 10.0  # times the cost of the best candidate
 _WORTH_GOING_ON = (0.25, 0.5, 1.0)  # share closed by one, two causes, to look for another
 _WORTH_A_FIRST_TRY = 4.0  # times what quick formulations leave, that a slow one may promise
 _WORTH_A_TRY = 0.8  # the same beside other causes, where each step takes longer still
+_PROMISING = 0.3  # of what a quick form leaves, that a slow one leaves at first sight
 _SKETCHED = 3  # steps after which attempts are compared
 _BEHIND = 3.0  # times the cost of the best, from which an attempt is given up
 _LEAST_PROMISE = 0.5  # of the score: a best candidate that leaves more is no clear cause
@@ -160,15 +162,34 @@ def _extended(
     found = _fitted(evidence, [[*begun.causes, one] for one in chosen], jobs)
     if min(one.fit.cost for one in found) < ADEQUATE:
         return found  # other formulations, which take long, could not do better
-    others = [one for one in siblings(chosen, free) if one not in first]
+    others = [_informed(one, found) for one in siblings(chosen, free) if one not in first]
     if others:
         slower = _screened(evidence, begun.fit, others, jobs, briefly=True)
         least = min(one.fit.cost for one in found)
         worth = _WORTH_A_TRY if begun.causes else _WORTH_A_FIRST_TRY
-        slower = [one for one in slower if one.cost < worth * least]
+        slower = [
+            one
+            for one in slower
+            if one.cost < max(worth * least, _PROMISING * _quick(one.effect, found))
+        ]
         attempts = [[*begun.causes, one.effect] for one in slower]
         found += _fitted(evidence, attempts, jobs) if attempts else []
     return found
+
+
+def _informed(slow: AxisEffect, found: Sequence[Explanation]) -> AxisEffect:
+    """Return a contact from where a crude form of it was fitted on; anything else as it is."""
+    for one in found:
+        for own in one.causes:
+            if own.id == slow.id == "contact":
+                return replace(slow, parameters=from_stop(own.parameters))
+    return slow
+
+
+def _quick(slow: AxisEffect, found: Sequence[Explanation]) -> float:
+    """Return what the best fit of another form of an effect leaves; 0 if there is none."""
+    costs = [one.fit.cost for one in found if (slow.id, slow.from_axis) in one.ids]
+    return min(costs, default=0.0)
 
 
 def _reformulated(

@@ -30,7 +30,7 @@ def shrinkage(
 ) -> Shrinkage:
     """Return the whole way from the raw gap of a tap to its floor."""
     raw = evidence.residual()
-    floor = floor_of(evidence, tap)
+    floor = evidence.floor(tap)
     shown = at_tap(evidence, tap)
     share, interval = closing(evidence, raw, best.held_out, tap, rng)
     return Shrinkage(
@@ -67,12 +67,6 @@ def at_tap(evidence: Evidence, tap: Tap) -> np.ndarray:
     return np.concatenate(
         [np.full(part.rows.stop - part.rows.start, part.tap is tap) for part in evidence.parts]
     )
-
-
-def floor_of(evidence: Evidence, tap: Tap) -> float:
-    """Return the noise floor of a tap, SI: the quadratic mean of those of the records."""
-    floors = [o.floor[tap] for o in evidence.observations if tap in o.floor]
-    return float(np.sqrt(np.mean(np.square(floors))))
 
 
 def rms(left: FloatArray) -> float:

@@ -22,6 +22,9 @@ from rotemina.sim.robot.model import AxisEffect, PiezoAxis
 _MOST_PERIODS = 3
 _MODES = (0.4, 1.7, 3.0)  # of the axis' own frequency
 _PLACES = (0.4, 0.6, 0.8, 0.92)  # of the way to the end where something is met
+_SOONER = (0.0, 0.03, 0.08)  # of the travel, that a soft contact begins before a stop's place
+_STIFFER = (1.0, 3.0)
+_ALL_BUT = 0.96  # share blocked by a contact as stiff as one can be
 _DEFLECTIONS = (0.3, 2.0)  # presets
 _CENTRES = (-0.45, 0.0)  # of the range, from mid-range
 _HARDER = (1.0, 6.0)  # presets
@@ -150,6 +153,13 @@ def _places(evidence: Evidence, _fitted: Fit, attached: Attached) -> Iterator[di
     low, high = parameter.bounds(attached.facts)
     strength = next(name for name in ("stiffness", "blocked") if name in attached.values)
     least, most = evidence.reach
+    if attached.asked.parameters:  # a crude form was fitted there
+        place, hard = attached.values["place"], attached.values[strength]
+        for before in _SOONER:
+            sooner = place - float(np.sign(hard)) * before * (most - least)
+            for times in _STIFFER:
+                yield _clipped(attached, **{"place": sooner, strength: hard * times})
+        return
     for sign in (1.0, -1.0):
         for share in _PLACES:
             place = least if sign < 0.0 else most
@@ -158,6 +168,18 @@ def _places(evidence: Evidence, _fitted: Fit, attached: Attached) -> Iterator[di
                 "place": float(np.clip(place - attached.facts.low, low, high)),
                 strength: sign * abs(attached.values[strength]),
             }
+
+
+def from_stop(fitted: Mapping[str, float]) -> dict[str, float]:
+    """Return place and stiffness of a contact whose crude form blocks a share of the motion.
+
+    A spring k beside the axis' own K takes the share k/(k + K).
+    """
+    share = min(abs(fitted["blocked"]), _ALL_BUT)
+    return {
+        "place": fitted["place"],
+        "stiffness": float(np.copysign(share / (1.0 - share), fitted["blocked"])),
+    }
 
 
 def _stretch(evidence: Evidence, attached: Attached) -> dict[str, float]:

@@ -20,7 +20,7 @@ from rotemina.sim.gap.examination import Examination
 from rotemina.sim.gap.models import Explanation
 from rotemina.sim.gap.rivals import not_ruled_out, paired_blocks, probability
 from rotemina.sim.gap.selection import NOTICED
-from rotemina.sim.gap.shrinkage import at_tap, closing, floor_of, rms, shrinkage
+from rotemina.sim.gap.shrinkage import at_tap, closing, rms, shrinkage
 from rotemina.sim.gap.verdict import closed
 from rotemina.sim.gap.where import Place
 from rotemina.sim.records.record import Tap
@@ -71,7 +71,7 @@ def _cause(examination: Examination, number: int, rng: np.random.Generator) -> C
     others = [one for one in best.causes if one is not asked]
     before = evidence.residual(others)
     tap = _first_tap(evidence, attached.effect.stage)
-    shown, floor = at_tap(evidence, tap), floor_of(evidence, tap)
+    shown, floor = at_tap(evidence, tap), evidence.floor(tap)
     share, interval = closing(evidence, before, best.held_out, tap, rng)
     ranked = examination.ranked[key]
     return Cause(
@@ -99,7 +99,7 @@ def _trust(examination: Examination) -> float:
 
 def _disturbance(examination: Examination, one: Disturbance) -> Cause:
     evidence, best = examination.evidence, examination.best
-    floor = floor_of(evidence, one.tap)
+    floor = evidence.floor(one.tap)
     left = best.by_tap[one.tap]
     if one.effect == "sensor_drift":
         left = max(left - one.power, 1.0)
@@ -126,7 +126,7 @@ def _unknown(
 ) -> Cause:
     evidence = examination.evidence
     tap = next((one.tap for one in places if one.significant), places[-1].tap)
-    shown, floor = at_tap(evidence, tap), floor_of(evidence, tap)
+    shown, floor = at_tap(evidence, tap), evidence.floor(tap)
     before, after = evidence.residual(), examination.best.held_out
     share, interval = closing(evidence, before, after, tap, rng)
     left = 1.0 - closed(examination.selection.raw, examination.best.score)

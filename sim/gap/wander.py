@@ -7,12 +7,19 @@ from itertools import pairwise
 import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray
+from rotemina.sim.gap.disturbances import Disturbance, resting
+from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.records.record import Tap
 
 _LATER_S = (0.02, 0.1, 0.5)  # over which a wander is told from a fixed offset
 _LEAST_PAIRS = 50
 _AT_REST = 0.3  # of the wander of all times, that rest has at least
 _WHITE = 0.4  # of what is left, that is white at most
 _STANDS_OUT = 1.15  # times what is white, of a change that is more
+_WALKED_S = (0.1, 0.4, 1.6)
+_WALKS_A_RECORD = 6  # of such times, that a record holds at least
+_WALKING = 0.5  # exponent of time from which what is left walks; of a random walk: 1
+_SEEN_BY_REF = 0.3  # of a wander, that the reference may see of what is left
 _ROUGH = 1.6  # exponent of time, with which a wander's squared change grows at most; motion: 2
 
 
@@ -21,11 +28,13 @@ class Wander:
     """What is left of a record, as far as it is not white.
 
     ``power`` is over the floor; ``at_rest`` tells whether it goes on at rest as a wander does,
-    None where no rest was recorded that could tell.
+    None where no rest was recorded that could tell; ``walks`` whether it grows with time as a
+    random walk does.
     """
 
     power: float
     at_rest: bool | None
+    walks: bool
 
 
 def wandering(time_s: FloatArray, left: FloatArray, resting: BoolArray) -> Wander | None:
@@ -38,7 +47,27 @@ def wandering(time_s: FloatArray, left: FloatArray, resting: BoolArray) -> Wande
     white = float(np.mean(np.diff(left) ** 2)) / 2.0
     if white > _WHITE * power:
         return None
-    return Wander(max(power - max(white, 1.0), 0.0), _goes_on(time_s, left, resting, white))
+    return Wander(
+        max(power - max(white, 1.0), 0.0),
+        _goes_on(time_s, left, resting, white),
+        _walks(time_s, left, white),
+    )
+
+
+def _walks(time_s: FloatArray, left: FloatArray, white: float) -> bool:
+    period_s = float(np.median(np.diff(time_s)))
+    grown = []
+    for later_s in _WALKED_S:
+        rows = max(round(later_s / period_s), 1)
+        if rows <= len(left) / _WALKS_A_RECORD:
+            change = float(np.mean((left[rows:] - left[:-rows]) ** 2)) - 2.0 * white
+            if change > 2.0 * (_STANDS_OUT - 1.0) * white:
+                grown.append((rows, change))
+    if len(grown) < 2:
+        return False
+    (first, small), (last, large) = grown[0], grown[-1]
+    slope = float(np.log(large / small) / np.log(last / first))
+    return slope > _WALKING and not _is_smooth(grown)
 
 
 def _goes_on(time_s: FloatArray, left: FloatArray, resting: BoolArray, white: float) -> bool | None:
@@ -46,6 +75,7 @@ def _goes_on(time_s: FloatArray, left: FloatArray, resting: BoolArray, white: fl
     rested = np.concatenate([[0], np.cumsum(~resting)])
     shares, grown = [], []
     still_white: float | None = None
+    would_tell = False
     for later_s in (0.0, *_LATER_S):
         rows = max(round(later_s / period_s), 1 if later_s == 0.0 else 2)
         if rows >= len(left):
@@ -58,12 +88,14 @@ def _goes_on(time_s: FloatArray, left: FloatArray, resting: BoolArray, white: fl
         if still_white is None:
             still_white = there / 2.0
             continue
-        then = there - 2.0 * still_white
-        if then > 2.0 * (_STANDS_OUT - 1.0) * still_white:
-            shares.append(then / max(float(change.mean()) - 2.0 * white, 1e-300))
+        then, least = there - 2.0 * still_white, 2.0 * (_STANDS_OUT - 1.0) * still_white
+        ever = float(change.mean()) - 2.0 * white
+        would_tell |= _AT_REST * ever > least
+        if then > least:
+            shares.append(then / max(ever, 1e-300))
             grown.append((rows, then))
     if not shares:
-        return None if still_white is None else False
+        return False if would_tell else None
     return float(np.exp(np.mean(np.log(shares)))) >= _AT_REST and not _is_smooth(grown)
 
 
@@ -73,3 +105,40 @@ def _is_smooth(grown: Sequence[tuple[int, float]]) -> bool:
         float(np.log(large / small) / np.log(last / first)) > _ROUGH
         for (first, small), (last, large) in pairwise(grown)
     )
+
+
+def wander(evidence: Evidence, left: FloatArray) -> Disturbance | None:
+    """Return how far a sensor wanders, by what the best explanation leaves (rows,).
+
+    Rest proves it, or, where none can tell, a reference at which the same explanation leaves
+    nothing. Its power is in floors of the evidence.
+    """
+    total, rows, rested, walked = 0.0, 0, False, False
+    for part in evidence.parts:
+        if part.tap is not Tap.MEAS:
+            continue
+        record = evidence.observations[part.record].record
+        own = wandering(record.time_s, left[part.rows], resting(record))
+        rows += part.rows.stop - part.rows.start
+        if own is not None and own.at_rest is not False:
+            total += own.power * (part.rows.stop - part.rows.start)
+            rested |= own.at_rest is True
+            walked |= own.walks
+    proven = rested or (walked and evidence.has(Tap.REF))
+    if not proven or _true_motion_left(evidence, left) > _SEEN_BY_REF * total / rows:
+        return None
+    also = ", at rest as well," if rested else ", though the reference does not,"
+    note = f"The reading wanders{also} whatever the axis does."
+    return Disturbance("sensor_drift", Tap.MEAS, total / rows, note)
+
+
+def _true_motion_left(evidence: Evidence, left: FloatArray) -> float:
+    """Return the power that is left at the reference, in floors of the sensor."""
+    power, rows = 0.0, 0
+    for part in evidence.parts:
+        floors = evidence.observations[part.record].floor
+        if part.tap is Tap.REF and Tap.MEAS in floors:
+            share = floors[Tap.REF] / floors[Tap.MEAS]
+            power += share**2 * float(np.sum(left[part.rows] ** 2))
+            rows += part.rows.stop - part.rows.start
+    return power / rows if rows else 0.0

@@ -38,6 +38,11 @@ def flexure(numbers, q, _v, _hidden):
     return numbers[0] * (q - numbers[1]) ** 4 / 4
 
 
+def sharper(numbers, q, _v, _hidden):
+    bent = q - numbers[1]
+    return numbers[0] * bent**4 / 4 + numbers[2] * bent**6 / 6
+
+
 def spring(numbers, q, _v, _hidden):
     side, place, stiffness, _ = numbers
     return 0.5 * stiffness * np.maximum(side * (q - place), 0.0) ** 2
@@ -128,6 +133,14 @@ PASSIVE = {
 }
 CONSERVED = {
     "flexure": ("piezo", "stiffness_nonlinearity", "cubic", {"hardening": 0.5}, WIDE, flexure),
+    "sharper flexure": (
+        "piezo",
+        "stiffness_nonlinearity",
+        "cubic_quintic",
+        {"hardening": 0.2, "quintic": 0.3},
+        WIDE,
+        sharper,
+    ),
     "undamped spring": (
         "piezo",
         "contact",

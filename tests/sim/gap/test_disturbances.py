@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from rotemina.sim.gap.coarseness import coarse_step
-from rotemina.sim.gap.disturbances import set_aside, wander
+from rotemina.sim.gap.disturbances import Disturbance, power_by_tap, set_aside
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.excursions import excursions
 from rotemina.sim.gap.jumps import jumps
 from rotemina.sim.gap.models import mean_squares
 from rotemina.sim.gap.tones import tones
-from rotemina.sim.gap.wander import wandering
+from rotemina.sim.gap.wander import wander, wandering
 from rotemina.sim.gap.whiteness import noise_level
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
@@ -167,6 +167,63 @@ def test_a_wander_must_go_on_at_rest():
     never = np.zeros(len(TIME_S), dtype=bool)
     assert wandering(TIME_S, walk - walk.mean(), never).at_rest is None
     assert wandering(TIME_S, 30.0 * NOISE, resting) is None
+
+
+def test_a_wander_that_no_rest_can_show_needs_a_reference():
+    never = np.zeros(len(TIME_S), dtype=bool)
+    walk = 0.3 * np.cumsum(NOISE)
+    assert wandering(TIME_S, walk - walk.mean(), never).walks is True
+    moving = 20.0 * np.sin(2 * np.pi * 0.5 * TIME_S)
+    assert wandering(TIME_S, moving + NOISE, never).walks is False
+    drift = AxisEffect(axis="zn", id="sensor_drift", parameters={"rate": 2e-6})
+    command = steps_and_triangles("zn")
+    moved = Record.from_signals(
+        TIME_S[:4000], {("zn", Tap.CMD): command.signal("zn", Tap.CMD)[:4000]}, {"zn": "m"}
+    )
+    records = [simulate(ROBOT, [drift], moved, np.random.default_rng(seed)) for seed in (0, 1)]
+    seen = Evidence.of(ROBOT, "zn", records)
+    assert wander(seen, seen.residual()).effect == "sensor_drift"
+    blind = [
+        Record.from_signals(
+            record.time_s,
+            {("zn", tap): record.signal("zn", tap) for tap in (Tap.CMD, Tap.MEAS)},
+            {"zn": "m"},
+        )
+        for record in records
+    ]
+    unseen = Evidence.of(ROBOT, "zn", blind)
+    assert wander(unseen, unseen.residual()) is None
+
+
+def test_what_shakes_the_axis_counts_at_its_sensor_in_floors_of_the_sensor():
+    seen, _, _ = aside([], "zn")
+    shaken = Disturbance("vibration", Tap.REF, 100.0, "")
+    noisy = Disturbance("sensor_noise", Tap.MEAS, 5.0, "")
+    share = (seen.floor(Tap.REF) / seen.floor(Tap.MEAS)) ** 2
+    found = power_by_tap(seen, [shaken, noisy])
+    assert found == {Tap.REF: 100.0, Tap.MEAS: pytest.approx(5.0 + 100.0 * share)}
+
+
+def test_a_coarse_reading_tells_finely_where_its_steps_were_passed():
+    coarse = AxisEffect(axis="zn", id="sensor_quantization", parameters={"step": 5e-7})
+    bent = AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.01})
+    wave = 2.0 / np.pi * np.arcsin(np.sin(2.0 * np.pi * 0.25 * TIME_S))
+    command = Record.from_signals(
+        TIME_S, {("zn", Tap.CMD): (32.5 + 6.5 * wave) * 1e-6}, {"zn": "m"}
+    )
+
+    def set_aside_of(*effects):
+        record = simulate(ROBOT, effects, command, np.random.default_rng(0))
+        return set_aside(Evidence.of(ROBOT, "zn", [record]))
+
+    even, found = set_aside_of(coarse)
+    assert "sensor_quantization" in {one.effect for one in found}
+    assert even.floor(Tap.MEAS) < 5e-7 / np.sqrt(12.0) / 4.0
+    assert mean_squares(even, even.residual())[Tap.MEAS] < 1.3
+    clean, _ = set_aside_of(coarse, bent)
+    left = mean_squares(clean, clean.residual())[Tap.MEAS]
+    # 1 % of a triangle of 6.5 µm, whose rms is 1/√3 of it, at the edges that were passed slowly.
+    assert np.sqrt(left) * clean.floor(Tap.MEAS) == pytest.approx(6.5e-8 / np.sqrt(3), rel=0.25)
 
 
 def _flicker():

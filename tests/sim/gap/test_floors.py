@@ -64,3 +64,21 @@ def test_a_held_axis_that_shakes_has_no_more_noise_for_that():
         {"mode": "closed_loop"},
     )
     assert floors(load_robot("emps"), record, "q")[Tap.U] == pytest.approx(1e-2, rel=0.2)
+
+
+def test_a_computed_voltage_that_repeats_itself_has_no_floor():
+    robot = load_robot("rotemina")
+    period = 3e-5 + 1e-5 * np.sin(2.0 * np.pi * TIME_S[:2500] / 2.5)
+    path = np.tile(period, 2)
+    rng = np.random.default_rng(2)
+    record = Record.from_signals(
+        TIME_S,
+        {
+            ("zn", Tap.CMD): path,
+            ("zn", Tap.U): path / 5e-7,
+            ("zn", Tap.MEAS): path + 1e-8 * rng.standard_normal(5000),
+        },
+        {"zn": "m"},
+        {"history": "periodic", "period_samples": "2500"},
+    )
+    assert set(floors(robot, record, "zn")) == {Tap.MEAS}

@@ -1,0 +1,38 @@
+"""What the data cannot tell from a cause: near rivals, and what imitates it where it is slight."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from rotemina.sim.gap.rivals import Rival, not_ruled_out
+from rotemina.sim.robot.model import AxisEffect
+
+
+def ranked(cause, parameters, others=()):
+    """A cause of zn, fitted to such parameters, and rivals with their probabilities."""
+    fit = SimpleNamespace(effects=(AxisEffect(axis="zn", id=cause, parameters=parameters),))
+    explained = SimpleNamespace(fit=fit)
+    left = 1.0 - sum(share for _, share in others)
+    return [
+        Rival(cause, None, left, explained),
+        *(Rival(name, None, share, explained) for name, share in others),
+    ]
+
+
+def test_rivals_near_the_likeliest_are_not_ruled_out():
+    own = ranked("creep", {}, [("thermal_drift", 0.2), ("sensor_drift", 0.05)])
+    assert not_ruled_out(own, ("creep", None)) == ("thermal_drift",)
+
+
+@pytest.mark.parametrize(
+    ("error", "damping", "also"),
+    [(0.003, 0.02, ("flexible_mode",)), (0.05, 0.02, ()), (0.003, 0.8, ())],
+)
+def test_a_slight_shift_of_the_resonance_may_be_a_small_mass_on_a_spring(error, damping, also):
+    own = ranked("resonance_mismatch", {"frequency_error": error, "damping_error": damping})
+    assert not_ruled_out(own, ("resonance_mismatch", None)) == also
+
+
+@pytest.mark.parametrize(("delay", "also"), [(1e-4, ("amplifier_lag",)), (1e-3, ())])
+def test_a_short_delay_may_be_a_lag_of_high_order(delay, also):
+    assert not_ruled_out(ranked("delay", {"delay": delay}), ("delay", None)) == also
