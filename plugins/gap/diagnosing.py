@@ -2,15 +2,18 @@
 
 import os
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from threading import Event
 
-from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtCore import QObject, QTimer, Signal, SignalInstance
 
+from rotemina.app.display import label
 from rotemina.app.shell.background import Background
 from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap.first_look import Look, first_look
 from rotemina.sim.gap.diagnosis import Diagnosis
 from rotemina.sim.gap.progress import Listener, Progress
+from rotemina.sim.gap.report.words import effect_title
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
 
@@ -32,14 +35,19 @@ class Diagnosing(QObject):
     Signals
     -------
     progressed(str, float) : what is done now, in words, and the share that is done.
+    stepped(Progress) : a step was begun.
+    looked(Look) : another candidate was looked at, see :mod:`~rotemina.plugins.gap.first_look`.
     finished(Answer)
     failed(str)
     """
 
     progressed = Signal(str, float)
+    stepped = Signal(object)
+    looked = Signal(object)
     finished = Signal(object)
     failed = Signal(str)
     _heard = Signal(int, object)
+    _saw = Signal(int, object)
 
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
@@ -52,6 +60,7 @@ class Diagnosing(QObject):
         self._clock = QTimer(self, interval=_RETELL_MS)
         self._clock.timeout.connect(self._tell)
         self._heard.connect(self._hear)
+        self._saw.connect(self._see)
 
     @property
     def running(self) -> bool:
@@ -72,10 +81,16 @@ class Diagnosing(QObject):
         self._began_s, self._step = time.monotonic(), None
         self._clock.start()
 
-        def listen(progress: Progress) -> None:
+        def hear(signal: SignalInstance, heard: object) -> None:
             if stopped.is_set():
                 raise StoppedError
-            self._heard.emit(number, progress)
+            signal.emit(number, heard)
+
+        def listen(progress: Progress) -> None:
+            hear(self._heard, progress)
+            looks.follow(progress)
+
+        looks = Looks(robot, records, lambda look: hear(self._saw, look))
 
         def work() -> Answer | None:
             try:
@@ -109,7 +124,12 @@ class Diagnosing(QObject):
     def _hear(self, number: int, progress: Progress) -> None:
         if self._is_wanted(number):
             self._step = progress, time.monotonic() - self._began_s
+            self.stepped.emit(progress)
             self._tell()
+
+    def _see(self, number: int, look: Look) -> None:
+        if self._is_wanted(number):
+            self.looked.emit(look)
 
     def _tell(self) -> None:
         if self._step is not None:
@@ -128,6 +148,23 @@ class Diagnosing(QObject):
             self.failed.emit(message)
 
 
+class Looks:
+    """Takes a first look at each axis as soon as the diagnosis comes to it."""
+
+    def __init__(
+        self, robot: Robot, records: Sequence[Record], told: Callable[[Look], None]
+    ) -> None:
+        self._robot, self._records, self._told = robot, records, told
+        self._seen: set[str] = set()
+
+    def follow(self, progress: Progress) -> None:
+        """Look, on the thread that diagnoses, where this axis was not looked at yet."""
+        axis = progress.axis
+        if progress.stage == "screening" and axis is not None and axis not in self._seen:
+            self._seen.add(axis)
+            first_look(self._robot, axis, self._records, self._told)
+
+
 def diagnose(robot: Robot, records: Sequence[Record], listener: Listener) -> Diagnosis:
     """Load the diagnosis, which takes its time, and run it; one core stays free for the machine."""
     from rotemina.sim.gap import method
@@ -138,9 +175,11 @@ def diagnose(robot: Robot, records: Sequence[Record], listener: Listener) -> Dia
 
 def said(progress: Progress, at_s: float, now_s: float) -> str:
     """Return what is done since ``at_s``, for how long all has run, and what the rest may take."""
-    text = " ".join(
-        part for part in (progress.stage, progress.axis, progress.candidate) if part is not None
-    )
+    text = progress.stage
+    if progress.axis is not None:
+        text += f" {label(progress.axis)}"
+    if progress.candidate is not None:
+        text += f": {effect_title(progress.candidate).lower()}"
     if now_s < _FIRST_GUESS_S:
         return text
     text += f", {now_s:.0f} s"

@@ -1,58 +1,61 @@
 """The gap page: choose a model and records, diagnose, see where, which and how far, act on it."""
 
-from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import Qt, QUrl
-from PySide6.QtGui import QDesktopServices
+from PySide6.QtCore import QSignalBlocker, Qt
 from PySide6.QtWidgets import (
     QComboBox,
-    QFileDialog,
     QHBoxLayout,
     QLabel,
-    QMessageBox,
+    QMenu,
     QProgressBar,
     QPushButton,
-    QSizePolicy,
     QStackedWidget,
     QTabBar,
+    QToolButton,
     QVBoxLayout,
 )
 
 from rotemina.app.display import label
-from rotemina.app.files import json_text, write_text
 from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.controls import ElidedLabel, allow
 from rotemina.app.shell.theme import Theme
-from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.shell.workbench import Level, Run, Workbench
+from rotemina.plugins.gap.actions import Actions
+from rotemina.plugins.gap.advice import check_title, readiness
 from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap.blind_page import BlindPage
 from rotemina.plugins.gap.diagnosing import Diagnosing
 from rotemina.plugins.gap.far import FarView
+from rotemina.plugins.gap.headline import headline
+from rotemina.plugins.gap.hint import hint
+from rotemina.plugins.gap.playing import Playing
+from rotemina.plugins.gap.proof import Proof, new_motion, prove
+from rotemina.plugins.gap.proof_view import ProofView
 from rotemina.plugins.gap.records import RecordChoice
 from rotemina.plugins.gap.robots import RobotChoice
+from rotemina.plugins.gap.running import RunningView
 from rotemina.plugins.gap.tips import tip
 from rotemina.plugins.gap.where import WhereView
 from rotemina.plugins.gap.which import WhichView
-from rotemina.sim.errors import InputError
-from rotemina.sim.gap.diagnosis import Cause, Verdict
-from rotemina.sim.gap.document import as_json
-from rotemina.sim.gap.report.page import write_report
-from rotemina.sim.gap.report.quantities import percent
-from rotemina.sim.gap.report.words import VERDICTS, effect_title, listed, summary
+from rotemina.sim.gap.report.words import VERDICTS, summary
 from rotemina.sim.gap.suggestion import suggestion
-from rotemina.sim.gap.twin import twin_text
 
-EMPTY = (
-    "Choose records of the real machine (the last playback is taken by itself) and diagnose: "
-    "where the model parts from them, which effects it lacks, how far the gap shrinks."
+VIEWS = ("Where", "Which effect", "How far", "New motion")
+WHERE, WHICH, FAR, PROOF, RUNNING, HINT = range(6)
+TIPS = (
+    "On which axis, at which tap, in which frequencies and while the axis did what",
+    "The candidates with their probabilities, what is said of them and what to do",
+    "How far the gap shrinks with what was found, down to the noise floor",
+    "How far it shrinks on a motion that the diagnosis has not seen",
 )
-VIEWS = ("Where", "Which effect", "How far")
+STEPS = (
+    "First: the model, and records of the real machine",
+    "Then: let the program look for what the model lacks",
+    "In the end: use what was found",
+)
 _HEIGHT = 240
-_CALLED = {
-    Verdict.NONE: "No gap.",
-    Verdict.EXPLAINED: "Explained.",
-    Verdict.UNKNOWN: "Unknown gap.",
-    Verdict.INSUFFICIENT: "Insufficient excitation.",
-}
+_NO_ANSWER = "there is no answer yet; diagnose records first"
 
 
 class GapPanel(Panel):
@@ -66,8 +69,14 @@ class GapPanel(Panel):
         super().__init__(workbench)
         self.answer: Answer | None = None
         self._source: str | Path | None = None  # of the robot that the answer is about
+        self._goes_on = False  # to diagnose the records that are being read
+        self._experiment: str | None = None  # that is asked for, or under way
+        self._check: str | None = None
         self.diagnosing = Diagnosing(self)
+        self.playing = Playing(workbench, self)
+        self.actions_of = Actions(workbench, self)
         self.robots, self.records = RobotChoice(workbench), RecordChoice(workbench)
+        self.blind: BlindPage | None = None
         self._make_buttons()
         self._make_views()
         self._lay_out()
@@ -80,53 +89,73 @@ class GapPanel(Panel):
         self.start = QPushButton("Diagnose")
         self.start.setProperty("primary", True)
         self.stop = QPushButton("Stop")
-        self.stop.setToolTip("End this diagnosis now; motion goes on")
         self.progress = QProgressBar()
         self.progress.setRange(0, 1000)
         self.progress.setTextVisible(False)
-        self.progress.setMinimumWidth(40)
-        self.progress.setMaximumWidth(110)
-        self.doing = QLabel()
-        self.doing.setTextFormat(Qt.TextFormat.PlainText)
-        self.doing.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.progress.setMaximumWidth(220)
+        self.doing = ElidedLabel()
         self.twin = QPushButton("Add to twin …")
-        self.twin.setToolTip("Write a robot file of the model with the effects that were found")
-        self.report = QPushButton("Open report …")
-        self.report.setToolTip("Write the report, a page with all figures, and open it")
-        self.save = QPushButton("Save JSON …")
+        self.motion = QPushButton("New motion …")
+        self.report = QPushButton("Report …")
+        self.more = QToolButton()
+        self.more.setText("More")
+        self.more.setToolTip("Save the diagnosis as JSON; test how often the diagnosis is right")
+        self.more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        menu = QMenu(self)
+        self.save = menu.addAction("Save JSON …")
+        self.test = menu.addAction("Blind test …")
+        self.more.setMenu(menu)
 
     def _make_views(self) -> None:
         theme = self.workbench.theme
         self.where, self.which, self.far = WhereView(theme), WhichView(theme), FarView(theme)
+        self.proof, self.running = ProofView(theme), RunningView(theme)
+        self.hint = hint(readiness(0))
         self.views = QStackedWidget()
-        for view in (self.where, self.which, self.far, _hint()):
+        for view in (self.where, self.which, self.far, self.proof, self.running, self.hint):
             self.views.addWidget(view)
         self.tabs = QTabBar()
         self.tabs.setAccessibleName("What is shown")
         self.tabs.setExpanding(False)
         self.tabs.setDrawBase(False)
-        for name in VIEWS:
+        for number, name in enumerate(VIEWS):
             self.tabs.addTab(name)
-        self.verdict = QLabel()
-        self.verdict.setTextFormat(Qt.TextFormat.PlainText)
-        self.verdict.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        self.plan = QPushButton("Plan experiment")
-        self.plan.setToolTip("Take the motion in hand that would tell rivals apart, to play it")
+            self.tabs.setTabToolTip(number, TIPS[number])
+        self.verdict = ElidedLabel()
+        self.plan = QPushButton("Play next experiment …")
+        self.plan.setToolTip(
+            tip(
+                "Play the motion that would tell best what these records cannot, and diagnose its "
+                "record together with them"
+            )
+        )
         self.axis = QComboBox()
         self.axis.setAccessibleName("Axis")
+        self.axis.setToolTip("The axis of which the page speaks")
 
     def _lay_out(self) -> None:
         top = QHBoxLayout()
         top.setSpacing(6)
-        for widget in (self.robots, self.records, self.start, self.stop, self.progress):
-            top.addWidget(widget)
-        top.addWidget(self.doing, 1)
-        for widget in (self.twin, self.report, self.save):
-            top.addWidget(widget)
+        groups = (
+            (self.robots, self.records),
+            (self.start, self.stop),
+            (self.twin, self.motion, self.report, self.more),
+        )
+        for number, widgets in enumerate(groups, start=1):
+            step = QLabel(str(number))
+            step.setProperty("heading", True)
+            step.setToolTip(STEPS[number - 1])
+            top.addWidget(step)
+            for widget in widgets:
+                top.addWidget(widget)
+            if number < len(groups):
+                top.addStretch(1)
         head = QHBoxLayout()
         head.setSpacing(8)
         head.addWidget(self.tabs)
         head.addWidget(self.verdict, 1)
+        head.addWidget(self.progress)
+        head.addWidget(self.doing, 1)
         head.addWidget(self.plan)
         head.addWidget(self.axis)
         outer = QVBoxLayout(self)
@@ -138,32 +167,59 @@ class GapPanel(Panel):
         self.setMinimumHeight(_HEIGHT)
 
     def _connect(self) -> None:
-        self.start.clicked.connect(self.diagnose)
+        self.start.clicked.connect(self._start)
         self.stop.clicked.connect(self.end)
-        self.twin.clicked.connect(self._ask_twin)
-        self.report.clicked.connect(self._ask_report)
-        self.save.clicked.connect(self._ask_save)
-        self.plan.clicked.connect(self.plan_experiment)
+        self.twin.clicked.connect(lambda: self.actions_of.ask_twin(self._known, self._source))
+        self.motion.clicked.connect(self.check)
+        self.report.clicked.connect(lambda: self.actions_of.ask_report(self._known))
+        self.save.triggered.connect(lambda: self.actions_of.ask_json(self._known))
+        self.test.triggered.connect(self.show_blind_test)
+        self.plan.clicked.connect(self.play_experiment)
+        self.actions_of.twin_saved.connect(self.robots.load)
         self.robots.changed.connect(self.records.use_robot)
         self.records.changed.connect(self._show_state)
+        self.records.complete.connect(self._go_on)
         self.tabs.currentChanged.connect(lambda _: self._show_state())
         self.axis.activated.connect(lambda _: self._show_axis())
         self.diagnosing.progressed.connect(self._show_progress)
+        self.diagnosing.stepped.connect(self.running.show_step)
+        self.diagnosing.looked.connect(self.running.show_look)
         self.diagnosing.finished.connect(self.take_answer)
         self.diagnosing.failed.connect(self._fail)
+        self.playing.played.connect(self._use_played)
+        self.workbench.run_changed.connect(self._prove)
         self.workbench.closing.connect(self.diagnosing.close)
         self.workbench.theme_changed.connect(self._use_theme)
 
+    @property
+    def _known(self) -> Answer:
+        assert self.answer is not None, "what needs an answer is not allowed without"
+        return self.answer
+
     # --- the diagnosis ----------------------------------------------------------------------------
 
+    def _start(self) -> None:
+        """Diagnose; where no records are chosen, ask for them first."""
+        if self.records.chosen:
+            self.diagnose()
+        else:
+            self._goes_on = True
+            self.records.ask()
+
+    def _go_on(self) -> None:
+        goes_on, self._goes_on = self._goes_on, False
+        if goes_on and self.records.chosen and not self.diagnosing.running:
+            self.diagnose()
+
     def diagnose(self) -> None:
-        """Diagnose the chosen records; the answer that was shown stays until there is another."""
+        """Diagnose the chosen records; what was answered before stays until there is another."""
         chosen = self.records.chosen
         if not chosen:
             self.workbench.notify(Level.WARNING, "There are no records to diagnose: choose some.")
             return
         names = [each.name for each in chosen]
         doing = "waiting for the end of what was stopped" if self.diagnosing.busy else "reading"
+        self.running.begin()
         self.diagnosing.start(self.robots.robot, names, [each.record for each in chosen])
         self._show_progress(doing, 0.0)
         self._show_state()
@@ -171,7 +227,7 @@ class GapPanel(Panel):
     def end(self) -> None:
         """Stop the diagnosis that runs."""
         self.diagnosing.stop()
-        self.doing.setText("stopped")
+        self.doing.show_text("The diagnosis was stopped.")
         self._show_state()
 
     def take_answer(self, answer: Answer) -> None:
@@ -182,39 +238,54 @@ class GapPanel(Panel):
             self.axis.addItem(label(name), name)
         self.axis.setCurrentIndex(self.axis.findData(answer.first_axis))
         self.where.show_answer(answer)
+        self.proof.show_proof(None)
         self._show_axis()
-        self.verdict.setText(headline(answer))
+        self.verdict.show_text(headline(answer))
         said = summary(answer.diagnosis, answer.records)
         self.verdict.setToolTip(tip(f"{VERDICTS[answer.diagnosis.verdict]}.", *said))
-        self.doing.clear()
+        self.doing.show_text("")
         self._show_state()
 
     def _fail(self, message: str) -> None:
-        self.doing.setText("failed")
+        self.doing.show_text("The diagnosis failed; the notice above says why.")
         self.workbench.notify(Level.ERROR, message)
         self._show_state()
 
     # --- what is shown ----------------------------------------------------------------------------
 
     def _show_state(self) -> None:
-        running, done = self.diagnosing.running, self.answer is not None
-        self.start.setEnabled(not running and bool(self.records.chosen))
+        running, answer = self.diagnosing.running, self.answer
+        chosen = len(self.records.chosen)
+        self.start.setText("Diagnose" if chosen else "Diagnose …")
+        tip_of_start = (
+            "Look for what the model lacks" if chosen else "Choose records, diagnose them"
+        )
+        allow(self.start, "a diagnosis runs" if running else None, tip_of_start)
+        allow(self.stop, None if running else "nothing runs", "End it now; motion goes on")
         self.robots.setEnabled(not running)
         self.records.setEnabled(not running)
-        self.stop.setEnabled(running)
         self.progress.setVisible(running)
-        for button in (self.report, self.save):
-            button.setEnabled(done)
-        self.twin.setEnabled(self.answer is not None and bool(self.answer.diagnosis.fitted))
-        self.plan.setVisible(self.answer is not None and bool(self.answer.diagnosis.experiments))
+        why = _NO_ANSWER if answer is None else None
+        found = why or (None if answer and answer.diagnosis.fitted else "no effect was found")
+        allow(self.twin, found, "Write a robot file of the model with what was found")
+        allow(self.motion, found, "Play a motion that no record holds, and see how far it is off")
+        allow(self.report, why, "Write the report, a page with all figures, and open it")
+        self.save.setEnabled(why is None)
+        self.plan.setVisible(answer is not None and bool(answer.diagnosis.experiments))
+        self.plan.setEnabled(not running)
+        done = answer is not None and not running
         self.tabs.setVisible(done)
-        self.views.setCurrentIndex(self.tabs.currentIndex() if done else len(VIEWS))
-        self.axis.setVisible(done and self.views.currentWidget() is not self.where)
+        self.verdict.setVisible(done)
+        self.doing.setVisible(not done)
+        self.hint.setText(readiness(chosen))
+        shown = self.tabs.currentIndex() if done else RUNNING if running else HINT
+        self.views.setCurrentIndex(shown)
+        self.axis.setVisible(shown in (WHICH, FAR))
 
     def _show_progress(self, doing: str, share: float) -> None:
         self.progress.setValue(round(1000 * share))
-        self.doing.setText(doing)
-        self.doing.setToolTip(tip(f"{doing}, {100.0 * share:.0f} % done"))
+        self.progress.setToolTip(f"{100.0 * share:.0f} % done")
+        self.doing.show_text(doing)
 
     def _show_axis(self) -> None:
         if self.answer is not None:
@@ -223,137 +294,69 @@ class GapPanel(Panel):
             self.far.show_axis(self.answer, axis)
 
     def _use_theme(self, theme: Theme) -> None:
-        for view in (self.where, self.which, self.far):
+        for view in (self.where, self.which, self.far, self.proof, self.running):
             view.set_theme(theme)
 
-    # --- what comes of it -------------------------------------------------------------------------
+    # --- what is played ---------------------------------------------------------------------------
 
-    def plan_experiment(self) -> None:
-        """Take the suggested experiment in hand: that of the axis in sight, or else the first."""
-        assert self.answer is not None
-        experiments = self.answer.diagnosis.experiments
+    def play_experiment(self) -> None:
+        """Ask whether to play the suggested experiment: of the axis in sight, or the first."""
+        experiments = self._known.diagnosis.experiments
         axis = self.axis.currentData()
         number = next((n for n, one in enumerate(experiments) if one.axis == axis), 0)
-        made = suggestion(experiments[number], number + 1, "gap", self.answer.units)
-        name = made.names.commands
-        self.workbench.plan_trajectory(name, made.records[name])
+        made = suggestion(experiments[number], number + 1, "gap", self._known.units)
+        self._experiment = made.names.commands
+        trajectory = made.records[self._experiment]
+        self.playing.ask(self.main_window, "Next experiment", self._experiment, trajectory)
 
-    def save_twin(self, path: Path) -> None:
-        """Write a robot file of the corrected model, and offer it to the running simulator."""
-        answer = self.answer
-        assert answer is not None
-        robot, effects, source = answer.diagnosis.robot, answer.diagnosis.fitted, self._source
-
-        def done(_: None) -> None:
-            self.workbench.notify(Level.GOOD, f"Saved {path}")
-            self._offer_live(answer)
-
+    def check(self) -> None:
+        """Ask whether to play a motion of the diagnosed axes that no record holds."""
+        answer = self._known
+        axes = tuple(answer.diagnosis.axes)
+        self._check = check_title(axes)
+        name = self._check
         self.workbench.work(
-            "gap twin",
-            f"Writing {path.name} …",
-            lambda: write_text(path, twin_text(robot, effects, source)),
-            done,
+            "gap motion",
+            "Making a motion …",
+            lambda: new_motion(answer.diagnosis, answer.records, axes),
+            lambda motion: self.playing.ask(self.main_window, "New motion", name, motion),
         )
 
-    def save_report(self, path: Path) -> None:
-        """Write the report and open it."""
+    def _use_played(self, run: Run) -> None:
+        if run.name == self._experiment and self.answer is not None:
+            self._experiment = None
+            self.records.join(self.answer.names, self.answer.records, run)
+            self.diagnose()
+
+    def _prove(self, run: Run) -> None:
+        """Work out how far the gap has shrunk on what was played or opened since the answer."""
         answer = self.answer
-        assert answer is not None
-
-        def done(_: None) -> None:
-            self.workbench.notify(Level.GOOD, f"Saved {path}")
-            if not QDesktopServices.openUrl(QUrl.fromLocalFile(str(path))):
-                self.workbench.notify(
-                    Level.WARNING, f"{path}: nothing here opens it; open it in a browser"
-                )
-
-        self.workbench.work(
-            "gap report",
-            f"Writing {path.name} …",
-            lambda: write_report(answer.diagnosis, answer.records, path, answer.names),
-            done,
-        )
-
-    def save_json(self, path: Path) -> None:
-        """Write the diagnosis as JSON."""
-        answer = self.answer
-        assert answer is not None
-        self.workbench.work(
-            "gap document",
-            f"Writing {path.name} …",
-            lambda: write_text(path, json_text(as_json(answer.diagnosis))),
-            lambda _: self.workbench.notify(Level.GOOD, f"Saved {path}"),
-        )
-
-    def _offer_live(self, answer: Answer) -> None:
-        """Ask whether the simulator is to run the corrected model, where there is one."""
-        session = self.workbench.session
-        if session.effects is None or answer.diagnosis.robot.axes != self.workbench.robot.axes:
+        if answer is None or not answer.diagnosis.fitted or run.name == self._experiment:
             return
-        question = QMessageBox(self.main_window)
-        question.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        question.setWindowTitle("Add to twin")
-        question.setText("Let the running simulator be the corrected model?")
-        question.setInformativeText("The effects that it has now are replaced.")
-        question.setStandardButtons(QMessageBox.StandardButton.Yes | QMessageBox.StandardButton.No)
-        yes = QMessageBox.StandardButton.Yes
-        question.finished.connect(lambda said: self._load_live(answer) if said == yes else None)
-        question.setModal(False)  # the window, and its stop button, can still be used
-        question.show()
-
-    def _load_live(self, answer: Answer) -> None:
-        diagnosis = answer.diagnosis
-        try:
-            self.workbench.session.set_effects((*diagnosis.robot.effects, *diagnosis.fitted))
-        except InputError as error:
-            self.workbench.notify(Level.ERROR, str(error))
-
-    def _ask_twin(self) -> None:
-        self._ask("Add to twin", "robot.toml", "Robot files (*.toml)", self.save_twin)
-
-    def _ask_report(self) -> None:
-        self._ask("Report", "gap-report.html", "Pages (*.html)", self.save_report)
-
-    def _ask_save(self) -> None:
-        self._ask("Save the diagnosis", "gap.json", "JSON (*.json)", self.save_json)
-
-    def _ask(self, title: str, name: str, filters: str, use: Callable[[Path], None]) -> None:
-        """Ask where to, beside a window that can still be used; it asks before a file goes."""
-        settings = self.workbench.settings
-        dialog = QFileDialog(self, title, settings.get("files.folder", ""), filters)
-        dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix(Path(name).suffix[1:])
-        dialog.selectFile(name)
-        dialog.fileSelected.connect(
-            lambda chosen: settings.set("files.folder", str(Path(chosen).parent))
+        self.workbench.work(
+            "gap proof",
+            "Comparing with the twin …",
+            lambda: prove(answer.diagnosis, run.name, run.record),
+            lambda proof: self._take_proof(answer, proof),
         )
-        dialog.fileSelected.connect(lambda chosen: use(Path(chosen)))
-        dialog.show()
 
+    def _take_proof(self, answer: Answer, proof: Proof) -> None:
+        if answer is not self.answer or not proof.shrunk:
+            return
+        self.proof.show_proof(proof)
+        if proof.name == self._check:  # it was asked for here: this is what is awaited
+            self._check = None
+            with QSignalBlocker(self.tabs):
+                self.tabs.setCurrentIndex(PROOF)
+            self._show_state()
+            self.main_window.bring_up("gap")
 
-def headline(answer: Answer) -> str:
-    """Return verdict and causes in one line."""
-    diagnosis = answer.diagnosis
-    parts = [_CALLED[diagnosis.verdict]]
-    for name, one in diagnosis.axes.items():
-        causes = [_cause(cause) for cause in one.causes]
-        if causes:
-            parts.append(f"{label(name)}: {', '.join(causes)}")
-        elif one.verdict is not Verdict.NONE:
-            parts.append(f"{label(name)}: {_CALLED[one.verdict].lower()}")
-    return "   ".join(parts)
+    # --- the test of the diagnosis itself ---------------------------------------------------------
 
-
-def _cause(cause: Cause) -> str:
-    names = [effect_title(effect).lower() for effect in (cause.effect, *cause.ambiguous_with)]
-    return f"{listed(names, 'or')} {percent(cause.probability)}"
-
-
-def _hint() -> QLabel:
-    hint = QLabel(EMPTY)
-    hint.setWordWrap(True)
-    hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
-    hint.setProperty("quiet", True)
-    return hint
+    def show_blind_test(self) -> None:
+        """Open the page of the blind test."""
+        if self.blind is None:
+            self.blind = BlindPage(self.workbench, self.robots, self)
+            self.blind.setWindowFlag(Qt.WindowType.Window)
+        self.blind.show()
+        self.blind.raise_()

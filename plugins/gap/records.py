@@ -16,6 +16,7 @@ from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
 
+_ENOUGH = 3  # each then serves as data that a fit has not seen
 FILES = "Records (*.csv *.txt *.dat *.gz);;All files (*)"
 
 
@@ -37,15 +38,18 @@ class RecordChoice(QToolButton):
     Signals
     -------
     changed() : ``chosen`` did.
+    complete() : the files that were asked for last are read, as far as they can be.
     """
 
     changed = Signal()
+    complete = Signal()
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
         self._workbench = workbench
         self._robot: Robot = workbench.robot
         self.chosen: tuple[Chosen, ...] = ()
+        self._unread = 0  # of the files that were asked for last
         self.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextOnly)
         menu = QMenu(self)
@@ -63,12 +67,18 @@ class RecordChoice(QToolButton):
 
     def add_files(self, paths: Sequence[Path]) -> None:
         """Read files and add them as they come; one that cannot be read becomes a notice."""
+        self._unread = len(paths)
         for path in paths:
             self._read(path, alone=len(paths) == 1)
 
     def take(self, run: Run) -> None:
         """Add the record that was played or opened last."""
         self._set((*self._kept(), Chosen(run.name, run.record)))
+
+    def join(self, names: Sequence[str], records: Sequence[Record], run: Run) -> None:
+        """Choose the records of an answer and the one that was played for it."""
+        old = (Chosen(*each) for each in zip(names, records, strict=True))
+        self._set((*old, Chosen(run.name, run.record)))
 
     def remove(self, one: Chosen) -> None:
         """Take a record away."""
@@ -90,7 +100,9 @@ class RecordChoice(QToolButton):
         count = len(self.chosen)
         self.setText(f"{count} record{'' if count == 1 else 's'}" if count else "Records …")
         names = [each.name for each in self.chosen]
-        self.setToolTip(tip(*names) if names else "Choose the records of the real machine")
+        few = "Three records of different motions or more tell best." if count < _ENOUGH else ""
+        said = names or ["Choose the records of the real machine"]
+        self.setToolTip(tip("Records that are diagnosed:" if names else "", *said, few))
 
     # --- reading ----------------------------------------------------------------------------------
 
@@ -110,8 +122,16 @@ class RecordChoice(QToolButton):
                     Level.WARNING,
                     f"{path.name}: it has no header; add it by itself to name its columns",
                 )
+            self._count_read()
 
-        self._workbench.work(f"gap record {path}", f"Reading {path.name} …", work, done)
+        self._workbench.work(
+            f"gap record {path}", f"Reading {path.name} …", work, done, self._count_read
+        )
+
+    def _count_read(self) -> None:
+        self._unread -= 1
+        if self._unread == 0:
+            self.complete.emit()
 
     def _read_named(self, path: Path, columns: str | None) -> None:
         robot = self._robot
@@ -127,7 +147,7 @@ class RecordChoice(QToolButton):
     def _fill(self) -> None:
         menu = self.menu()
         menu.clear()
-        self._add(menu, "Add files …").triggered.connect(self._ask)
+        self._add(menu, "Add files …").triggered.connect(self.ask)
         run = self._workbench.run
         last = self._add(menu, f"Add {run.name}" if run is not None else "Add the last playback")
         last.setEnabled(run is not None)
@@ -142,7 +162,8 @@ class RecordChoice(QToolButton):
     def _add(menu: QMenu, text: str) -> QAction:
         return menu.addAction(text.replace("&", "&&"))  # a file's name marks no shortcut
 
-    def _ask(self) -> None:
+    def ask(self) -> None:
+        """Ask for files, and add them."""
         settings = self._workbench.settings
         dialog = QFileDialog(
             self.window(), "Records of the real machine", settings.get("files.folder", ""), FILES

@@ -29,7 +29,7 @@ class RobotChoice(QComboBox):
         self.source: str | Path | None = None  # of the robot's text, None for the one in use
         self._place = 0
         self.setAccessibleName("Model")
-        self.setToolTip("The model whose gap is looked for")
+        self.setToolTip("The model whose gap is looked for; at first the one in use")
         self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.setMinimumContentsLength(11)
         self.setMinimumWidth(80)  # where the window is narrow, a name is cut rather than the row

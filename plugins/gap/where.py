@@ -1,22 +1,34 @@
-"""Where the gap lies: axes and taps, and the heat map of the chosen one."""
+"""Where the gap lies: axes and taps, the heat map of the chosen one, and what is behind a cell."""
 
 import math
 from itertools import pairwise
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import QLabel, QSplitter, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QSplitter, QStackedWidget, QVBoxLayout, QWidget
 
 from rotemina.app.display import label
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap.cell import parts
+from rotemina.plugins.gap.cell_view import CellView
 from rotemina.plugins.gap.table import Table
+from rotemina.plugins.gap.tips import tip
 from rotemina.sim.gap.document import shares
 from rotemina.sim.gap.report.heat import Heat
 from rotemina.sim.gap.report.quantities import NOTHING, amount, percent, percents
 from rotemina.sim.gap.where import Place
 
 HEAD = ("axis, tap", "share", "gap rms", "floor", "worst at", "while", "95 % of the share")
+_TIPS = (
+    "Where it was read: u is the voltage, ref the reference sensor, meas the machine's own sensor",
+    "Of the gap above the noise floors of all axes and taps",
+    "Of what was measured less what the model says, its mean taken out",
+    "Rms of what noise and rounding of the sensor leave, which no model explains",
+    "The band that holds most of it",
+    "What the axis was doing where the gap is largest",
+    "The share is between these in 95 of 100 cases",
+)
 _BANDS = 2  # columns before those of the bands
 _COLDEST = 0.3  # floors
 _DECADES = 3.0  # from the coldest to the warmest
@@ -24,7 +36,7 @@ _STRENGTH = 170  # of the warmest colour, of 255
 
 
 class WhereView(QSplitter):
-    """Places of the gap on the left, band by regime on the right."""
+    """Places of the gap on the left; on the right band by regime, or what is behind a cell."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__(Qt.Orientation.Horizontal)
@@ -32,17 +44,29 @@ class WhereView(QSplitter):
         self._answer: Answer | None = None
         self._places: list[Place] = []
         self.places = Table("Where the gap lies", HEAD)
+        for column, text in enumerate(_TIPS):
+            self.places.horizontalHeaderItem(column).setToolTip(tip(text))
         self.heat_title = QLabel()
         self.heat_title.setTextFormat(Qt.TextFormat.PlainText)
+        self.heat_title.setWordWrap(True)
         self.heat = Table("Gap by band and regime")
-        right = QWidget()
-        column = QVBoxLayout(right)
-        column.setContentsMargins(0, 0, 0, 0)
+        self.heat.setSelectionMode(Table.SelectionMode.NoSelection)
+        self.heat.setCursor(Qt.CursorShape.PointingHandCursor)
+        self.heat.cellClicked.connect(self.open_cell)
+        self.heat.cellActivated.connect(self.open_cell)
+        self.cell = CellView(theme)
+        self.cell.closed.connect(lambda: self.right.setCurrentIndex(0))
+        whole = QWidget()
+        column = QVBoxLayout(whole)
+        column.setContentsMargins(4, 0, 0, 0)
         column.setSpacing(2)
         column.addWidget(self.heat_title)
         column.addWidget(self.heat, 1)
+        self.right = QStackedWidget()
+        self.right.addWidget(whole)
+        self.right.addWidget(self.cell)
         self.addWidget(self.places)
-        self.addWidget(right)
+        self.addWidget(self.right)
         self.setSizes([520, 420])
         self.places.currentCellChanged.connect(lambda *_: self._show_heat())
 
@@ -65,24 +89,46 @@ class WhereView(QSplitter):
             self.places.selectRow(0)
         self._show_heat()
 
+    def open_cell(self, row: int, column: int) -> None:
+        """Show the traces of a place of the heat map: what lies in this band, in this regime."""
+        place = self._place
+        band = column - _BANDS
+        if self._answer is None or place is None or band < 0:
+            return
+        heat = self._answer.heats[place.axis, place.tap]
+        own = [one for one in self._answer.traces[place.axis] if one.tap is place.tap]
+        low, high = heat.edges_hz[band], heat.edges_hz[band + 1]
+        title = f"{label(place.axis)} {place.tap}, {heat.regimes[row]}, {low:g} to {high:g} Hz"
+        self.cell.show_parts(title, self._answer.names, parts(own, heat, row, band))
+        self.right.setCurrentWidget(self.cell)
+
     def set_theme(self, theme: Theme) -> None:
         """Change all colours."""
         self._theme = theme
+        self.cell.set_theme(theme)
         if self._answer is not None:
             self.show_answer(self._answer)
 
-    def _show_heat(self) -> None:
+    @property
+    def _place(self) -> Place | None:
         row = self.places.currentRow()
-        if self._answer is None or not 0 <= row < len(self._places):
+        return self._places[row] if 0 <= row < len(self._places) else None
+
+    def _show_heat(self) -> None:
+        self.right.setCurrentIndex(0)
+        place = self._place
+        if self._answer is None or place is None:
             self._clear("")
             return
-        place = self._places[row]
         name = f"{label(place.axis)} {place.tap}"
         heat = self._answer.heats.get((place.axis, place.tap))
         if heat is None:
             self._clear(f"{name}: no record is sampled evenly and long enough for a map")
             return
-        self.heat_title.setText(f"{name}: gap rms in floors, by regime and band from … Hz on")
+        self.heat_title.setText(
+            f"{name}: gap rms [noise floors], by what the axis did and by frequency from … Hz on. "
+            "Click a cell to see its traces."
+        )
         self._draw(heat)
 
     def _clear(self, text: str) -> None:
@@ -108,7 +154,14 @@ class WhereView(QSplitter):
                 item = self.heat.item(row, column)
                 item.setBackground(colour)
                 share = percent(float(heat.share[row][column - _BANDS]))
-                item.setToolTip(f"{share} of the gap of the whole path")
+                low, high = edges[column - _BANDS], edges[column - _BANDS + 1]
+                item.setToolTip(
+                    tip(
+                        f"{heat.regimes[row]}, {low} to {high} Hz: {_few(value)} noise floors rms",
+                        f"{share} of the gap of the whole path",
+                        "Click to see the traces",
+                    )
+                )
 
 
 def warmth(floors: float) -> float:

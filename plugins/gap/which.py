@@ -6,9 +6,12 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QPlainTextEdit, QSplitter
 
+from rotemina.app.display import label
 from rotemina.app.shell.theme import Theme
+from rotemina.plugins.gap.advice import advice
 from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.table import Table
+from rotemina.plugins.gap.tips import tip
 from rotemina.sim.gap.diagnosis import AxisDiagnosis, Cause, FittedParameter, Ranked
 from rotemina.sim.gap.report.quantities import amount, amounts, percent, percents
 from rotemina.sim.gap.report.words import (
@@ -18,7 +21,15 @@ from rotemina.sim.gap.report.words import (
     parameter_unit,
 )
 
-HEAD = ("candidate", "prob.", "left [floors]", "95 %")
+HEAD = ("candidate", "probability", "left [floors]", "95 %")
+_TIPS = (
+    "What was tried in place of the leading cause, the likeliest first; those that may be it "
+    "stand out",
+    "How likely it is the cause, of those tried and what is not among them",
+    "Rms of the gap that it leaves on data that its fit did not see, in noise floors: 1 is all "
+    "that noise allows",
+    "What it leaves is between these in 95 of 100 cases, in noise floors",
+)
 
 
 class WhichView(QSplitter):
@@ -30,6 +41,8 @@ class WhichView(QSplitter):
         self._shown: tuple[Answer, str] | None = None
         self.ranking = Table("Candidates, likeliest first", HEAD)
         self.ranking.setSelectionMode(Table.SelectionMode.NoSelection)
+        for column, text in enumerate(_TIPS):
+            self.ranking.horizontalHeaderItem(column).setToolTip(tip(text))
         self.text = QPlainTextEdit()
         self.text.setReadOnly(True)
         self.text.setAccessibleName("What is said of the axis")
@@ -60,7 +73,7 @@ class WhichView(QSplitter):
 def _row(ranked: Ranked) -> tuple[str, ...]:
     name = effect_title(ranked.effect)
     if ranked.from_axis is not None:
-        name += f" from {ranked.from_axis}"
+        name += f" from {label(ranked.from_axis)}"
     if ranked.formulation is not None:
         name += f" ({ranked.formulation.replace('_', ' ')})"
     return (
@@ -73,6 +86,8 @@ def _row(ranked: Ranked) -> tuple[str, ...]:
 
 def _lines(one: AxisDiagnosis, answer: Answer) -> Iterator[str]:
     yield f"{AXIS_VERDICTS[one.verdict]}."
+    experiments = [own for own in answer.diagnosis.experiments if own.axis == one.axis]
+    yield from advice(one, has_experiment=bool(experiments))
     for cause in one.causes:
         yield from _cause(cause, answer)
     yield from one.remarks
@@ -81,14 +96,13 @@ def _lines(one: AxisDiagnosis, answer: Answer) -> Iterator[str]:
         reasons.setdefault(each.reason, []).append(effect_title(each.effect).lower())
     for reason, effects in reasons.items():
         yield f"Not testable: {listed(effects)} ({reason})."
-    for experiment in answer.diagnosis.experiments:
-        if experiment.axis == one.axis:
-            yield f"Next experiment: {experiment.why}"
+    for experiment in experiments:
+        yield f"Next experiment: {experiment.why}"
 
 
 def _cause(cause: Cause, answer: Answer) -> Iterator[str]:
     unit = answer.unit(cause.axis, cause.tap)
-    source = f" from {cause.from_axis}" if cause.from_axis is not None else ""
+    source = f" from {label(cause.from_axis)}" if cause.from_axis is not None else ""
     yield (
         f"{effect_title(cause.effect)}{source}: {percent(cause.probability)} likely; "
         f"{amount(cause.gap_before, unit)} rms without it, {amount(cause.gap_after, unit)} with it"

@@ -1,6 +1,8 @@
 """The row of choices: axis, input, output, view, and the settings of the view in sight."""
 
-from PySide6.QtCore import Signal
+from pathlib import Path
+
+from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QWidget
 
 from rotemina.app.display import label
@@ -30,6 +32,9 @@ class Controls(QWidget):
         super().__init__()
         self.open = QPushButton("Open …")
         self.open.setToolTip("Open a record for this page alone")
+        self.excite = QPushButton("Excite")
+        self.excite.setCheckable(True)
+        self.excite.setToolTip("Choose a motion that excites an axis, play it, and look at it")
         self.axis = _choice("Axis")
         self.drive, self.answer = _choice("Input"), _choice("Output")
         self.view = _choice("What is shown", [(str(view), view) for view in View])
@@ -43,6 +48,8 @@ class Controls(QWidget):
         self.poles = _choice("Poles", [(f"{n} poles" if n > 1 else "1 pole", n) for n in POLES])
         self.poles.setCurrentIndex(POLES.index(2))
         self.copy, self.save = QPushButton("Copy"), QPushButton("Save …")
+        self.keep = QPushButton("Keep card")
+        self.keep.setToolTip("Write this health card behind the earlier ones of the axis")
         self._lay_out()
         self.axis.activated.connect(self._change_axis)
         for choice in (self.drive, self.answer, self.averages, self.method, self.poles):
@@ -67,7 +74,15 @@ class Controls(QWidget):
         self.axis.setCurrentIndex(record.axes.index(chosen))
         self._offer_taps()
 
-    def question(self, name: str, robot: Robot) -> Question | None:
+    def look_at(self, axis: str, view: View) -> None:
+        """Choose an axis of the record offered, and a view of it."""
+        self.axis.setCurrentIndex(self.axis.findData(axis))
+        self._offer_taps()
+        with QSignalBlocker(self.view):
+            self.view.setCurrentIndex(self.view.findData(view))
+        self._show_settings()
+
+    def question(self, name: str, robot: Robot, folder: Path | None = None) -> Question | None:
         """Return what is asked, or None where the axis has no pair to ask of."""
         if self._record is None or not (self.drive.count() and self.answer.count()):
             return None
@@ -81,17 +96,19 @@ class Controls(QWidget):
             averages=self.averages.currentData(),
             method=self.method.currentData(),
             poles=self.poles.currentData(),
+            folder=folder,
         )
 
     def _lay_out(self) -> None:
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(6)
-        for widget in (self.open, self.axis, self.drive, self.answer, self.view):
+        for widget in (self.excite, self.open, self.axis, self.drive, self.answer, self.view):
             row.addWidget(widget)
         for widget in (self.averages, self.method, self.poles):
             row.addWidget(widget)
         row.addStretch(1)
+        row.addWidget(self.keep)
         row.addWidget(self.copy)
         row.addWidget(self.save)
 
@@ -120,6 +137,7 @@ class Controls(QWidget):
         self.averages.setVisible(self.shown is View.FREQUENCY)
         for choice in (self.method, self.poles):
             choice.setVisible(self.shown is View.MODEL)
+        self.keep.setVisible(self.shown is View.HEALTH)
 
 
 def _choice(name: str, items: list[tuple[str, object]] | None = None) -> QComboBox:

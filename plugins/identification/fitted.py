@@ -14,7 +14,9 @@ from rotemina.plugins.identification.findings import (
     ratio_scale,
     scale_of,
 )
+from rotemina.plugins.identification.nominal import ABSENT, nominal_signals
 from rotemina.plugins.identification.question import Question
+from rotemina.sim.errors import InputError
 from rotemina.sim.identification.arx import identify_arx
 from rotemina.sim.identification.model import IdentifiedModel, Orders, simulate
 from rotemina.sim.identification.natural_modes import BAND_SHARE, NaturalMode, natural_modes
@@ -26,16 +28,17 @@ METHODS = {"oe": identify_oe, "arx": identify_arx}
 _GOOD_FIT = 80.0
 _WORSE = 10.0  # per cent of fit, lost from prediction to simulation, that tell of noise
 _ROUGH = 0.1  # relative deviation from which a figure is rough
-_HEAD = ("figure", "value", "± deviation")
+_HEAD = ("figure", "value", "± deviation", "model")
 
 
 def model_findings(question: Question) -> Findings:
     """Fit a discrete transfer function and say what it means, or why it means little."""
     whole = question.signals()
-    signals = replace(whole, inputs=whole.inputs[:MOST_ROWS], outputs=whole.outputs[:MOST_ROWS])
+    signals = _cut(whole)
     orders = Orders(question.poles, question.poles, question.lag_samples)
     model = METHODS[question.method](signals, orders)
     modes = natural_modes(model)
+    nominal, absent = _nominal_rows(question, orders)
     notices = []
     if whole.count > signals.count:
         notices.append(
@@ -46,10 +49,35 @@ def model_findings(question: Question) -> Findings:
         question,
         _pictures(question, model, signals),
         _HEAD,
-        _rows(question, model, modes),
+        _beside(_rows(question, model, modes), nominal),
         columns,
-        (*notices, *_doubts(model, modes)),
+        (*notices, *absent, *_doubts(model, modes)),
     )
+
+
+def _nominal_rows(
+    question: Question, orders: Orders
+) -> tuple[tuple[tuple[str, ...], ...], tuple[str, ...]]:
+    """Fit the nominal model's answer in the same way; return its rows, or why there are none."""
+    try:
+        model = METHODS[question.method](_cut(nominal_signals(question)), orders)
+        return _rows(question, model, natural_modes(model)), ()
+    except (InputError, KeyError) as error:
+        return (), (ABSENT.format(error),)
+
+
+def _beside(
+    rows: tuple[tuple[str, ...], ...], nominal: tuple[tuple[str, ...], ...]
+) -> tuple[tuple[str, ...], ...]:
+    """Return rows with the nominal model's value behind each: the n-th of a name to the n-th."""
+    left: dict[str, list[str]] = {}
+    for name, value, _ in nominal:
+        left.setdefault(name, []).append(value)
+    return tuple((*row, left[row[0]].pop(0) if left.get(row[0]) else NONE) for row in rows)
+
+
+def _cut(signals: Signals) -> Signals:
+    return replace(signals, inputs=signals.inputs[:MOST_ROWS], outputs=signals.outputs[:MOST_ROWS])
 
 
 def _pictures(question: Question, model: IdentifiedModel, signals: Signals) -> tuple[Picture, ...]:

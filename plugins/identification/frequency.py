@@ -12,7 +12,7 @@ from rotemina.plugins.identification.findings import (
     Scale,
     ratio_scale,
 )
-from rotemina.plugins.identification.nominal import nominal_signals
+from rotemina.plugins.identification.nominal import ABSENT, nominal_signals
 from rotemina.plugins.identification.question import Question
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
@@ -61,7 +61,7 @@ def frequency_findings(question: Question) -> Findings:
     try:
         nominal = estimate(nominal_signals(question), question.averages)
     except (InputError, KeyError) as error:
-        notices.append(f"No nominal model beside it: {error}")
+        notices.append(ABSENT.format(error))
     resonance: Resonance | None = None
     try:
         resonance = _resonance(question, measured)

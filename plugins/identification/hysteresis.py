@@ -1,5 +1,7 @@
 """Output over input: the loop that it draws, its width and area."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from rotemina.plugins.identification.findings import (
@@ -10,12 +12,14 @@ from rotemina.plugins.identification.findings import (
     Scale,
     scale_of,
 )
+from rotemina.plugins.identification.nominal import ABSENT, nominal_signals
 from rotemina.plugins.identification.question import Question
 from rotemina.plugins.identification.statistics import HEAD, Figure, largest
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.identification.errors import ExcitationError
 from rotemina.sim.identification.loop import Loop, amplitude_exponent, loops
+from rotemina.sim.identification.signals import Signals
 
 _MOST_DRAWN = 20_000  # rows; more of a loop is a blot, and slow
 _MOST_CYCLES = 1000
@@ -42,17 +46,23 @@ def loop_findings(question: Question) -> Findings:
         found = loops(driven[:rows], answer[:rows], lag_samples=lag, least_swing=_LEAST_SWING)
     except InputError as error:
         notices.append(str(error))
+    nominal: Signals | None = None
+    try:
+        nominal = nominal_signals(question)
+    except (InputError, KeyError) as error:
+        notices.append(ABSENT.format(error))
     if len(x) > _MOST_DRAWN:
         notices.append(
             f"Drawn are the first {_MOST_DRAWN} of {len(x)} rows; the figures are not cut there."
         )
-    rows, columns = _sheet(question, found) if found else ((), ())
+    beside = _modelled(nominal, rows, lag) if nominal is not None and found else ()
+    figures, columns = _sheet(question, found, beside) if found else ((), ())
     notices += _doubts(question, found)
     return Findings(
         question,
-        _pictures(question, x, y),
+        _pictures(question, x, y, nominal),
         HEAD if found else (),
-        rows,
+        figures,
         columns,
         tuple(notices),
     )
@@ -66,45 +76,87 @@ def _rows_measured(driven: FloatArray) -> int:
     return int(highs[_MOST_CYCLES]) if len(highs) > _MOST_CYCLES else len(driven)
 
 
-def _pictures(question: Question, x: FloatArray, y: FloatArray) -> tuple[Picture, ...]:
-    """Return the loop, and how far it is off a straight line: there a narrow one can be seen."""
-    x, y = x[:_MOST_DRAWN], y[:_MOST_DRAWN]
-    columns = np.column_stack([x, np.ones_like(x)])
-    line, *_ = np.linalg.lstsq(columns, y, rcond=None)
-    off = y - columns @ line
+def _modelled(nominal: Signals, rows: int, lag: int) -> tuple[Loop, ...]:
+    """Return the model's cycles; none where it makes none of a measured input."""
+    driven, answer = nominal.single()
+    try:
+        return loops(driven[:rows], answer[:rows], lag_samples=lag, least_swing=_LEAST_SWING)
+    except InputError:
+        return ()
+
+
+def _pictures(
+    question: Question, x: FloatArray, y: FloatArray, nominal: Signals | None
+) -> tuple[Picture, ...]:
+    """Return the loop, and how far it is off a straight line: there a narrow one can be seen.
+
+    Each is off its own line, so that loops are compared and not gains.
+    """
+    drawn = [("measured", "real", x, y, 1)]
+    if nominal is not None:
+        driven, answer = nominal.single()
+        drawn.insert(0, ("model", "model", driven[: len(x)], answer[len(answer) - len(x) :], 3))
+    drawn = [(name, role, u[:_MOST_DRAWN], v[:_MOST_DRAWN], w) for name, role, u, v, w in drawn]
+    off = [(name, role, u, _off_line(u, v), w) for name, role, u, v, w in drawn]
     across = scale_of(question.unit(question.drive), float(np.abs(x).max(initial=0.0)))
     pictures = []
-    for name, values in ((str(question.answer), y), ("off a straight line", off)):
-        up = scale_of(question.unit(question.answer), float(np.abs(values).max(initial=0.0)))
-        curve = Curve("measured", "real", across.per_si * x, up.per_si * values)
-        title, bottom = f"{name} [{up.symbol}]", f"{question.drive} [{across.symbol}]"
-        pictures.append(Picture(title, bottom, (curve,), in_time=False))
+    for title, curves in ((str(question.answer), drawn), ("off a straight line", off)):
+        size = max(float(np.abs(v).max(initial=0.0)) for _, _, _, v, _ in curves)
+        up = scale_of(question.unit(question.answer), size)
+        pictures.append(
+            Picture(
+                f"{title} [{up.symbol}]",
+                f"{question.drive} [{across.symbol}]",
+                tuple(
+                    Curve(name, role, across.per_si * u, up.per_si * v, width)
+                    for name, role, u, v, width in curves
+                ),
+                in_time=False,
+            )
+        )
     return tuple(pictures)
 
 
+def _off_line(x: FloatArray, y: FloatArray) -> FloatArray:
+    """Return y (n,) without its least-squares line over x (n,)."""
+    columns = np.column_stack([x, np.ones_like(x)])
+    line, *_ = np.linalg.lstsq(columns, y, rcond=None)
+    return np.asarray(y - columns @ line)
+
+
 def _sheet(
-    question: Question, found: tuple[Loop, ...]
+    question: Question, found: tuple[Loop, ...], beside: tuple[Loop, ...]
 ) -> tuple[tuple[tuple[str, ...], ...], tuple[Column, ...]]:
-    spans = [each.input_high - each.input_low for each in found]
-    across = scale_of(question.unit(question.drive), max(spans))
-    up = scale_of(question.unit(question.answer), largest([each.stroke for each in found]))
-    fine = scale_of(question.unit(question.answer), largest([each.width_max for each in found]))
-    play = scale_of(
-        question.unit(question.drive), largest([each.input_width_mid for each in found])
-    )
-    area = Scale(f"{across.symbol}·{up.symbol}", across.per_si * up.per_si)
+    over, under = question.unit(question.answer), question.unit(question.drive)
+
+    def figure(name: str, unit: str, read: Callable[[Loop], float]) -> Figure:
+        values = [read(each) for each in found]
+        return Figure(name, scale_of(unit, largest(values)), values, [read(e) for e in beside])
+
+    span = figure("input span", under, lambda each: each.input_high - each.input_low)
+    stroke = figure("stroke", over, lambda each: each.stroke)
+    width = figure("largest width", over, lambda each: each.width_max)
+    middle = figure("width at the middle", over, lambda each: each.width_mid)
+    across, up = span.scale, stroke.scale
+    both = f"{up.symbol}²" if across == up else f"{across.symbol}·{up.symbol}"
+    area = Scale(both, across.per_si * up.per_si)
     figures = (
-        Figure("input span", across, spans),
-        Figure("stroke", up, [each.stroke for each in found]),
-        Figure("largest width", fine, [each.width_max for each in found]),
-        Figure("width over stroke", _PERCENT, [each.width_percent for each in found]),
-        Figure("width at the middle", fine, [each.width_mid for each in found]),
-        Figure("play across", play, [each.input_width_mid for each in found]),
-        Figure("area", area, [each.area for each in found]),
+        span,
+        stroke,
+        width,
+        Figure(
+            "width over stroke",
+            _PERCENT,
+            [each.width_percent for each in found],
+            [each.width_percent for each in beside],
+        ),
+        middle._replace(scale=width.scale),
+        figure("play across", under, lambda each: each.input_width_mid),
+        Figure("area", area, [each.area for each in found], [each.area for each in beside]),
     )
-    words = ("cycles", str(len(found)), "", ""), ("width ∝ amplitude^p", _exponent(found), "", "")
-    rows = (words[0], *(figure.row() for figure in figures), words[1])
-    return rows, tuple(figure.column() for figure in figures)
+    exponent = ("width ∝ amplitude^p", _exponent(found), "", "", "")
+    rows = (("cycles", str(len(found)), "", "", ""), *(each.row() for each in figures), exponent)
+    return rows, tuple(each.column() for each in figures)
 
 
 def _exponent(found: tuple[Loop, ...]) -> str:
@@ -112,7 +164,7 @@ def _exponent(found: tuple[Loop, ...]) -> str:
     try:
         return f"p = {amplitude_exponent(found):.3g}"
     except ExcitationError:
-        return "cycles too alike"
+        return "too alike"
 
 
 def _doubts(question: Question, found: tuple[Loop, ...]) -> list[str]:

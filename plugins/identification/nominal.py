@@ -3,7 +3,9 @@
 from rotemina.plugins.identification.question import Question
 from rotemina.sim.identification.signals import Signals, siso
 from rotemina.sim.plant.response import nominal_response
-from rotemina.sim.records.record import Tap
+from rotemina.sim.records.record import Record, Tap
+
+ABSENT = "No nominal model beside it: {}"
 
 
 def nominal_signals(question: Question) -> Signals:
@@ -17,13 +19,33 @@ def nominal_signals(question: Question) -> Signals:
     ------
     InputError
         If the record does not fit the robot, or holds nothing to drive the model by.
+    KeyError
+        If the model has no such tap.
     """
     measured = question.signals()
-    by = Tap.U if question.drive is Tap.U else Tap.CMD
-    response = nominal_response(question.robot, question.record, drive=by)
-    if question.drive is Tap.REF:
-        driven = response.signal(question.axis, Tap.REF)
-    else:
-        driven = question.record.signal(question.axis, question.drive)
-    answer = response.signal(question.axis, question.answer)
+    record = nominal_record(question)
+    driven, answer = (record.signal(question.axis, t) for t in (question.drive, question.answer))
     return siso(driven, answer, measured.rate_hz, measured.period_samples)
+
+
+def nominal_record(question: Question) -> Record:
+    """Return a record of the pair alone, as the model makes it; rows need not be equally spaced.
+
+    Raises
+    ------
+    InputError, KeyError
+        As :func:`nominal_signals`.
+    """
+    record, axis = question.record, question.axis
+    by = Tap.U if question.drive is Tap.U else Tap.CMD
+    response = nominal_response(question.robot, record, drive=by)
+    if question.drive is Tap.REF:
+        driven = response.signal(axis, Tap.REF)
+    else:
+        driven = record.signal(axis, question.drive)
+    signals = {
+        (axis, question.drive): driven,
+        (axis, question.answer): response.signal(axis, question.answer),
+    }
+    units = {axis: record.units[axis]}
+    return Record.from_signals(record.time_s, signals, units, record.metadata)

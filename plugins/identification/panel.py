@@ -1,13 +1,16 @@
-"""The identification page: one axis of a record, one pair of taps, four ways to look at it."""
+"""The identification page: one axis of a record, one pair of taps, five ways to look at it."""
 
 from pathlib import Path
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QGuiApplication, QResizeEvent
 from PySide6.QtWidgets import (
     QFileDialog,
+    QFrame,
+    QHBoxLayout,
     QLabel,
     QPlainTextEdit,
+    QScrollArea,
     QSplitter,
     QVBoxLayout,
     QWidget,
@@ -20,8 +23,11 @@ from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
 from rotemina.plugins.identification.chart import Chart
 from rotemina.plugins.identification.controls import Controls
+from rotemina.plugins.identification.excitation import VIEWS, steady
+from rotemina.plugins.identification.excite_view import ExciteView
 from rotemina.plugins.identification.export import as_csv, as_text
 from rotemina.plugins.identification.findings import Findings, answered
+from rotemina.plugins.identification.health import keep_card
 from rotemina.plugins.identification.question import Question
 from rotemina.plugins.identification.sheet import Sheet
 from rotemina.plugins.identification.views import LOOKS, View
@@ -29,13 +35,16 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
 
-EMPTY = "Play a trajectory, or open a record, to see what it says about the machine."
+EMPTY = (
+    "Excite an axis, play a trajectory, or open a record, to see what it says about the machine."
+)
 RECORDS = "Records (*.csv *.txt *.dat *.gz);;All files (*)"
 CHARTS = 3
 # Shares of sheet and charts: an operator's own stay until another number of charts is shown.
 WIDTHS = ([920, 0, 0, 0], [420, 500, 0, 0], [420, 250, 250, 0], [280, 260, 190, 190])
 ONE_LINE, TWO_LINES = 29, 47  # heights of the notices; more is a turn of the wheel away
 MARGIN = 20
+EXCITE_WIDTH = 272  # px
 HEIGHT = 240  # with two lines of notices, so that the window does not jump when they come
 
 
@@ -49,6 +58,7 @@ class IdentificationPanel(Panel):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
         self.controls = Controls()
+        self.excite = ExciteView(workbench)
         self.summary = QLabel(EMPTY)
         self.summary.setTextFormat(Qt.TextFormat.PlainText)
         self.summary.setWordWrap(True)
@@ -77,18 +87,29 @@ class IdentificationPanel(Panel):
         self._split.addWidget(side)
         for chart in self.charts:
             self._split.addWidget(chart)
+        looks = QVBoxLayout()
+        looks.setSpacing(4)
+        looks.addWidget(self.notices)
+        looks.addWidget(self._split, 1)
+        self._exciting = _scrolled(self.excite)
+        self._exciting.hide()
+        row = QHBoxLayout()
+        row.addWidget(self._exciting)
+        row.addLayout(looks, 1)
         outer = QVBoxLayout(self)
         outer.setContentsMargins(10, 6, 10, 6)
         outer.setSpacing(4)
         outer.addWidget(self.controls)
-        outer.addWidget(self.notices)
-        outer.addWidget(self._split, 1)
+        outer.addLayout(row, 1)
         self.setMinimumHeight(HEIGHT)
 
     def _connect(self) -> None:
+        self.controls.excite.toggled.connect(self._show_exciting)
+        self.excite.begun.connect(self._come_forward)
         self.controls.open.clicked.connect(self._ask_record)
         self.controls.copy.clicked.connect(self._copy)
         self.controls.save.clicked.connect(self._ask_save)
+        self.controls.keep.clicked.connect(self.keep_card)
         self.controls.asked.connect(self._ask)
         self.controls.view_changed.connect(self._look)
         self.workbench.run_changed.connect(self._take_run)
@@ -120,7 +141,21 @@ class IdentificationPanel(Panel):
         self.workbench.work("identification record", f"Reading {path.name} …", work, done)
 
     def _take_run(self, run: Run) -> None:
-        self.take_record(run.name, run.record)
+        """Look at a run; at one of this page's own excitations from where it says most."""
+        motion = self.excite.played(run)
+        if motion is None:
+            self.take_record(run.name, run.record)
+            return
+        record = steady(run.record, motion) if run.completed else run.record
+        self.controls.offer(record)
+        self.controls.look_at(motion.wish.axis, VIEWS[motion.wish.wave])
+        self.take_record(run.name, record)
+        # After the window, which brings the comparison up: here the answer is on this page.
+        QTimer.singleShot(0, self, self._come_forward)
+
+    def _come_forward(self) -> None:
+        """Show this page in front of those that the window brings up on a plan or a run."""
+        self.main_window.bring_up("identification")
 
     def _ask_record(self) -> None:
         dialog = self._file_dialog("Open record", RECORDS)
@@ -135,7 +170,9 @@ class IdentificationPanel(Panel):
     def _ask(self) -> None:
         """Forget what was found: it answers another question."""
         self._known.clear()
-        self._question = self.controls.question(self._name, self.workbench.robot)
+        self._question = self.controls.question(
+            self._name, self.workbench.robot, self.workbench.settings.folder
+        )
         self._look()
 
     def _look(self) -> None:
@@ -185,11 +222,16 @@ class IdentificationPanel(Panel):
         self._say(findings.notices if findings is not None else ())
         for button in (self.controls.copy, self.controls.save):
             button.setEnabled(findings is not None)
+        self.controls.keep.setEnabled(findings is not None and bool(findings.columns))
         if findings is not None:
             record = findings.question.record
             self.summary.setText(
                 f"{findings.question.name}: {record.duration_s:.3f} s, {len(record.time_s)} samples"
             )
+
+    def _show_exciting(self, shown: bool) -> None:
+        self._exciting.setVisible(shown)
+        self._size_notices()
 
     def _say(self, notices: list[str] | tuple[str, ...]) -> None:
         text = "\n".join(notices)
@@ -200,7 +242,8 @@ class IdentificationPanel(Panel):
 
     def _size_notices(self) -> None:
         text = self.notices.toPlainText()
-        fits = self.notices.fontMetrics().horizontalAdvance(text) < self.width() - 2 * MARGIN
+        room = self.width() - 2 * MARGIN - (0 if self._exciting.isHidden() else EXCITE_WIDTH)
+        fits = self.notices.fontMetrics().horizontalAdvance(text) < room
         self.notices.setFixedHeight(ONE_LINE if "\n" not in text and fits else TWO_LINES)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
@@ -213,6 +256,25 @@ class IdentificationPanel(Panel):
     def _copy(self) -> None:
         if self.findings is not None:
             QGuiApplication.clipboard().setText(as_text(self.findings, self.controls.shown))
+
+    def keep_card(self) -> None:
+        """Keep the health card in sight behind the earlier ones of its axis."""
+        findings = self.findings
+        if findings is None or not findings.columns or self.controls.shown is not View.HEALTH:
+            return
+        self.workbench.work(
+            "health card",
+            "Keeping the health card …",
+            lambda: keep_card(findings.question),
+            lambda _: self._kept(findings.question),
+        )
+
+    def _kept(self, question: Question) -> None:
+        """Look again: what was kept is the last card now."""
+        self.workbench.notify(Level.GOOD, f"Kept the health card of {question.axis}")
+        self._known.pop(View.HEALTH, None)
+        if question is self._question and self.controls.shown is View.HEALTH:
+            self._look()
 
     def _ask_save(self) -> None:
         if self.findings is None:
@@ -250,6 +312,17 @@ class IdentificationPanel(Panel):
         self.notices.setStyleSheet(f"color: {theme.warning};")
         for chart in self.charts:
             chart.set_theme(theme)
+
+
+def _scrolled(section: QWidget) -> QScrollArea:
+    scroll = QScrollArea()
+    scroll.setObjectName("panelScroll")
+    scroll.setFrameShape(QFrame.Shape.NoFrame)
+    scroll.setWidgetResizable(True)
+    scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+    scroll.setWidget(section)
+    scroll.setFixedWidth(EXCITE_WIDTH)
+    return scroll
 
 
 def _notices() -> QPlainTextEdit:

@@ -1,6 +1,7 @@
 """What the operator asks of a record: an axis, a pair of taps, and how to look."""
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Literal
 
 import numpy as np
@@ -29,6 +30,7 @@ class Question:
     averages : segments that Welch's method averages over.
     method : of the fitted model.
     poles : of the fitted model.
+    folder : the user's, where health cards are kept.
     """
 
     name: str
@@ -40,6 +42,7 @@ class Question:
     averages: int = 8
     method: Literal["oe", "arx"] = "oe"
     poles: int = 2
+    folder: Path | None = None
 
     @property
     def lag_samples(self) -> int:

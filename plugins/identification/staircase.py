@@ -1,5 +1,7 @@
 """Step figures of a record that holds steps: rise, overshoot, settling, static gain."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from rotemina.plugins.identification.findings import (
@@ -10,73 +12,120 @@ from rotemina.plugins.identification.findings import (
     ratio_scale,
     scale_of,
 )
+from rotemina.plugins.identification.nominal import ABSENT, nominal_record
 from rotemina.plugins.identification.question import Question
+from rotemina.plugins.identification.ramps import jumped
 from rotemina.plugins.identification.statistics import HEAD, Figure, largest
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.identification.steps import StepMetrics, step_metrics
+from rotemina.sim.records.record import Record
+
+Reader = Callable[[StepMetrics], float | None]
 
 _MS = Scale("ms", 1e3)
 _PERCENT = Scale("%", 1.0)
 
 
 def step_findings(question: Question) -> Findings:
-    """Measure every step between two holds; rows need not be equally spaced."""
+    """Measure every step between two holds, and the model's; rows need not be equally spaced."""
     question.check()
     record, axis = question.record, question.axis
     driven, answer = (record.signal(axis, tap) for tap in (question.drive, question.answer))
     time_s = record.time_s - record.time_s[0]
     try:
-        found = step_metrics(record, axis, question.answer, drive=question.drive)
+        levels, ramp_s = jumped(record, axis, question.drive)
+        found = step_metrics(levels, axis, question.answer, drive=question.drive)
     except InputError as error:
         course = _course(question, time_s, driven, answer)
         return Findings(question, (course,), notices=(str(error),))
-    figures = _figures(question, found)
+    nominal, absent = _modelled(question)
+    beside = () if nominal is None else _measured(question, nominal)
+    figures = _figures(question, found, beside)
     return Findings(
         question,
-        (_course(question, time_s, driven, answer), _closest(found, record.time_s, answer)),
+        (
+            _course(question, time_s, driven, answer, nominal),
+            _closest(question, found, answer, nominal),
+        ),
         HEAD,
-        (("steps", str(len(found)), "", ""), *(figure.row() for figure in figures)),
+        (("steps", str(len(found)), "", "", ""), *(figure.row() for figure in figures)),
         tuple(figure.column() for figure in figures),
-        tuple(_doubts(found)),
+        (*absent, *_doubts(found, ramp_s)),
     )
 
 
-def _figures(question: Question, found: tuple[StepMetrics, ...]) -> tuple[Figure, ...]:
+def _modelled(question: Question) -> tuple[Record | None, tuple[str, ...]]:
+    """Return the model's record of the pair, or why there is none."""
+    try:
+        return nominal_record(question), ()
+    except (InputError, KeyError) as error:
+        return None, (ABSENT.format(error),)
+
+
+def _measured(question: Question, nominal: Record) -> tuple[StepMetrics, ...]:
+    """Measure the model's steps; none where it makes none of a measured input."""
+    try:
+        levels, _ = jumped(nominal, question.axis, question.drive)
+        return step_metrics(levels, question.axis, question.answer, drive=question.drive)
+    except InputError:
+        return ()
+
+
+def _figures(
+    question: Question, found: tuple[StepMetrics, ...], beside: tuple[StepMetrics, ...]
+) -> tuple[Figure, ...]:
     unit = question.unit(question.answer)
-    steps = [each.output_to - each.output_from for each in found]
-    noise = [each.noise_rms for each in found]
-    gains = [each.gain for each in found]
+
+    def figure(name: str, scale: Callable[[float], Scale], read: Reader) -> Figure:
+        values = [read(each) for each in found]
+        return Figure(name, scale(largest(values)), values, [read(each) for each in beside])
+
+    def output(size: float) -> Scale:
+        return scale_of(unit, size)
+
     figures = [
-        Figure("at", Scale("s", 1.0), [each.start_s for each in found]),
-        Figure("step of the output", scale_of(unit, largest(steps)), steps),
-        Figure("static gain", ratio_scale(question, largest(gains)), gains),
-        Figure("rise 10–90 %", _MS, [each.rise_s for each in found]),
-        Figure("delay to 50 %", _MS, [each.delay_s for each in found]),
-        Figure("overshoot", _PERCENT, [each.overshoot_percent for each in found]),
-        Figure("settling to 5 %", _MS, [each.settling_5_s for each in found]),
-        Figure("settling to 2 %", _MS, [each.settling_2_s for each in found]),
+        figure("at", lambda _: Scale("s", 1.0), lambda each: each.start_s),
+        figure("size of the step", output, lambda each: abs(each.output_to - each.output_from)),
+        figure("static gain", lambda size: ratio_scale(question, size), lambda each: each.gain),
+        figure("rise 10–90 %", lambda _: _MS, lambda each: each.rise_s),
+        figure("delay to 50 %", lambda _: _MS, lambda each: each.delay_s),
+        figure("overshoot", lambda _: _PERCENT, lambda each: each.overshoot_percent),
+        figure("settling to 5 %", lambda _: _MS, lambda each: each.settling_5_s),
+        figure("settling to 2 %", lambda _: _MS, lambda each: each.settling_2_s),
     ]
     if unit == question.unit(question.drive):
-        errors = [each.error for each in found]
-        figures.append(Figure("final error", scale_of(unit, largest(errors)), errors))
-    figures.append(Figure("noise rms", scale_of(unit, largest(noise)), noise))
+        figures.append(figure("final error", output, lambda each: each.error))
+    figures.append(figure("noise rms", output, lambda each: each.noise_rms))
     return tuple(figures)
 
 
 def _course(
-    question: Question, time_s: FloatArray, driven: FloatArray, answer: FloatArray
+    question: Question,
+    time_s: FloatArray,
+    driven: FloatArray,
+    answer: FloatArray,
+    nominal: Record | None = None,
 ) -> Picture:
     """Return the whole record; an input of another kind has no place on the output's scale."""
     scale = scale_of(question.unit(question.answer), float(np.abs(answer).max()))
     curves = [Curve("measured", "real", time_s, scale.per_si * answer)]
+    if nominal is not None:
+        model = nominal.signal(question.axis, question.answer)
+        curves.insert(0, Curve("model", "model", time_s, scale.per_si * model, width=3))
     if question.unit(question.drive) == question.unit(question.answer):
         curves.insert(0, Curve("input", "command", time_s, scale.per_si * driven, width=3))
     return Picture(f"{question.answer} [{scale.symbol}]", "time [s]", tuple(curves))
 
 
-def _closest(found: tuple[StepMetrics, ...], time_s: FloatArray, answer: FloatArray) -> Picture:
+def _closest(
+    question: Question,
+    found: tuple[StepMetrics, ...],
+    answer: FloatArray,
+    nominal: Record | None,
+) -> Picture:
     """Return the largest step until it has settled, from 0 at its old level to 1 at the new."""
+    time_s = question.record.time_s
     step = max(found, key=lambda each: abs(each.output_to - each.output_from))
     size = step.output_to - step.output_from
     begin = int(np.searchsorted(time_s, step.start_s))
@@ -85,13 +134,24 @@ def _closest(found: tuple[StepMetrics, ...], time_s: FloatArray, answer: FloatAr
     # Twice the settling time shows the ringing and that it is over.
     shown_s = min(end_s, step.start_s + 2.0 * (step.settling_2_s or end_s))
     rows = slice(begin, max(int(np.searchsorted(time_s, shown_s)), begin + 2))
+    since_ms = 1e3 * (time_s[rows] - step.start_s)
     course = (answer[rows] - step.output_from) / (size or 1.0)
-    curve = Curve("measured", "real", 1e3 * (time_s[rows] - step.start_s), course)
-    return Picture(f"largest step, at {step.start_s:.4g} s [1]", "since the step [ms]", (curve,))
+    curves = [Curve("measured", "real", since_ms, course)]
+    if nominal is not None:  # from its own old level, which may be another
+        model = nominal.signal(question.axis, question.answer)[rows]
+        curves.insert(0, Curve("model", "model", since_ms, (model - model[0]) / (size or 1.0), 3))
+    return Picture(
+        f"largest step, at {step.start_s:.4g} s [1]", "since the step [ms]", tuple(curves)
+    )
 
 
-def _doubts(found: tuple[StepMetrics, ...]) -> list[str]:
+def _doubts(found: tuple[StepMetrics, ...], ramp_s: float) -> list[str]:
     doubts = []
+    if ramp_s > 0.0:
+        doubts.append(
+            f"The input takes up to {1e3 * ramp_s:.3g} ms from level to level, as fast as its "
+            "limits allow: times count from where that begins, the model's too."
+        )
     for name, values in (
         ("settling to 2 %", [each.settling_2_s for each in found]),
         ("rise", [each.rise_s for each in found]),

@@ -7,22 +7,28 @@ import numpy as np
 
 from rotemina.plugins.identification.findings import NONE, Column, Scale
 
-HEAD = ("figure", "median", "lowest", "highest")
+HEAD = ("figure", "median", "model", "lowest", "highest")
 
 
 class Figure(NamedTuple):
-    """One figure of every step or cycle, SI; None where the record does not show it."""
+    """One figure of every step or cycle, SI; None where the record does not show it.
+
+    ``model`` are those of the nominal model, over the same input.
+    """
 
     name: str
     scale: Scale
     values: Sequence[float | None]
+    model: Sequence[float | None] = ()
 
     def row(self) -> tuple[str, ...]:
         """Return the figure's row of the sheet."""
         known = [value for value in self.values if value is not None]
+        beside = [value for value in self.model if value is not None]
+        model = float(np.median(beside)) if beside else None
         if not known:
-            return (self.name, NONE, NONE, NONE)
-        figures = (float(np.median(known)), min(known), max(known))
+            return (self.name, NONE, self.scale.text(model), NONE, NONE)
+        figures = (float(np.median(known)), model, min(known), max(known))
         return (self.name, *map(self.scale.text, figures))
 
     def column(self) -> Column:

@@ -6,6 +6,7 @@ from enum import StrEnum
 from rotemina.plugins.identification.findings import Findings
 from rotemina.plugins.identification.fitted import model_findings
 from rotemina.plugins.identification.frequency import frequency_findings
+from rotemina.plugins.identification.health import health_findings
 from rotemina.plugins.identification.hysteresis import loop_findings
 from rotemina.plugins.identification.question import Question
 from rotemina.plugins.identification.staircase import step_findings
@@ -18,6 +19,7 @@ class View(StrEnum):
     LOOP = "Loop"
     STEPS = "Steps"
     MODEL = "Fitted model"
+    HEALTH = "Health card"
 
 
 LOOKS: dict[View, Callable[[Question], Findings]] = {
@@ -25,4 +27,5 @@ LOOKS: dict[View, Callable[[Question], Findings]] = {
     View.LOOP: loop_findings,
     View.STEPS: step_findings,
     View.MODEL: model_findings,
+    View.HEALTH: health_findings,
 }

@@ -13,7 +13,7 @@ from pydantic.dataclasses import dataclass
 from rotemina.sim.arrays import ComplexArray, FloatArray
 from rotemina.sim.identification.errors import ModelFileError, SettingError
 from rotemina.sim.identification.transfer_function import TransferFunction
-from rotemina.sim.robot.model import FORBID_UNKNOWN, Count, Number, Positive
+from rotemina.sim.robot.numbers import FORBID_UNKNOWN, Count, Number, Positive
 from rotemina.sim.robot.schema_errors import describe
 
 SHIPPED = "rotemina.resources.models"

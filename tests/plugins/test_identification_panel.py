@@ -7,13 +7,18 @@ import numpy as np
 import pytest
 from PySide6.QtGui import QGuiApplication
 
+from rotemina.app.shell.controls import why_not
+from rotemina.plugins.identification.excitation import Wave
+from rotemina.plugins.identification.excite_view import CHECKING
 from rotemina.plugins.identification.export import as_csv
 from rotemina.plugins.identification.findings import Findings
+from rotemina.plugins.identification.panel import EXCITE_WIDTH
 from rotemina.plugins.identification.views import LOOKS, View
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import AxisEffect
 
 LONG_MS = 30_000
 RATE_HZ = 12_800.0
@@ -45,14 +50,20 @@ def panel(bench_window):
 
 
 @pytest.fixture
-def answers(qtbot, panel):
-    """Wait until the panel shows an answer."""
+def answers_of(qtbot):
+    """Wait until a panel shows an answer."""
 
-    def wait():
+    def wait(panel):
         qtbot.waitUntil(lambda: panel.findings is not None, timeout=LONG_MS)
         return panel.findings
 
     return wait
+
+
+@pytest.fixture
+def answers(panel, answers_of):
+    """Wait until the panel shows an answer."""
+    return lambda: answers_of(panel)
 
 
 @pytest.fixture
@@ -254,6 +265,7 @@ def test_the_themes_reach_every_part(bench_window, panel, answers, record, theme
     assert colours.warning in panel.notices.styleSheet()
 
 
+@pytest.mark.every_panel
 def test_the_page_fits_into_a_window_of_1280_by_800(bench_window, panel, answers, record):
     bench_window.resize(1280, 800)
     panel.take_record("noise", record)
@@ -262,3 +274,96 @@ def test_the_page_fits_into_a_window_of_1280_by_800(bench_window, panel, answers
         answers()
         assert panel.minimumSizeHint().width() <= 720  # beside the control panel
         assert (bench_window.width(), bench_window.height()) == (1280, 800)
+
+
+# --- excite -----------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def exciting(qtbot, make_robot_window):
+    """The page on the simulated RoTeMiNa, with its excitation in sight and a short motion ready."""
+    window = make_robot_window()
+    panel = window.panels["identification"]
+    window.bring_up("identification")
+    panel.controls.excite.setChecked(True)
+    qtbot.waitUntil(lambda: panel.excite.motion is not None, timeout=LONG_MS)
+    return panel
+
+
+def set_up(qtbot, excite, wave, axis="zn", amplitude="", frequency="", time=""):
+    excite.axis.setCurrentIndex(excite.axis.findData(axis))
+    excite.amplitude.setText(amplitude)
+    excite.frequency.setText(frequency)
+    excite.time.setText(time)
+    choose(excite.wave, wave)
+    qtbot.waitUntil(lambda: excite.told.text() != CHECKING, timeout=LONG_MS)
+
+
+def test_what_may_not_be_played_says_why(qtbot, exciting):
+    excite, workbench = exciting.excite, exciting.workbench
+    assert workbench.plan is None  # nothing is in hand before Play
+    qtbot.waitUntil(excite.play.isEnabled, timeout=LONG_MS)
+    assert excite.owner.text() == "X: free"
+    set_up(qtbot, excite, Wave.SINE, amplitude="5", time="2")
+    assert "has no unit" in excite.told.text()
+    excite.refresh(workbench.session.snapshot())
+    assert why_not(excite.play) == "the motion is not ready"
+    excite.time.editingFinished.emit()
+    assert excite.time.text() == "2 s"  # a bare number gets its unit
+    set_up(qtbot, excite, Wave.STAIRCASE)
+    assert not excite.frequency.isEnabled()
+    workbench.emergency_stop()
+    excite.refresh(workbench.session.snapshot())
+    assert "latched" in why_not(excite.play)
+    assert why_not(excite.stop) == "it is not playing"
+    assert excite.minimumSizeHint().width() <= EXCITE_WIDTH
+    assert exciting.minimumSizeHint().width() <= 720  # beside the control panel
+
+
+@pytest.mark.slow
+def test_an_axis_is_excited_and_looked_at_beside_its_model(qtbot, exciting, answers_of):
+    excite, workbench = exciting.excite, exciting.workbench
+    workbench.session.set_effects(
+        [AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.1})]
+    )
+    set_up(qtbot, excite, Wave.MULTISINE, frequency="100 Hz")
+    qtbot.waitUntil(excite.play.isEnabled, timeout=LONG_MS)
+    with qtbot.waitSignal(workbench.run_changed, timeout=2 * LONG_MS):
+        excite.play.click()
+        qtbot.waitUntil(lambda: excite.progress.value() > 0, timeout=LONG_MS)
+        assert excite.owner.text() == "Z nano: driven by playback"
+        assert excite.stop.isEnabled()
+    found = answers_of(exciting)
+    assert exciting.controls.shown is View.FREQUENCY
+    assert dict(found.rows)["estimator"] == "multisine"
+    assert figure(exciting, "gain, lowest line") == pytest.approx(1.1, rel=1e-3)
+    assert figure(exciting, "median coherence") > 0.99
+    assert [each.name for each in found.pictures[0].curves][2:] == ["model", "measured"]
+    assert exciting.isVisible()  # in front, though the window brings up the comparison
+
+    set_up(qtbot, excite, Wave.TRIANGLE, amplitude="5um", time="2 s")
+    qtbot.waitUntil(excite.play.isEnabled, timeout=LONG_MS)
+    before = workbench.run
+    with qtbot.waitSignal(workbench.run_changed, timeout=2 * LONG_MS):
+        excite.play.click()
+        qtbot.waitUntil(lambda: excite.progress.value() > 300, timeout=LONG_MS)
+        excite.stop.click()
+    assert workbench.run is not before
+    assert not workbench.run.completed
+    assert answers_of(exciting).question.name == "Triangle of Z nano"
+    assert exciting.controls.shown is View.LOOP
+
+
+@pytest.mark.slow
+def test_a_health_card_is_kept_and_compared_with(qtbot, panel, answers, record):
+    panel.take_record("monday.csv", record)
+    panel.controls.view.setCurrentText(View.HEALTH)
+    first = answers()
+    assert [row[0] for row in first.rows][:2] == ["gain", "resonance"]
+    assert "No card of this axis" in first.notices[0]
+    panel.controls.keep.click()
+    qtbot.waitUntil(
+        lambda: panel.findings is not None and "Last card" in panel.findings.notices[0],
+        timeout=LONG_MS,
+    )
+    assert "No figure has changed" in panel.findings.notices[0]

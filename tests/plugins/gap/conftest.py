@@ -1,8 +1,19 @@
-"""A small diagnosis made by hand, of a record whose cause is known."""
+"""A small diagnosis made by hand, of a record whose cause is known, and a window with the page."""
+
+import gc
+import threading
 
 import numpy as np
 import pytest
+from PySide6.QtCore import QCoreApplication, QEvent
+from PySide6.QtWidgets import QMainWindow
 
+from rotemina.app.motion.session import MotionSession
+from rotemina.app.shell import theme as themes
+from rotemina.app.shell.window_run import make_application
+from rotemina.app.shell.workbench import Workbench
+from rotemina.drivers.simulator.driver import Simulator
+from rotemina.plugins.gap.panel import GapPanel
 from rotemina.sim.gap.diagnosis import (
     AxisDiagnosis,
     Cause,
@@ -87,3 +98,43 @@ def diagnosis(record):
     )
     thy = AxisDiagnosis("thy", Verdict.NONE, places("thy"))
     return Diagnosis(ROBOT, {"thx": thx, "thy": thy})
+
+
+class Host(QMainWindow):
+    """A window of nothing but the page: the other panels take their time to be made."""
+
+    def __init__(self, workbench):
+        super().__init__()
+        self.workbench = workbench
+        workbench.setParent(self)
+        self.told = []  # the latest last
+        self.brought_up = []
+        workbench.noticed.connect(lambda _, text: self.told.append(text))
+        self.panel = GapPanel(workbench)
+        self.setCentralWidget(self.panel)
+        self.resize(945, 300)
+
+    def bring_up(self, name):
+        self.brought_up.append(name)
+
+    def use_theme(self, name):
+        self.workbench.set_theme(themes.theme_named(name))
+
+
+@pytest.fixture
+def window(qtbot, settings, tmp_path):
+    """A window with the page on the simulated RoTeMiNa, connected and idle."""
+    gc.disable()  # as the program does: the session's thread must not free what is Qt's
+    make_application()
+    session = MotionSession(Simulator(ROBOT, {"settle_s": 0.02}))
+    host = Host(Workbench(session, settings, themes.DARK, tmp_path / "played"))
+    host.show()
+    host.workbench.start()
+    qtbot.waitUntil(lambda: session.snapshot().locked is None, timeout=20_000)
+    yield host
+    host.workbench.close()
+    host.hide()
+    host.deleteLater()
+    QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    gc.enable()
+    assert not [thread for thread in threading.enumerate() if thread.name == "motion session"]

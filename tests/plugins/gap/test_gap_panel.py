@@ -8,13 +8,14 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QDesktopServices
-from PySide6.QtWidgets import QMessageBox
+from PySide6.QtWidgets import QFileDialog, QMessageBox
 
 from rotemina.app.shell.workbench import Run
+from rotemina.plugins.gap import actions
 from rotemina.plugins.gap import diagnosing as module
-from rotemina.plugins.gap import panel as panel_module
 from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.diagnosing import StoppedError, said
+from rotemina.plugins.gap.proof import new_motion
 from rotemina.plugins.gap.where import warmth
 from rotemina.sim.comparison.comparison import compare
 from rotemina.sim.gap.diagnosis import Experiment
@@ -25,15 +26,16 @@ from rotemina.sim.records.record import Tap
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.writing import robot_text
+from rotemina.sim.trajectory.dry_run import dry_run
 
+ROBOT = load_robot("rotemina")
 LONG_MS = 30_000
-WHERE, WHICH, FAR = range(3)
+WHERE, WHICH, FAR, PROOF = range(4)
 
 
 @pytest.fixture
-def panel(qtbot, window):
-    window.docks["gap"].raise_()
-    return window.panels["gap"]
+def panel(window):
+    return window.panel
 
 
 @pytest.fixture
@@ -85,24 +87,47 @@ def click(qtbot, button):
     qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
 
 
+def question(window):
+    boxes = [box for box in window.findChildren(QMessageBox) if box.isVisible()]
+    return boxes[0] if boxes else None
+
+
 def newest(window):
-    notices = window.notices.notices()
-    return notices[0].text if notices else ""
+    return window.told[-1] if window.told else ""
 
 
 def saved(qtbot, window, path):
-    qtbot.waitUntil(lambda: newest(window) == f"Saved {path}", timeout=LONG_MS)
+    qtbot.waitUntil(lambda: f"Saved {path}" in window.told, timeout=LONG_MS)
 
 
 # --- choosing ---------------------------------------------------------------------------------
 
 
-def test_without_records_there_is_nothing_to_diagnose(panel):
-    assert not panel.start.isEnabled()
-    assert not panel.stop.isEnabled()
-    assert not panel.twin.isEnabled()
-    assert not panel.report.isEnabled()
+def test_without_records_the_page_says_what_to_do_first(panel):
+    assert panel.views.currentWidget() is panel.hint
+    assert panel.hint.text().startswith("1  Choose records")
+    assert panel.start.text() == "Diagnose …"  # which asks for records first
+    for button in (panel.stop, panel.twin, panel.motion, panel.report):
+        assert not button.isEnabled()
+        assert "Not now: " in button.toolTip()
     assert panel.tabs.isHidden()
+    panel.diagnose()  # by the palette or a script
+    assert not panel.diagnosing.running
+
+
+def test_diagnose_without_records_asks_for_files_and_goes_on(
+    qtbot, window, panel, stepwise, record, tmp_path
+):
+    write_record(record, tmp_path / "one.csv")
+    write_record(record, tmp_path / "two.csv")
+    click(qtbot, panel.start)
+    dialog = next(d for d in window.findChildren(QFileDialog) if d.isVisible())
+    dialog.close()
+    panel.records.add_files([tmp_path / "one.csv", tmp_path / "two.csv"])
+    qtbot.waitUntil(lambda: len(stepwise.calls) == 1, timeout=LONG_MS)
+    assert len(stepwise.calls[0][1]) == 2  # not before both were read
+    assert panel.views.currentWidget() is panel.running
+    panel.end()
 
 
 def test_the_last_playback_is_taken_until_something_else_is_chosen(panel, record):
@@ -165,7 +190,7 @@ def test_a_diagnosis_runs_beside_the_window_and_tells_how_far_it_is(
 ):
     click(qtbot, chosen.start)
     qtbot.waitUntil(
-        lambda: chosen.doing.text().startswith("fitting thx hysteresis"), timeout=LONG_MS
+        lambda: chosen.doing.text().startswith("fitting θx: hysteresis"), timeout=LONG_MS
     )
     assert chosen.progress.value() == 100
     assert not chosen.start.isEnabled()
@@ -190,7 +215,7 @@ def test_stop_works_at_once_and_what_comes_late_is_dropped(qtbot, chosen, stepwi
     click(qtbot, chosen.stop)
     assert chosen.start.isEnabled()  # although the work has not come to its next step yet
     assert not chosen.stop.isEnabled()
-    assert chosen.doing.text() == "stopped"
+    assert chosen.doing.text() == "The diagnosis was stopped."
     click(qtbot, chosen.start)
     assert chosen.doing.text() == "waiting for the end of what was stopped"
     stepwise.steps.release()
@@ -220,7 +245,7 @@ def test_records_that_cannot_be_diagnosed_become_a_notice(qtbot, window, chosen,
     monkeypatch.setattr(module, "diagnose", refuse)
     click(qtbot, chosen.start)
     qtbot.waitUntil(lambda: "too short" in newest(window), timeout=LONG_MS)
-    assert chosen.doing.text() == "failed"
+    assert chosen.doing.text().startswith("The diagnosis failed")
     assert chosen.start.isEnabled()
 
 
@@ -247,11 +272,11 @@ def test_closing_the_window_ends_a_diagnosis(qtbot, window, chosen, monkeypatch)
 
 def test_the_time_left_is_told_once_it_can_be_guessed_and_runs_down():
     progress = Progress("fitting", "thx", "creep", 0.25)
-    assert said(progress, 0.5, 0.6) == "fitting thx creep"
-    assert said(progress, 10.0, 10.0) == "fitting thx creep, 10 s, about 30 s left"
-    assert said(progress, 10.0, 25.0) == "fitting thx creep, 25 s, about 15 s left"
-    assert said(progress, 10.0, 50.0) == "fitting thx creep, 50 s"
-    assert said(replace(progress, share=0.0), 10.0, 10.0) == "fitting thx creep, 10 s"
+    assert said(progress, 0.5, 0.6) == "fitting θx: creep"
+    assert said(progress, 10.0, 10.0) == "fitting θx: creep, 10 s, about 30 s left"
+    assert said(progress, 10.0, 25.0) == "fitting θx: creep, 25 s, about 15 s left"
+    assert said(progress, 10.0, 50.0) == "fitting θx: creep, 50 s"
+    assert said(replace(progress, share=0.0), 10.0, 10.0) == "fitting θx: creep, 10 s"
 
 
 # --- showing ----------------------------------------------------------------------------------
@@ -262,6 +287,7 @@ def test_where_names_axes_taps_and_shares_with_a_map_of_the_chosen_one(answered)
     assert rows[0][0] == "θx ref"
     assert [row[1] for row in rows if row[0].startswith("θy")] == ["noise", "noise"]
     heat = answered.where.heat.texts()
+    assert "Click a cell" in answered.where.heat_title.text()
     assert {"reversal", "forward", "backward"} <= {row[0] for row in heat}
     shares = {row[0]: float(row[1].removesuffix(" %").removeprefix("< ")) for row in heat}
     assert shares["fast"] + shares["slow"] + shares["reversal"] == pytest.approx(100.0, abs=3.0)
@@ -301,29 +327,46 @@ def test_how_far_shows_bars_and_the_gap_before_and_after(answered):
     ]
     assert [line.text for line in answered.far.bars.lines] == ["0.4 µrad"]
     assert not answered.far.bars.grab().toImage().isNull()
-    assert answered.far.trace.currentText() == "day one.csv: meas"
+    assert answered.far.traces.choice.currentText() == "day one.csv: meas"
     before, after = (
-        np.asarray(answered.far.plot._curves[name].getData()[1]) for name in ("before", "after")
+        np.asarray(answered.far.traces.plot._curves[name].getData()[1])
+        for name in ("before", "after")
     )
     assert np.std(before) > 10 * np.std(after) > 0.0
     answered.axis.setCurrentIndex(answered.axis.findData("thy"))
     answered.axis.activated.emit(answered.axis.currentIndex())
     assert answered.far.bars.bars == ()
-    assert answered.far.title.text() == "No shrinkage is told of this axis."
+    assert answered.far.title.text() == "No gap to close was found on this axis."
 
 
 def test_another_theme_recolours_everything(window, answered):
     for theme in ("light", "dark"):
         window.use_theme(theme)
-        for view in (WHERE, WHICH, FAR):
+        for view in (WHERE, WHICH, FAR, PROOF):
             answered.tabs.setCurrentIndex(view)
             assert not answered.grab().toImage().isNull()
     quiet = answered.workbench.theme.quiet
     assert answered.which.ranking.item(1, 0).foreground().color().name() == quiet
 
 
-def test_a_suggested_experiment_is_taken_in_hand(qtbot, window, answered, diagnosis, record):
-    assert answered.plan.isHidden()
+def test_a_cell_of_the_map_leads_to_its_traces_and_back(qtbot, answered):
+    where = answered.where
+    texts = where.heat.texts()
+    row = next(n for n, each in enumerate(texts) if each[0] == "reversal")
+    place = where.heat.visualItemRect(where.heat.item(row, 2)).center()
+    qtbot.mouseClick(where.heat.viewport(), Qt.MouseButton.LeftButton, pos=place)
+    assert where.right.currentWidget() is where.cell
+    assert where.cell.title.text().startswith("θx ref, reversal, ")
+    assert where.cell.choice.currentText() == "day one.csv"
+    assert "rms in" in where.cell.legend.text()
+    click(qtbot, where.cell.back)
+    assert where.right.currentIndex() == 0
+    where.open_cell(row, 1)  # a share has no traces of its own
+    assert where.right.currentIndex() == 0
+
+
+def experimental(panel, diagnosis, record):
+    """Give the panel an answer that suggests an experiment; return its commands."""
     command = record.signal("thx", Tap.CMD)
     experiment = Experiment(
         axis="thx",
@@ -334,26 +377,77 @@ def test_a_suggested_experiment_is_taken_in_hand(qtbot, window, answered, diagno
         predictions={"hysteresis": tuple(command), "creep": tuple(command)},
     )
     suggested = replace(diagnosis, experiments=(experiment,))
-    answered.take_answer(Answer.of(suggested, ["day one.csv"], [record]))
-    assert "Next experiment: A long hold parts them." in answered.which.text.toPlainText()
-    with qtbot.waitSignal(window.workbench.plan_changed, timeout=LONG_MS):
-        click(qtbot, answered.plan)
+    panel.take_answer(Answer.of(suggested, ["day one.csv"], [record]))
+    return command
+
+
+def test_a_suggested_experiment_is_played_after_a_question_and_diagnosed_with_the_old_records(
+    qtbot, window, answered, diagnosis, record, stepwise
+):
+    assert answered.plan.isHidden()
+    command = experimental(answered, diagnosis, record)
+    text = answered.which.text.toPlainText()
+    assert "Next experiment: A long hold parts them." in text
+    assert "Press “Play next experiment …”: it parts them." in text
+    click(qtbot, answered.plan)
+    click(qtbot, question(window).button(QMessageBox.StandardButton.No))
+    assert window.workbench.plan is None  # nothing is taken in hand unasked
+    click(qtbot, answered.plan)
+    box = next(each for each in window.findChildren(QMessageBox) if each.isVisible())
+    assert "θx: " in box.informativeText()
+    assert "µrad" in box.informativeText()
+    click(qtbot, box.button(QMessageBox.StandardButton.Yes))
+    qtbot.waitUntil(lambda: len(stepwise.calls) == 1, timeout=LONG_MS)
     assert window.workbench.plan.trajectory.signal("thx", Tap.CMD) == pytest.approx(command)
+    names = [each.name for each in answered.records.chosen]
+    assert names == ["day one.csv", "gap_experiment_1.csv"]
+    assert len(stepwise.calls[0][1]) == 2
+    answered.end()
+
+
+def test_what_is_played_after_an_answer_shows_how_far_its_gap_has_shrunk(window, qtbot, answered):
+    assert answered.proof.currentIndex() == 0  # what to do to see anything here
+    bench, record = window.workbench, answered.answer.records[0]
+    bench.run_changed.emit(Run("tuesday", compare(bench.robot, record)))
+    qtbot.waitUntil(lambda: answered.proof.proof is not None, timeout=LONG_MS)
+    first = answered.proof.table.texts()[0]
+    assert first[0].startswith("θx")
+    assert answered.proof.proof.shrunk[0].times > 5.0
+    assert first[3].endswith("×")
+    assert answered.tabs.currentIndex() == WHERE  # it was not asked for here
+
+
+def test_a_new_motion_stays_where_the_records_went_and_is_asked_about(
+    qtbot, window, answered, diagnosis, record
+):
+    click(qtbot, answered.motion)
+    qtbot.waitUntil(lambda: question(window) is not None, timeout=LONG_MS)
+    click(qtbot, question(window).button(QMessageBox.StandardButton.No))
+    motion = new_motion(diagnosis, [record], ["thx", "thy"])
+    assert dry_run(ROBOT, motion).allowed
+    for axis in ("thx", "thy"):
+        way, known = motion.signal(axis, Tap.CMD), record.signal(axis, Tap.CMD)
+        assert known.min() <= way.min() < way.max() <= known.max()
 
 
 # --- acting -----------------------------------------------------------------------------------
 
 
 def test_json_holds_the_diagnosis(qtbot, window, answered, diagnosis, tmp_path):
-    answered.save_json(tmp_path / "gap.json")
+    answered.actions_of.save_json(answered.answer, tmp_path / "gap.json")
     saved(qtbot, window, tmp_path / "gap.json")
     assert json.loads((tmp_path / "gap.json").read_text("utf-8")) == as_json(diagnosis)
 
 
 def test_the_report_is_written_and_opened(qtbot, window, answered, tmp_path, monkeypatch):
     opened = []
+
+    def write(_diagnosis, _records, path, names):
+        path.write_text(", ".join(names), "utf-8")
+
+    monkeypatch.setattr(actions, "write_report", write)  # which has tests of its own
     monkeypatch.setattr(QDesktopServices, "openUrl", lambda url: opened.append(url) or True)
-    answered.save_report(tmp_path / "gap.html")
+    answered.actions_of.save_report(answered.answer, tmp_path / "gap.html")
     saved(qtbot, window, tmp_path / "gap.html")
     assert "day one.csv" in (tmp_path / "gap.html").read_text("utf-8")
     assert [url.toLocalFile() for url in opened] == [str(tmp_path / "gap.html")]
@@ -361,19 +455,14 @@ def test_the_report_is_written_and_opened(qtbot, window, answered, tmp_path, mon
 
 def test_a_report_that_nothing_opens_is_told(qtbot, window, answered, tmp_path, monkeypatch):
     monkeypatch.setattr(QDesktopServices, "openUrl", lambda _url: False)
-    monkeypatch.setattr(panel_module, "write_report", lambda *_: None)
-    answered.save_report(tmp_path / "gap.html")
+    monkeypatch.setattr(actions, "write_report", lambda *_: None)
+    answered.actions_of.save_report(answered.answer, tmp_path / "gap.html")
     qtbot.waitUntil(lambda: "open it in a browser" in newest(window), timeout=LONG_MS)
 
 
 def test_a_place_that_cannot_be_written_becomes_a_notice(qtbot, window, answered, tmp_path):
-    answered.save_json(tmp_path)
+    answered.actions_of.save_json(answered.answer, tmp_path)
     qtbot.waitUntil(lambda: "it is a folder" in newest(window), timeout=LONG_MS)
-
-
-def question(window):
-    boxes = [box for box in window.findChildren(QMessageBox) if box.isVisible()]
-    return boxes[0] if boxes else None
 
 
 def test_the_twin_is_a_robot_file_that_the_simulator_takes_if_it_is_asked_to(
@@ -384,14 +473,16 @@ def test_the_twin_is_a_robot_file_that_the_simulator_takes_if_it_is_asked_to(
         (QMessageBox.StandardButton.No, ()),
         (QMessageBox.StandardButton.Yes, diagnosis.fitted),
     ):
-        answered.save_twin(tmp_path / "twin.toml")
+        answered.actions_of.save_twin(answered.answer, None, tmp_path / "twin.toml")
         qtbot.waitUntil(lambda: question(window) is not None, timeout=LONG_MS)
         box = question(window)
         assert not box.isModal()
         click(qtbot, box.button(button))
         qtbot.waitUntil(lambda: question(window) is None, timeout=LONG_MS)
         qtbot.waitUntil(lambda wanted=wanted: session.effects == wanted, timeout=LONG_MS)
-    assert load_robot(tmp_path / "twin.toml").effects == diagnosis.fitted
+    twin = load_robot(tmp_path / "twin.toml")
+    assert twin.effects == diagnosis.fitted
+    qtbot.waitUntil(lambda: answered.robots.robot == twin, timeout=LONG_MS)  # the model from now on
 
 
 def test_the_twin_of_a_robot_file_keeps_its_comments(
@@ -402,7 +493,7 @@ def test_the_twin_of_a_robot_file_keeps_its_comments(
     with qtbot.waitSignal(chosen.robots.changed, timeout=LONG_MS):
         chosen.robots.load(tmp_path / "ours.toml")
     chosen.take_answer(Answer.of(diagnosis, ["day one.csv"], [record]))
-    chosen.save_twin(tmp_path / "twin.toml")
+    chosen.actions_of.save_twin(chosen.answer, chosen._source, tmp_path / "twin.toml")
     saved(qtbot, window, tmp_path / "twin.toml")
     assert (tmp_path / "twin.toml").read_text("utf-8").startswith("# our machine\n")
 
@@ -414,6 +505,6 @@ def test_a_twin_of_another_robot_is_not_offered_to_this_simulator(
     robot = replace(window.workbench.robot, axes=other, couplings=(), stages={})
     diagnosis = replace(answered.answer.diagnosis, robot=robot)
     answered.answer = replace(answered.answer, diagnosis=diagnosis)
-    answered.save_twin(tmp_path / "twin.toml")
+    answered.actions_of.save_twin(answered.answer, None, tmp_path / "twin.toml")
     saved(qtbot, window, tmp_path / "twin.toml")
     assert question(window) is None

@@ -8,10 +8,16 @@ from rotemina.plugins.identification.fitted import model_findings
 from rotemina.plugins.identification.frequency import frequency_findings
 from rotemina.plugins.identification.hysteresis import loop_findings
 from rotemina.plugins.identification.staircase import step_findings
-from rotemina.plugins.identification.views import LOOKS
+from rotemina.plugins.identification.views import LOOKS, View
 from rotemina.sim.records.record import Record, Tap
 
 EVERY_LOOK = pytest.mark.parametrize("look", list(LOOKS.values()), ids=lambda look: look.__name__)
+# The health card is one of cmd to meas, whatever pair is shown.
+EVERY_PAIR_LOOK = pytest.mark.parametrize(
+    "look",
+    [look for view, look in LOOKS.items() if view is not View.HEALTH],
+    ids=lambda look: look.__name__,
+)
 FREQUENCY_HZ, DAMPING = 1000.0, 0.02
 
 
@@ -129,6 +135,19 @@ def test_without_a_whole_cycle_the_curve_is_drawn_and_the_reason_given(ask):
     assert "no whole cycle" in findings.notices[0]
 
 
+def test_the_models_loop_stands_beside_the_machines(ask, record_of):
+    command = 1e-6 * np.sin(2 * np.pi * np.arange(3 * 12_800 + 1) / 12_800)
+    found = record_of(command)
+    wide = 0.1e-6 * np.sign(np.gradient(command))
+    signals = {("m1", Tap.CMD): command, ("m1", Tap.MEAS): found.signal("m1", Tap.MEAS) - wide}
+    findings = loop_findings(ask(Record.from_signals(found.time_s, signals, {"m1": "m"})))
+    rows = {row[0]: row for row in findings.rows}
+    assert findings.head[1:3] == ("median", "model")
+    assert figure(findings, "width at the middle") == pytest.approx(200.0, rel=0.02)
+    assert abs(float(rows["width at the middle"][2].split()[0])) < 2.0
+    assert [curve.name for curve in findings.pictures[0].curves] == ["model", "measured"]
+
+
 # --- steps ----------------------------------------------------------------------------------------
 
 
@@ -147,6 +166,39 @@ def test_steps_show_overshoot_rise_and_gain(ask, stairs_record):
     assert figure(findings, "settling to 2 %") == pytest.approx(settled_ms, rel=0.05)
 
 
+def test_the_models_steps_stand_beside_the_machines(ask, stairs_record):
+    slow = Record.from_signals(
+        stairs_record.time_s,
+        {
+            ("m1", Tap.CMD): stairs_record.signal("m1", Tap.CMD),
+            ("m1", Tap.MEAS): 0.9 * stairs_record.signal("m1", Tap.MEAS),
+        },
+        {"m1": "m"},
+    )
+    findings = step_findings(ask(slow))
+    gain = next(row for row in findings.rows if row[0] == "static gain")
+    assert [float(text) for text in gain[1:3]] == pytest.approx([0.9, 1.0], abs=1e-3)
+    assert "model" in [curve.name for curve in findings.pictures[1].curves]
+
+
+def test_levels_that_are_reached_by_a_ramp_are_steps(ask):
+    """Five rows from level to level: the answer that follows a row later rises for four of them."""
+    levels = np.repeat([0.0, 1e-6, 0.0], 200)
+    command = np.convolve(np.pad(levels, (4, 0)), np.full(5, 0.2), "valid")
+    meas = np.concatenate([command[:1], command[:-1]])
+    findings = step_findings(ask(plain(command, meas)))
+    assert figure(findings, "steps") == 2
+    assert figure(findings, "rise 10–90 %") == pytest.approx(4.0)
+    assert figure(findings, "delay to 50 %") == pytest.approx(2.5)
+    assert "takes up to 5 ms" in findings.notices[0]
+
+
+def test_a_wave_is_no_ramp(ask):
+    command = 1e-6 * np.sin(2 * np.pi * np.arange(2000) / 100)
+    findings = step_findings(ask(plain(command, command)))
+    assert "holds no jump" in findings.notices[0]
+
+
 def test_a_record_without_steps_says_so(ask, noise_record):
     findings = answered(step_findings, ask(noise_record))
     assert "holds no jump" in findings.notices[0]
@@ -162,6 +214,16 @@ def test_steps_within_the_noise_are_told(ask, record_of):
 
 
 # --- fitted model ---------------------------------------------------------------------------------
+
+
+def test_the_models_fit_stands_beside_the_machines(ask, record_of):
+    found = record_of(1e-6 * np.random.default_rng(3).uniform(-1.0, 1.0, 4096))
+    signals = {tap: found.signal("m1", tap) for tap in (Tap.CMD, Tap.MEAS)}
+    findings = model_findings(ask(plain(signals[Tap.CMD], 0.8 * signals[Tap.MEAS], 12_800.0)))
+    rows = {row[0]: row for row in findings.rows}
+    assert float(rows["static gain"][1]) == pytest.approx(0.8, abs=1e-3)
+    assert float(rows["static gain"][3]) == pytest.approx(1.0, abs=1e-3)
+    assert float(rows["damping ratio"][3]) == pytest.approx(DAMPING, rel=1e-3)
 
 
 @pytest.mark.parametrize("method", ["oe", "arx"])
@@ -225,13 +287,13 @@ def test_a_record_that_is_too_short_is_refused_in_words(ask, look, rows):
     assert not any("fault of the program" in text for text in findings.notices)
 
 
-@EVERY_LOOK
+@EVERY_PAIR_LOOK
 def test_the_same_tap_twice_is_refused(ask, noise_record, look):
     findings = answered(look, ask(noise_record, drive=Tap.REF, answer=Tap.REF))
     assert findings.notices == ("m1: input and output are both ref; choose two taps",)
 
 
-@EVERY_LOOK
+@EVERY_PAIR_LOOK
 def test_a_tap_that_the_record_lacks_is_named(ask, noise_record, look):
     (notice,) = answered(look, ask(noise_record, answer=Tap.REF)).notices
     assert "m1.ref" in notice

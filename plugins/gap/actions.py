@@ -1,0 +1,149 @@
+"""What comes of an answer: a twin, a report, a document; each is a file that is asked for."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Qt, QUrl, Signal
+from PySide6.QtGui import QDesktopServices
+from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
+
+from rotemina.app.files import json_text, write_text
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.plugins.gap.answer import Answer
+from rotemina.sim.errors import InputError
+from rotemina.sim.gap.document import as_json
+from rotemina.sim.gap.report.page import write_report
+from rotemina.sim.gap.twin import twin_text
+
+
+class Actions(QObject):
+    """Writes files of an answer in the background; a failure becomes a notice.
+
+    Signals
+    -------
+    twin_saved(Path)
+    """
+
+    twin_saved = Signal(object)
+
+    def __init__(self, workbench: Workbench, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._workbench = workbench
+        self._parent = parent
+
+    # --- asking where to --------------------------------------------------------------------------
+
+    def ask_twin(self, answer: Answer, source: str | Path | None) -> None:
+        """Ask where to, and write the twin of an answer about the robot of ``source``."""
+        self._ask(
+            "Add to twin",
+            "twin.toml",
+            "Robot files (*.toml)",
+            lambda path: self.save_twin(answer, source, path),
+        )
+
+    def ask_report(self, answer: Answer) -> None:
+        """Ask where to, write the report and open it."""
+        self._ask(
+            "Report",
+            "gap-report.html",
+            "Pages (*.html)",
+            lambda path: self.save_report(answer, path),
+        )
+
+    def ask_json(self, answer: Answer) -> None:
+        """Ask where to, and write the diagnosis as JSON."""
+        self._ask(
+            "Save the diagnosis",
+            "gap.json",
+            "JSON (*.json)",
+            lambda path: self.save_json(answer, path),
+        )
+
+    def _ask(self, title: str, name: str, filters: str, use: Callable[[Path], None]) -> None:
+        """Ask where to, beside a window that can still be used; it asks before a file goes."""
+        settings = self._workbench.settings
+        dialog = QFileDialog(self._parent, title, settings.get("files.folder", ""), filters)
+        dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setDefaultSuffix(Path(name).suffix[1:])
+        dialog.selectFile(name)
+        dialog.fileSelected.connect(
+            lambda chosen: settings.set("files.folder", str(Path(chosen).parent))
+        )
+        dialog.fileSelected.connect(lambda chosen: use(Path(chosen)))
+        dialog.show()
+
+    # --- writing ----------------------------------------------------------------------------------
+
+    def save_twin(self, answer: Answer, source: str | Path | None, path: Path) -> None:
+        """Write a robot file of the corrected model, and offer it to the running simulator."""
+        robot, effects = answer.diagnosis.robot, answer.diagnosis.fitted
+
+        def done(_: None) -> None:
+            self._workbench.notify(Level.GOOD, f"Saved {path}")
+            self.twin_saved.emit(path)
+            self._offer_live(answer)
+
+        self._workbench.work(
+            "gap twin",
+            f"Writing {path.name} …",
+            lambda: write_text(path, twin_text(robot, effects, source)),
+            done,
+        )
+
+    def save_report(self, answer: Answer, path: Path) -> None:
+        """Write the report and open it."""
+
+        def done(_: None) -> None:
+            self._workbench.notify(Level.GOOD, f"Saved {path}")
+            if not QDesktopServices.openUrl(QUrl.fromLocalFile(str(path))):
+                self._workbench.notify(
+                    Level.WARNING, f"{path}: nothing here opens it; open it in a browser"
+                )
+
+        self._workbench.work(
+            "gap report",
+            f"Writing {path.name} …",
+            lambda: write_report(answer.diagnosis, answer.records, path, answer.names),
+            done,
+        )
+
+    def save_json(self, answer: Answer, path: Path) -> None:
+        """Write the diagnosis as JSON."""
+        self._workbench.work(
+            "gap document",
+            f"Writing {path.name} …",
+            lambda: write_text(path, json_text(as_json(answer.diagnosis))),
+            lambda _: self._workbench.notify(Level.GOOD, f"Saved {path}"),
+        )
+
+    # --- the running simulator --------------------------------------------------------------------
+
+    def _offer_live(self, answer: Answer) -> None:
+        """Ask whether the simulator is to run the corrected model, where there is one."""
+        session = self._workbench.session
+        if session.effects is None or answer.diagnosis.robot.axes != self._workbench.robot.axes:
+            return
+        question = QMessageBox(self._parent.window())
+        question.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        question.setWindowTitle("Add to twin")
+        question.setText("Let the running simulator be the corrected model, too?")
+        question.setInformativeText(
+            "The effects that it has now are replaced. Choose No if the simulator plays the part "
+            "of the machine."
+        )
+        question.setStandardButtons(QMessageBox.StandardButton.Yes | QMessageBox.StandardButton.No)
+        question.setDefaultButton(QMessageBox.StandardButton.No)
+        yes = QMessageBox.StandardButton.Yes
+        question.finished.connect(lambda said: self._load_live(answer) if said == yes else None)
+        question.setModal(False)  # the window, and its stop button, can still be used
+        question.show()
+
+    def _load_live(self, answer: Answer) -> None:
+        diagnosis = answer.diagnosis
+        try:
+            self._workbench.session.set_effects((*diagnosis.robot.effects, *diagnosis.fitted))
+        except InputError as error:
+            self._workbench.notify(Level.ERROR, str(error))

@@ -1,0 +1,239 @@
+"""The blind test of the diagnosis: how often it is right, on machines that it has never seen."""
+
+from pathlib import Path
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QIntValidator
+from PySide6.QtWidgets import (
+    QDialog,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QProgressBar,
+    QPushButton,
+    QSplitter,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.files import write_text
+from rotemina.app.shell.controls import allow
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.plugins.gap.blind_result import HEAD, BlindResult
+from rotemina.plugins.gap.blind_run import BlindRun
+from rotemina.plugins.gap.hint import hint
+from rotemina.plugins.gap.robots import RobotChoice
+from rotemina.plugins.gap.table import Table
+from rotemina.plugins.gap.tips import tip
+from rotemina.sim.gap.report.quantities import percent
+from rotemina.sim.gap.report.words import effect_title
+from rotemina.sim.robot.file import load_robot, shipped_robots
+from rotemina.sim.robot.writing import robot_text
+
+ABOUT = (
+    "Machines are drawn by equations that the diagnosis does not know, each with hidden effects. "
+    "The name of what is hidden is sealed until the diagnosis has answered; then it is opened and "
+    "compared. A case takes about half a minute. It runs beside everything else and can be stopped "
+    "and gone on with: what is done stays."
+)
+NOTHING = (
+    "No case is scored yet.\n"
+    "Press Start: figures and confusion matrix come when all cases are done; or press Stop at any "
+    "time, then “Score what is done”."
+)
+_MOST_CASES, _MOST_SEED = 9999, 999_999_999
+_STRENGTH = 170  # of the strongest colour, of 255
+_VERDICTS = {
+    "none": "no gap",
+    "unknown": "unknown",
+    "insufficient_excitation": "cannot tell",
+    "failed": "failed",
+    "explained": "explained",
+}
+
+
+class BlindPage(QDialog):
+    """Number of cases and seed → progress → figures beside their levels, confusion matrix."""
+
+    def __init__(self, workbench: Workbench, robots: RobotChoice, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setWindowTitle("Blind test of the diagnosis")
+        self._workbench, self._robots = workbench, robots
+        self.run = BlindRun(self)
+        self.cases = _field("12", _MOST_CASES, 1, "How many machines are drawn, 1 to 9999")
+        self.seed = _field("1", _MOST_SEED, 0, "Which machines: the same seed draws the same ones")
+        self.start, self.stop = QPushButton("Start"), QPushButton("Stop")
+        self.start.setProperty("primary", True)
+        self.score = QPushButton("Score what is done")
+        self.progress = QProgressBar()
+        self.progress.setFormat("%v of %m")
+        self.doing = QLabel()
+        self.doing.setTextFormat(Qt.TextFormat.PlainText)
+        self.figures = Table("Figures beside the levels that they are to reach", HEAD)
+        self.matrix = Table("What is there, and what was named first")
+        self.matrix.setSelectionMode(Table.SelectionMode.NoSelection)
+        self._lay_out()
+        self._connect()
+        self._show_state()
+
+    def _lay_out(self) -> None:
+        about = QLabel(ABOUT)
+        about.setWordWrap(True)
+        row = QHBoxLayout()
+        for text, field in (("Cases", self.cases), ("Seed", self.seed)):
+            row.addWidget(QLabel(text))
+            row.addWidget(field)
+        for widget in (self.start, self.stop, self.score, self.progress):
+            row.addWidget(widget)
+        row.addWidget(self.doing, 1)
+        split = self.shown = QSplitter(Qt.Orientation.Vertical)
+        split.addWidget(_titled("Figures, each with its 95 % interval", self.figures))
+        split.addWidget(
+            _titled(
+                "Confusion matrix, cases with one effect at most: a row is what is there, a column "
+                "what was named first",
+                self.matrix,
+            )
+        )
+        column = QVBoxLayout(self)
+        column.addWidget(about)
+        column.addLayout(row)
+        self.nothing = hint(NOTHING)
+        column.addWidget(self.nothing, 1)
+        column.addWidget(split, 1)
+        split.hide()
+        self.resize(900, 640)
+
+    def _connect(self) -> None:
+        self.start.clicked.connect(lambda: self.begin(score=False))
+        self.score.clicked.connect(lambda: self.begin(score=True))
+        self.stop.clicked.connect(self._end)
+        for field in (self.cases, self.seed):
+            field.textChanged.connect(lambda _: self._show_state())
+        self.run.progressed.connect(self._show_progress)
+        self.run.finished.connect(self.show_result)
+        self.run.stopped.connect(lambda: self._show_end("stopped; what is done stays"))
+        self.run.failed.connect(self._fail)
+        self._workbench.closing.connect(self.run.close)
+        self._workbench.theme_changed.connect(lambda _: self._show_colours())
+        self._result: BlindResult | None = None
+
+    # --- running ----------------------------------------------------------------------------------
+
+    def begin(self, *, score: bool) -> None:
+        """Run the cases that are not done yet, or score those that are."""
+        seed = int(self.seed.text())
+        folder = self._workbench.played_folder.parent / "blind" / self._name(seed)
+        try:
+            robot = self._robot(folder)
+        except OSError as error:
+            self._fail(f"{folder}: it cannot be made ({error.strerror})")
+            return
+        self.run.start(robot, int(self.cases.text()), seed, folder, score=score)
+        self.progress.setRange(0, 0)
+        self.doing.setText("being scored" if score else "the first machine is drawn")
+        self._show_state()
+
+    def _name(self, seed: int) -> str:
+        name = "".join(c if c.isalnum() or c in "-_" else "_" for c in self._robots.robot.name)
+        return f"{name}-seed-{seed}"
+
+    def _robot(self, folder: Path) -> str:
+        """Return what ``--robot`` takes: a shipped robot's name, or a file of the one chosen."""
+        robot = self._robots.robot
+        shipped = next((name for name in shipped_robots() if load_robot(name) == robot), None)
+        if shipped is not None:
+            return shipped
+        folder.mkdir(parents=True, exist_ok=True)
+        write_text(folder / "robot.toml", robot_text(robot))
+        return str(folder / "robot.toml")
+
+    def _end(self) -> None:
+        self.run.stop()
+        self._show_end("being stopped")
+
+    def _show_progress(self, done: int, count: int) -> None:
+        self.progress.setRange(0, count)
+        self.progress.setValue(done)
+        self.doing.setText(f"{done} of {count} cases done")
+
+    def _show_end(self, text: str) -> None:
+        self.doing.setText(text)
+        self._show_state()
+
+    def _fail(self, message: str) -> None:
+        self._show_end("failed")
+        self._workbench.notify(Level.ERROR, message)
+
+    def _show_state(self) -> None:
+        running = self.run.running
+        whole = all(field.hasAcceptableInput() for field in (self.cases, self.seed))
+        why = "it runs already" if running else None if whole else "write cases and seed"
+        allow(self.start, why, "Run the cases that are not done yet, then score them")
+        allow(self.score, why, "Score the cases that are done, without running more")
+        allow(self.stop, None if running else "nothing runs", "End it; what is done stays")
+        self.progress.setVisible(running)
+        for field in (self.cases, self.seed):
+            field.setEnabled(not running)
+
+    # --- the result -------------------------------------------------------------------------------
+
+    def show_result(self, result: BlindResult) -> None:
+        """Show figures and confusion matrix."""
+        self._result = result
+        self._show_end(f"{result.done} of {result.asked} cases scored")
+        self._show_colours()
+
+    def _show_colours(self) -> None:
+        result, theme = self._result, self._workbench.theme
+        if result is None:
+            return
+        self.nothing.hide()
+        self.shown.show()
+        colours = {True: QColor(theme.good), False: QColor(theme.warning), None: None}
+        self.figures.show_rows(
+            [one.cells for one in result.rows], [colours[one.reached] for one in result.rows]
+        )
+        names = result.names
+        self.matrix.set_head(("what is there", *map(title, names)))
+        self.matrix.show_rows(
+            [
+                (title(there), *(str(result.counts.get((there, told), "")) for told in names))
+                for there in names
+            ]
+        )
+        for row, there in enumerate(names):
+            for column, told in enumerate(names, start=1):
+                share = result.share(there, told)
+                colour = QColor(theme.good if there == told else theme.danger)
+                colour.setAlpha(round(_STRENGTH * share))
+                item = self.matrix.item(row, column)
+                item.setBackground(colour)
+                said = f"{title(there)} named {title(told).lower()}: {percent(share)} of its cases"
+                item.setToolTip(tip(said))
+
+
+def title(name: str) -> str:
+    """Return a verdict or an effect as people call it."""
+    return _VERDICTS.get(name) or effect_title(name)
+
+
+def _field(text: str, most: int, least: int, tooltip: str) -> QLineEdit:
+    field = QLineEdit(text)
+    field.setValidator(QIntValidator(least, most, field))
+    field.setMaximumWidth(90)
+    field.setToolTip(tooltip)
+    field.setAccessibleName(tooltip)
+    return field
+
+
+def _titled(text: str, table: Table) -> QWidget:
+    box = QWidget()
+    column = QVBoxLayout(box)
+    column.setContentsMargins(0, 0, 0, 0)
+    column.setSpacing(2)
+    heading = QLabel(text)
+    heading.setProperty("quiet", True)
+    column.addWidget(heading)
+    column.addWidget(table, 1)
+    return box

@@ -1,0 +1,250 @@
+"""The section that excites an axis: what to play, what that asks of it, play, stop."""
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QShowEvent
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QProgressBar,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.display import PLAIN_NUMBER, label
+from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.controls import allow
+from rotemina.app.shell.workbench import Plan, Run, Workbench
+from rotemina.drivers.samples import DeviceState
+from rotemina.plugins.identification.excitation import Prepared, Wave, Wish, prepared
+from rotemina.sim.errors import InputError
+from rotemina.sim.records.record import Record
+
+CHECKING = "Making the motion, and trying it on the model …"
+_AMPLITUDE = (
+    "To each side of the middle, such as 5um, 200urad or 30% of the range; what exceeds a limit is "
+    "reduced, and said"
+)
+
+
+class ExciteView(QWidget):
+    """Choices, a preview of the motion, and its playback through the window's own.
+
+    ``motion`` is what would be played, None until it is made and tried.
+
+    Signals
+    -------
+    begun() : the motion was in hand and is asked to be played.
+    """
+
+    begun = Signal()
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__()
+        self._workbench = workbench
+        self.motion: Prepared | None = None
+        self._awaited: Record | None = None  # to be played as soon as it is in hand
+        self._last: Prepared | None = None  # what was played last
+        self.axis, self.wave = QComboBox(), QComboBox()
+        for name in workbench.robot.axes:
+            self.axis.addItem(label(name), name)
+        for wave in Wave:
+            self.wave.addItem(str(wave), wave)
+        self.amplitude = _field("Amplitude", f"Amplitude. {_AMPLITUDE}")
+        self.amplitude.setPlaceholderText("amplitude")
+        self.frequency = _field("Frequency", "Frequency, Hz; of a multisine its highest line")
+        self.time = _field("Time", "Duration, s; of a staircase the rest on each level")
+        self.here = QCheckBox("about here")
+        self.here.setToolTip("Move about where the axis stands; off: about the middle of its range")
+        self.told, self.owner = _text(), _text()
+        self.owner.setProperty("quiet", True)
+        self.play, self.stop = QPushButton("Play"), QPushButton("Stop")
+        self.play.setProperty("primary", True)
+        self.progress = QProgressBar()
+        self.progress.setRange(0, 1000)
+        self.progress.setTextVisible(False)
+        self._lay_out()
+        self._connect()
+        self._name_fields()
+
+    # --- the motion -------------------------------------------------------------------------------
+
+    def wish(self) -> Wish:
+        """Return what is chosen and typed now."""
+        axis, wave = str(self.axis.currentData()), Wave(self.wave.currentData())
+        command = self._workbench.session.snapshot().command
+        return Wish(
+            axis,
+            wave,
+            self.amplitude.text(),
+            self.frequency.text() if wave is not Wave.STAIRCASE else "",
+            self.time.text(),
+            command.get(axis) if self.here.isChecked() else None,
+        )
+
+    def prepare(self) -> None:
+        """Make the motion and try it, in the background."""
+        self.motion = None
+        self.told.setText(CHECKING)
+        wish, robot, session = self.wish(), self._workbench.robot, self._workbench.session
+        period_s, zone = session.setpoint_period_s, session.keep_out
+        command = session.snapshot().command
+
+        def work() -> Prepared | str:
+            try:
+                return prepared(robot, wish, period_s, zone, command)
+            except InputError as error:
+                return str(error)
+
+        self._workbench.work("excitation", CHECKING, work, self._take)
+
+    def start(self) -> None:
+        """Take the motion in hand as the window's trajectory, and play it."""
+        if self.motion is None or self.motion.digest is None:
+            return
+        self._last = self.motion
+        self._awaited = self.motion.made.record
+        self._workbench.plan_trajectory(self.motion.name, self._awaited)
+
+    def halt(self) -> None:
+        """Stop the machine, and end the playback."""
+        self._awaited = None
+        self._workbench.end_playback()
+
+    def played(self, run: Run) -> Prepared | None:
+        """Return the motion that a run is the record of; None if it is another's."""
+        digest = run.record.metadata.get("trajectory_digest")
+        last = self._last
+        return last if last is not None and digest == last.digest else None
+
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
+        """Make the first motion when it is first looked at."""
+        super().showEvent(event)
+        if self.motion is None:
+            self.prepare()
+
+    # --- what may be done -------------------------------------------------------------------------
+
+    def refresh(self, session: SessionState) -> None:
+        """Show what can be done now, who drives the axis, and how far the motion is."""
+        plan, playback = self._workbench.plan, self._workbench.playback
+        if plan is not None and self._awaited is plan.trajectory:
+            self._awaited = None
+            # At its own pace, and without a bound of the deviation from the model: that is what
+            # the motion is to show. All limits hold as ever.
+            self._workbench.ask(lambda: playback.play(plan.dry_run.require()))
+            self.begun.emit()
+        if not self.isVisible():
+            return
+        state = playback.state
+        ours = plan is not None and self._last is not None
+        ours = ours and plan.trajectory is self._last.made.record
+        under_way = ours and state.phase is not PlaybackPhase.IDLE
+        axis = str(self.axis.currentData())
+        driver = session.owners.get(axis)
+        self.owner.setText(f"{label(axis)}: {f'driven by {driver}' if driver else 'free'}")
+        allow(self.play, self._why_not(session, state), "Play it; the record is analysed at once")
+        waits = under_way or self._awaited is not None
+        allow(self.stop, None if waits else "it is not playing", "Stop the machine, and end it")
+        share = state.path_s / state.duration_s if under_way and state.duration_s else 0.0
+        self.progress.setValue(round(1000 * share))
+
+    def _why_not(self, session: SessionState, state: PlaybackState) -> str | None:
+        motion = self.motion
+        if motion is None:
+            return "the motion is not ready"
+        if motion.digest is None:
+            return motion.objection
+        if self._awaited is not None or state.phase is PlaybackPhase.PLAYING:
+            return "a trajectory is playing"
+        if session.locked is not None:
+            return session.locked
+        return None if session.activity is DeviceState.IDLE else "the axes still move"
+
+    def _take(self, answer: Prepared | str) -> None:
+        if isinstance(answer, str):
+            self.told.setText(answer)
+        else:
+            self.motion = answer
+            self.told.setText(answer.words)
+        self.told.setProperty("bad", isinstance(answer, str) or answer.digest is None)
+        self.told.style().polish(self.told)
+
+    def _changed(self) -> None:
+        self._name_fields()
+        self.prepare()
+
+    def _name_fields(self) -> None:
+        wave = Wave(self.wave.currentData())
+        stairs = wave is Wave.STAIRCASE
+        self.frequency.setEnabled(not stairs)
+        upper = wave is Wave.MULTISINE
+        self.frequency.setPlaceholderText("up to [Hz]" if upper else "frequency [Hz]")
+        self.time.setPlaceholderText("rest [s]" if stairs else "duration [s]")
+
+    def _plan_changed(self, plan: Plan) -> None:
+        if plan.trajectory is not self._awaited:
+            self._awaited = None  # another trajectory was taken in hand
+
+    def _connect(self) -> None:
+        for choice in (self.axis, self.wave):
+            choice.activated.connect(lambda _: self._changed())
+        for field in (self.amplitude, self.frequency, self.time):
+            field.editingFinished.connect(self._typed)
+        self.here.toggled.connect(lambda _: self.prepare())
+        self.play.clicked.connect(self.start)
+        self.stop.clicked.connect(self.halt)
+        self._workbench.refreshed.connect(self.refresh)
+        self._workbench.plan_changed.connect(self._plan_changed)
+
+    def _typed(self) -> None:
+        """Make the motion anew where a text is another; leaving a field alone changes nothing."""
+        for field, unit in ((self.frequency, "Hz"), (self.time, "s")):
+            if PLAIN_NUMBER.fullmatch(field.text().strip()):
+                field.setText(f"{field.text().strip()} {unit}")  # its name is covered by the number
+        if self.motion is None or self.wish() != self.motion.wish:
+            self.prepare()
+
+    def _lay_out(self) -> None:
+        self.axis.setAccessibleName("Axis to excite")
+        self.wave.setAccessibleName("Motion of the excitation")
+        grid = QGridLayout()
+        grid.setSpacing(4)
+        fields = (self.axis, self.wave, self.amplitude, self.frequency, self.time, self.here)
+        for place, field in enumerate(fields):
+            grid.addWidget(field, place // 2, place % 2)
+            field.setMinimumWidth(0)
+        for column in (0, 1):
+            grid.setColumnStretch(column, 1)
+        buttons = QHBoxLayout()
+        buttons.setSpacing(4)
+        buttons.addWidget(self.play)
+        buttons.addWidget(self.stop)
+        buttons.addWidget(self.progress, 1)
+        rows = QVBoxLayout(self)
+        rows.setContentsMargins(0, 0, 8, 0)
+        rows.setSpacing(4)
+        rows.addLayout(grid)
+        rows.addLayout(buttons)
+        rows.addWidget(self.owner)
+        rows.addWidget(self.told)
+        rows.addStretch(1)
+
+
+def _field(name: str, tip: str) -> QLineEdit:
+    field = QLineEdit()
+    field.setAccessibleName(f"{name} of the excitation")
+    field.setToolTip(f"{tip}; empty: what suits the axis")
+    return field
+
+
+def _text() -> QLabel:
+    text = QLabel()
+    text.setTextFormat(Qt.TextFormat.PlainText)
+    text.setWordWrap(True)
+    return text

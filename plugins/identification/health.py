@@ -1,0 +1,75 @@
+"""The health card of the axis: what this record tells, beside the last card that was kept."""
+
+from datetime import datetime
+
+from rotemina.app.calibration.health import Compared, card_of, compared_cards
+from rotemina.app.calibration.health_book import HealthBook
+from rotemina.app.calibration.words import amount
+from rotemina.plugins.identification.findings import NONE, Column, Findings
+from rotemina.plugins.identification.question import Question
+from rotemina.sim.calibration.calibrating import Figure
+
+HEAD = ("figure", "now", "± 95 %", "last time", "± 95 %", "")
+
+
+def health_findings(question: Question) -> Findings:
+    """Compare the record's card with the last one; of ``cmd`` to ``meas``, whatever pair is shown.
+
+    Without a folder of cards there is no last time.
+    """
+    figures = card_of(question.record, question.axis)
+    cards = ()
+    if question.folder is not None:
+        cards = HealthBook(question.folder, question.robot.name).cards(question.axis)
+    last = cards[-1] if cards else None
+    rows = compared_cards(figures, last.figures if last is not None else ())
+    return Findings(
+        question,
+        (),
+        HEAD,
+        tuple(map(_row, rows)),
+        tuple(
+            Column(f"{each.name} [{each.unit}]", (each.value, each.half_width)) for each in figures
+        ),
+        tuple(_notices(rows, last.date if last is not None else None, len(cards))),
+    )
+
+
+def keep_card(question: Question) -> None:
+    """Write the record's card behind the earlier ones.
+
+    Raises
+    ------
+    InputError
+        If the record has none, or it cannot be written.
+    """
+    if question.folder is None:
+        return
+    figures = card_of(question.record, question.axis)
+    book = HealthBook(question.folder, question.robot.name)
+    book.add(question.axis, figures, question.name, datetime.now().astimezone())
+
+
+def _row(row: Compared) -> tuple[str, ...]:
+    before = _words(row.before) if row.before is not None else (NONE, NONE)
+    return (row.now.name, *_words(row.now), *before, "changed" if row.changed else "")
+
+
+def _words(figure: Figure) -> tuple[str, str]:
+    if figure.unit == "Hz":
+        return f"{figure.value:.5g} Hz", f"{figure.half_width:.2g} Hz"
+    scale = max(abs(figure.value), figure.half_width)
+    return (
+        amount(figure.value, figure.unit, scale=scale),
+        amount(figure.half_width, figure.unit, scale=scale, digits=2),
+    )
+
+
+def _notices(rows: tuple[Compared, ...], date: str | None, kept: int) -> list[str]:
+    if date is None:
+        return ["No card of this axis is kept yet: keep this one to compare with it later."]
+    changed = [row.now.name for row in rows if row.changed]
+    told = f"Last card: {date}, the latest of {kept}."
+    if not changed:
+        return [f"{told} No figure has changed beyond both intervals."]
+    return [f"{told} Changed beyond both intervals: {', '.join(changed)}."]

@@ -1,0 +1,163 @@
+"""What the gap page shows, without a window: first looks, cells of the map, proofs, advice."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rotemina.plugins.gap import first_look as module
+from rotemina.plugins.gap.advice import advice, readiness
+from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap.cell import parts
+from rotemina.plugins.gap.diagnosing import Looks
+from rotemina.plugins.gap.first_look import first_look
+from rotemina.plugins.gap.playing import told
+from rotemina.plugins.gap.proof import new_motion, prove
+from rotemina.sim.gap.diagnosis import Verdict
+from rotemina.sim.gap.progress import Progress
+from rotemina.sim.gap.regimes import Regime
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import AxisEffect
+
+ROBOT = load_robot("rotemina")
+
+
+class EnoughError(Exception):
+    """What a listener raises that has heard enough."""
+
+
+@pytest.fixture(scope="module")
+def answer(diagnosis, record):
+    return Answer.of(diagnosis, ["day one.csv"], [record])
+
+
+# --- first looks ------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def few(monkeypatch):
+    """Let few candidates be looked at: all of them take their time."""
+    wanted = {"gain_error", "hysteresis", "thermal_drift"}
+    every = module.scouts
+    monkeypatch.setattr(
+        module, "scouts", lambda *given: [one for one in every(*given) if one.id in wanted]
+    )
+
+
+@pytest.mark.usefixtures("few")
+def test_a_first_look_ranks_what_is_there_first(record):
+    looks = []
+    first_look(ROBOT, "thx", [record], looks.append)
+    last = looks[-1]
+    assert last.done == last.count == len(looks)
+    assert last.seen[0].effect == "hysteresis"
+    assert last.seen[0].left < 0.1 * last.whole
+    left = [seen.left for seen in last.seen]
+    assert left == sorted(left)
+    assert len({(seen.effect, seen.from_axis) for seen in last.seen}) == len(last.seen)
+
+
+@pytest.mark.usefixtures("few")
+def test_a_first_look_ends_when_its_listener_has_heard_enough(record):
+    def enough(_look):
+        raise EnoughError
+
+    with pytest.raises(EnoughError):
+        first_look(ROBOT, "thx", [record], enough)
+
+
+def test_an_axis_that_records_do_not_measure_is_not_looked_at(record):
+    looks = []
+    first_look(ROBOT, "x", [record], looks.append)
+    assert looks == []
+
+
+def test_each_axis_is_looked_at_once_when_the_diagnosis_comes_to_it(record, monkeypatch):
+    from rotemina.plugins.gap import diagnosing
+
+    axes = []
+    monkeypatch.setattr(diagnosing, "first_look", lambda _robot, axis, *_: axes.append(axis))
+    looks = Looks(ROBOT, [record], lambda _: None)
+    for stage, axis in (("where", None), ("screening", "thx"), ("fitting", "thx")) * 2:
+        looks.follow(Progress(stage, axis, None, 0.1))
+    assert axes == ["thx"]
+
+
+# --- cells of the map -------------------------------------------------------------------------
+
+
+def test_the_parts_behind_a_row_of_the_map_add_up_to_the_gap_meanwhile(answer):
+    heat = answer.heats["thx", Tap.MEAS]
+    own = [trace for trace in answer.traces["thx"] if trace.tap is Tap.MEAS]
+    row = heat.regimes.index(Regime.REVERSAL)
+    found = [parts(own, heat, row, band)[0] for band in range(len(heat.edges_hz) - 1)]
+    within = sum(part.within for part in found)
+    rows = within != 0.0
+    assert within[rows] == pytest.approx(own[0].before[rows], rel=1e-9)
+    for band, part in enumerate(found):
+        assert part.rms == pytest.approx(heat.floors[row][band] * own[0].floor, rel=1e-9)
+        assert part.seconds == pytest.approx(rows.sum() * 2e-3, rel=1e-6)
+
+
+# --- proofs -----------------------------------------------------------------------------------
+
+
+def test_a_proof_tells_how_far_the_gap_of_each_diagnosed_axis_shrinks(diagnosis, record):
+    proof = prove(diagnosis, "tuesday", record)
+    first = proof.shrunk[0]
+    assert first.trace.axis == "thx"
+    assert first.times == pytest.approx(first.before / first.after)
+    assert first.interval[0] < first.times < first.interval[1]
+    assert first.times > 5.0
+    thy = next(one for one in proof.shrunk if one.trace.axis == "thy")
+    assert thy.times == pytest.approx(1.0, abs=0.7)  # nothing was found there
+    only_thy = Record.from_signals(
+        record.time_s,
+        {("thy", tap): record.signal("thy", tap) for tap in (Tap.CMD, Tap.MEAS)},
+        {"thy": "rad"},
+    )
+    assert {one.trace.axis for one in prove(diagnosis, "wednesday", only_thy).shrunk} == {"thy"}
+
+
+def test_the_new_motion_is_of_the_kind_on_which_the_two_models_differ_most(diagnosis, record):
+    creep = AxisEffect(axis="thx", id="creep")
+    lag = AxisEffect(axis="thx", id="amplifier_lag")
+    asked = {}
+    for effect in (creep, lag):
+        axes = {"thx": replace(diagnosis.axes["thx"], fitted=(effect,))}
+        motion = new_motion(replace(diagnosis, axes=axes), [record], ["thx"])
+        asked[effect.id] = motion.metadata["excitation"]
+    assert asked == {"creep": "staircase", "amplifier_lag": "multisine"}
+
+
+# --- words ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("verdict", list(Verdict))
+def test_every_verdict_says_what_it_means_and_what_to_do(diagnosis, verdict):
+    one = replace(diagnosis.axes["thy"], verdict=verdict)
+    means, do = advice(one, has_experiment=False)
+    assert means.startswith("What it means: ")
+    assert do.startswith("What to do: ")
+
+
+def test_what_is_not_settled_is_said_with_the_experiment_that_would_settle_it(diagnosis):
+    lines = list(advice(diagnosis.axes["thx"], has_experiment=True))
+    assert lines[1].startswith("Not settled: creep would do as well")
+    assert "Play next experiment" in lines[2]
+
+
+def test_the_page_says_what_comes_next():
+    assert readiness(0).startswith("1  Choose records")
+    assert readiness(1).startswith("One record is chosen.")
+    assert readiness(3).startswith("3 records are chosen.")
+
+
+def test_a_question_tells_how_far_a_motion_leads_in_the_axis_own_unit():
+    time_s = np.array([0.0, 1.0])
+    commands = {("thx", Tap.CMD): np.array([1e-4, 2e-4]), ("x", Tap.CMD): np.array([0.01, 0.01])}
+    text = told(ROBOT, Record.from_signals(time_s, commands, {"thx": "rad", "x": "m"}))
+    assert "It takes 1 s" in text
+    assert "θx: 100.0 … 200.0 µrad" in text
+    assert "X: rests at 10.0000 mm" in text
