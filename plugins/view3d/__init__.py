@@ -1,0 +1,1 @@
+"""The robot in three dimensions, model and real as two ghosts."""

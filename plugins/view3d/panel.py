@@ -1,0 +1,256 @@
+"""The robot in three dimensions, inside the window or in a browser."""
+
+import os
+import time
+from collections.abc import Callable
+
+from PySide6.QtCore import Qt, QUrl
+from PySide6.QtGui import QDesktopServices, QGuiApplication
+from PySide6.QtWidgets import (
+    QComboBox,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.motion.state import SessionState
+from rotemina.app.panel import STALE_S, Area, Panel
+from rotemina.app.scene.robot_scene import Reading, RobotScene
+from rotemina.app.scene.views import View
+from rotemina.app.shell.controls import allow
+from rotemina.app.shell.theme import Theme
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.plugins.view3d import embedding, words
+from rotemina.plugins.view3d.embedding import WebProcess
+from rotemina.plugins.view3d.serving import Serving
+from rotemina.sim.kinematics.chain import ChainError
+from rotemina.sim.robot.model import Robot
+
+
+class View3dPanel(Panel):
+    """Asks first where to show the view: nothing is started before."""
+
+    title = "3-D view"
+    area = Area.BOTTOM
+    order = 80
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__(workbench)
+        self.robot_scene, self._unfit = scene_of(workbench.robot, workbench.theme)
+        self.serving = None if self.robot_scene is None else Serving(self.robot_scene.scene)
+        self._view: WebProcess | None = None
+        self._own_window = False
+        self._busy = False
+        self._make_widgets()
+        self._lay_out()
+        self.show_state()
+        workbench.shown.connect(self.refresh)
+        workbench.theme_changed.connect(self._use_theme)
+        workbench.closing.connect(self._close)
+
+    @property
+    def in_sight(self) -> bool:
+        """Whether any of the panel can be seen; a dock behind another one counts as visible."""
+        return self.isVisible() and not self.visibleRegion().isEmpty()
+
+    # --- what is asked for ------------------------------------------------------------------------
+
+    def open_here(self) -> None:
+        """Show the view inside the window."""
+        self._serve(self._embed)
+
+    def open_in_browser(self) -> None:
+        """Show the view in the browser of the desktop; several may look at once."""
+        self._serve(self._browse)
+
+    def close_view(self, wait: bool = False) -> None:
+        """Take the view out of the window; browsers go on."""
+        view, self._view = self._view, None
+        self.stack.setCurrentIndex(0)
+        if view is not None:
+            view.release(wait)
+        self._busy = self._own_window = False
+        self.show_state()
+
+    def look(self, view: View) -> None:
+        """Look from there, in every viewer."""
+        self._change(lambda scene: scene.look(view))
+
+    def refresh(self, state: SessionState) -> None:
+        """Hand the newest positions on, unless nobody sees them."""
+        scene, server = self.robot_scene, self.serving and self.serving.server
+        if scene is None or server is None:
+            return
+        hidden = self._view is not None and not self._own_window and not self.in_sight
+        out_of_sight = 1 if hidden else 0
+        if server.watching <= out_of_sight:
+            return
+        bench = self.workbench
+        live = bench.source is bench.session
+        scene.bound(bench.session.keep_out if live else None)
+        scene.show(Reading(state.measured, state.model, state.age_s))
+        scene.alive(time.monotonic())
+        server.changed()
+
+    # --- opening ----------------------------------------------------------------------------------
+
+    def _serve(self, then: Callable[[], None]) -> None:
+        """Start the server in the background, if there is none yet, and go on."""
+        if self.serving is None or self._busy:
+            return
+        if self.serving.server is not None:
+            then()
+            return
+        self._busy = True
+        self.show_state()
+
+        def done(_: None) -> None:
+            self._busy = False
+            then()
+            self.show_state()
+
+        def failed() -> None:
+            self._busy = False
+            self.show_state()
+
+        self.workbench.work("view3d", words.STARTING, self.serving.start, done, failed)
+
+    def _embed(self) -> None:
+        server = self.serving and self.serving.server
+        if server is None or self._view is not None:
+            return
+        self._busy = True
+        self._view = view = WebProcess(self)
+        view.made.connect(self._adopt)
+        view.loaded.connect(self._came)
+        view.ended.connect(self._ended)
+        view.stop_asked.connect(self.workbench.stop)
+        view.latch_asked.connect(self.workbench.emergency_stop)
+        view.start(server.url)
+        self.show_state()
+
+    def _adopt(self, widget: QWidget | None) -> None:
+        if widget is not None:
+            widget.setAccessibleName("The robot in three dimensions")
+            self.stack.addWidget(widget)
+            self.stack.setCurrentWidget(widget)
+        self._own_window = widget is None
+
+    def _came(self) -> None:
+        self._busy = False
+        self.show_state()
+
+    def _ended(self, why: str) -> None:
+        self.close_view()
+        self.show_state(words.LOST.format(why))
+
+    def _browse(self) -> None:
+        server = self.serving and self.serving.server
+        if server is None:
+            return
+        if not QDesktopServices.openUrl(QUrl(server.url)):
+            # The address is a secret: neither in a notice nor in the log.
+            QGuiApplication.clipboard().setText(server.url)
+            self.workbench.notify(Level.WARNING, words.NO_BROWSER)
+
+    def _close(self) -> None:
+        self.close_view(wait=True)
+        if self.serving is not None:
+            self.serving.close()
+
+    # --- inside -----------------------------------------------------------------------------------
+
+    def _change(self, change: Callable[[RobotScene], None]) -> None:
+        if self.robot_scene is None:
+            return
+        change(self.robot_scene)
+        if self.serving is not None and self.serving.server is not None:
+            self.serving.server.changed()
+
+    def show_state(self, trouble: str = "") -> None:
+        """Show what can be done now, and why not."""
+        unfit = embedding.why_not(os.environ, embedding.user_number())
+        busy = "the view is being opened" if self._busy else None
+        served = self.serving is not None and self.serving.server is not None
+        lines = [self._unfit or words.INTRODUCTION]
+        if self._busy:
+            lines.append(words.STARTING)
+        elif self._own_window:
+            lines.append(words.OWN_WINDOW)
+        elif self._unfit is None:
+            lines += [unfit or "", trouble]
+        self.words.setText("\n\n".join(line for line in lines if line))
+        here = "it is open here" if self._view else None
+        allow(self.here, self._unfit or unfit or busy or here, "Show the view in this panel")
+        allow(self.browser, self._unfit or busy, "Show the view in the browser of this desktop")
+        allow(self.end, None if self._view else "it is not open here", "Take the view away")
+        closed = None if served else "open the view first"
+        for view, button in self.views.items():
+            allow(button, closed, words.VIEWS[view][1])
+        allow(self.ghosts, closed, "Which robots are drawn")
+        allow(self.factor, closed, "Draw thx, thy and zn larger than they are, from mid-range")
+
+    def _make_widgets(self) -> None:
+        self.views = {view: QPushButton(text) for view, (text, _) in words.VIEWS.items()}
+        for view, button in self.views.items():
+            button.clicked.connect(lambda _=False, view=view: self.look(view))
+        self.ghosts = QComboBox()
+        self.ghosts.addItems(list(words.GHOSTS))
+        self.ghosts.setAccessibleName("Which robots are drawn")
+        self.ghosts.currentTextChanged.connect(
+            lambda text: self._change(lambda scene: scene.choose(*words.GHOSTS[text]))
+        )
+        self.factor = QComboBox()
+        for factor in words.FACTORS:
+            self.factor.addItem(words.factor_text(factor), factor)
+        self.factor.setAccessibleName("How much larger nano motion is drawn")
+        self.factor.currentIndexChanged.connect(
+            lambda at: self._change(lambda scene: scene.exaggerate(float(words.FACTORS[at])))
+        )
+        self.here = QPushButton("Show here")
+        self.here.clicked.connect(self.open_here)
+        self.browser = QPushButton("Open in the browser")
+        self.browser.clicked.connect(self.open_in_browser)
+        self.end = QPushButton("Close")
+        self.end.clicked.connect(self.close_view)
+        self.words = QLabel()
+        self.words.setTextFormat(Qt.TextFormat.PlainText)
+        self.words.setWordWrap(True)
+        self.words.setAlignment(Qt.AlignmentFlag.AlignCenter)
+
+    def _lay_out(self) -> None:
+        above, below = QHBoxLayout(), QHBoxLayout()  # one row would widen a small window
+        for button in self.views.values():
+            above.addWidget(button)
+        above.addStretch(1)
+        for widget in (self.ghosts, self.factor):
+            below.addWidget(widget)
+        below.addStretch(1)
+        for button in (self.here, self.browser, self.end):
+            below.addWidget(button)
+        self.stack = QStackedWidget()
+        start = QWidget()
+        column = QVBoxLayout(start)
+        column.addStretch(1)
+        column.addWidget(self.words)
+        column.addStretch(1)
+        self.stack.addWidget(start)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(10, 6, 10, 6)
+        outer.addLayout(above)
+        outer.addLayout(below)
+        outer.addWidget(self.stack, 1)
+
+    def _use_theme(self, theme: Theme) -> None:
+        self._change(lambda scene: scene.paint(words.colours_of(theme)))
+
+
+def scene_of(robot: Robot, theme: Theme) -> tuple[RobotScene | None, str | None]:
+    """Return the scene of a robot, or why there is none."""
+    try:
+        return RobotScene(robot, words.colours_of(theme), old_s=STALE_S), None
+    except ChainError as error:
+        return None, f"There is nothing to draw. {error}"
