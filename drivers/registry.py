@@ -7,6 +7,7 @@ from typing import Any
 
 from rotemina.drivers.driver import Driver
 from rotemina.sim.errors import InputError
+from rotemina.sim.plugin_points import PluginError, load, require_version
 
 DRIVERS = "rotemina.drivers"
 
@@ -63,15 +64,13 @@ def driver_named(name: str) -> type[Driver]:
 def _load(point: EntryPoint, base: type) -> type[Any] | str:
     """Return the class, or what is wrong with the entry point."""
     try:
-        loaded = point.load()
-    except Exception as error:  # a plugin may raise anything; the program starts without it
-        return f"{point.value} cannot be imported: {type(error).__name__}: {error}"
-    if not isinstance(loaded, type) or not issubclass(loaded, base):
-        return f"{point.value} is no {base.__name__}"
-    wanted = getattr(base, "api_version", None)
-    version = getattr(loaded, "api_version", None)
-    if version != wanted:
-        return f"{point.value} is made for version {version} of the interface, this is {wanted}"
+        loaded = load(point)
+        if not isinstance(loaded, type) or not issubclass(loaded, base):
+            return f"{point.value} is no {base.__name__}"
+        version, wanted = (getattr(kind, "api_version", None) for kind in (loaded, base))
+        require_version(point, version, wanted)
+    except PluginError as error:
+        return str(error)
     if inspect.isabstract(loaded):
         missing = ", ".join(sorted(getattr(loaded, "__abstractmethods__", ())))
         return f"{point.value} does not define {missing}"

@@ -1,0 +1,106 @@
+"""``rotemina plugin``: write a new plugin's package, list what is installed, check it."""
+
+import argparse
+from pathlib import Path
+
+from rotemina.app.cli.options import add_robot, robot_of
+from rotemina.sim.errors import InputError
+
+_FAILED = 1
+_KINDS = ("driver", "panel", "effect", "camera", "input")
+
+
+def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Add the subcommand with its own subcommands."""
+    parser = commands.add_parser(
+        "plugin",
+        help="write a new plugin, list plugins and check them",
+        description="Plugins of all kinds: drivers, panels, effects, cameras, input devices.",
+    )
+    verbs = parser.add_subparsers(metavar="", required=True)
+
+    one = verbs.add_parser(
+        "new",
+        help="write a package with a working, tested plugin",
+        description="Write a package rotemina-NAME into a folder of its own. Nothing that is "
+        "there is overwritten.",
+    )
+    one.add_argument("kind", metavar="KIND", choices=_KINDS, help=", ".join(_KINDS))
+    one.add_argument("name", metavar="NAME", help="small letters, digits, single underscores")
+    one.add_argument(
+        "--folder", type=Path, default=Path(), metavar="DIR", help="where to (default: here)"
+    )
+    one.set_defaults(run=new)
+
+    one = verbs.add_parser("list", help="one line for each plugin, and why any was left out")
+    one.add_argument("kind", nargs="?", metavar="KIND", choices=_KINDS, help="only this kind")
+    one.set_defaults(run=list_plugins)
+
+    one = verbs.add_parser(
+        "check",
+        help="put a plugin to the checks of its kind",
+        description="Import a plugin anew and put it to the checks of its kind. Of a driver of a "
+        "real device nothing is checked that moves an axis (see `rotemina driver check`). Exit "
+        "status: 0 all passed, 1 a check failed.",
+    )
+    one.add_argument("name", metavar="NAME")
+    one.add_argument("--kind", metavar="KIND", choices=_KINDS, help="where kinds share a name")
+    one.add_argument("--verbose", action="store_true", help="what each check demands as well")
+    add_robot(one)
+    one.set_defaults(run=check)
+
+
+def new(options: argparse.Namespace) -> int:
+    """Write a package and say what to do with it."""
+    from rotemina.app.plugin_kit.kinds import Kind  # the kinds take their time to import
+    from rotemina.app.plugin_kit.writing import new_plugin
+
+    place = new_plugin(Kind(options.kind), options.name, options.folder)
+    print(f"{place}: {options.kind} {options.name}; install it with")
+    print(f"  pip install --editable '{place}[test]'")
+    print(f"and see to it with `rotemina plugin check {options.name}` and `pytest {place}`.")
+    return 0
+
+
+def list_plugins(options: argparse.Namespace) -> int:
+    """Print a line for each plugin: kind, name, package, version, interface, state."""
+    from rotemina.app.plugin_kit.kinds import Kind, installed_plugins
+
+    print(f"{'kind':8}{'name':24}{'package':28}{'version':10}{'interface':11}state")
+    for kind in Kind if options.kind is None else (Kind(options.kind),):
+        for one in installed_plugins(kind):
+            written_for = "?" if one.api_version is None else str(one.api_version)
+            interface = f"{written_for} of {kind.api_version}"
+            state = f"left out: {one.refused}" if one.refused else "loaded"
+            package = one.package or "?"
+            print(f"{kind:8}{one.name:24}{package:28}{one.version or '?':10}{interface:11}{state}")
+    return 0
+
+
+def check(options: argparse.Namespace) -> int:
+    """Check the plugins of a name; status 1 if something failed."""
+    from rotemina.app.plugin_kit.checking import check_plugin
+    from rotemina.app.plugin_kit.kinds import named_points
+    from rotemina.drivers.conformance.check import Verdict
+
+    points = [
+        (kind, point)
+        for kind, point in named_points(options.name)
+        if options.kind in (None, str(kind))
+    ]
+    if not points:
+        wanted = options.kind or "plugin"
+        raise InputError(
+            f"there is no {wanted} {options.name!r}; `rotemina plugin list` tells which there are"
+        )
+    said = {Verdict.PASSED: "ok", Verdict.FAILED: "FAILED", Verdict.SKIPPED: "-"}
+    robot = robot_of(options)
+    failed = 0
+    for kind, point in points:
+        print(f"{kind} {point.name} ({point.value})", flush=True)
+        for result in check_plugin(kind, point, robot):
+            failed += result.verdict is Verdict.FAILED
+            print(f"  {said[result.verdict]:8}{result.name:38}{result.note}".rstrip(), flush=True)
+            if options.verbose or result.verdict is Verdict.FAILED:
+                print(f"          {result.demand}", flush=True)
+    return _FAILED if failed else 0

@@ -1,0 +1,104 @@
+"""The bench that a panel is put on: a simulated machine, no window, time set by hand."""
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from PySide6.QtCore import QCoreApplication, QEvent
+from PySide6.QtWidgets import QApplication
+from shiboken6 import isValid
+
+from rotemina.app.display import axis_scale
+from rotemina.app.motion.session import MotionSession
+from rotemina.app.panel import Panel
+from rotemina.app.settings import Settings
+from rotemina.app.shell import theme as themes
+from rotemina.app.shell.workbench import Workbench
+from rotemina.drivers.clock import VirtualClock
+from rotemina.drivers.simulator.driver import Simulator
+from rotemina.sim.robot.file import load_robot
+
+_READ_S = 0.02
+
+
+class PanelBench:
+    """A panel on a workbench whose machine stands, connected, with its first sample taken.
+
+    Attributes
+    ----------
+    panel : Panel
+    workbench : Workbench
+        The panel's own; what moves the machine is asked of it, as by the panel.
+    """
+
+    def __init__(self, panel: Panel, session: MotionSession, clock: VirtualClock) -> None:
+        self.panel = panel
+        self.workbench = panel.workbench
+        self._session = session
+        self._clock = clock
+
+    def advance(self, seconds: float, *, read: bool = True) -> None:
+        """Let time pass and show it; without ``read`` the machine has nothing to say meanwhile."""
+        left_s = seconds
+        while read and left_s > 0.0:
+            self._clock.advance(min(_READ_S, left_s))
+            self._session.run_once()
+            left_s -= _READ_S
+        if not read:
+            self._clock.advance(seconds)
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Tell the panel how the machine stands, as the window does once a frame."""
+        state = self._session.snapshot()
+        self.workbench.refreshed.emit(state)
+        self.workbench.shown.emit(state)
+        QCoreApplication.processEvents()
+
+    def text_of(self, axis: str) -> str:
+        """Return the latest reading of an axis as screens write it."""
+        described = self.workbench.robot.axes[axis]
+        return axis_scale(described).text(self._session.snapshot().measured[axis])
+
+
+@contextmanager
+def panel_bench(kind: type[Panel], robot: str = "rotemina") -> Iterator[PanelBench]:
+    """Make a panel on a simulated machine; everything is closed afterwards.
+
+    Parameters
+    ----------
+    kind : type of Panel
+    robot : str
+        A shipped robot, or a robot file.
+    """
+    application = _application()
+    with TemporaryDirectory() as folder:
+        clock = VirtualClock(1234.5)
+        session = MotionSession(Simulator(load_robot(robot), clock=clock))
+        themes.apply(application, themes.DARK)
+        settings = Settings(Path(folder) / "settings.json")
+        workbench = Workbench(session, settings, themes.DARK, Path(folder) / "played")
+        panel = None
+        try:
+            session.connect()
+            session.run_once()
+            panel = kind(workbench)
+            yield PanelBench(panel, session, clock)
+        finally:
+            workbench.close()
+            for widget in (panel, workbench):
+                if widget is not None and isValid(widget):  # a check may have ended it before
+                    widget.deleteLater()
+            QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+
+
+def _application() -> QApplication:
+    """Return the application, made without a display if there is none."""
+    application = QApplication.instance()
+    if application is None:
+        os.environ["QT_QPA_PLATFORM"] = "offscreen"
+        application = QApplication(["rotemina"])
+    assert isinstance(application, QApplication)
+    return application

@@ -1,0 +1,152 @@
+"""Panels of others that fail while the window is open: they are named and left out.
+
+What a panel raises in a paint event, a timer or a slot reaches nobody but Python's hook, and would
+come again with every frame. The hook finds the panel by the code that was running. One that cannot
+paint is left out at once, for Qt may not survive the next attempt; one that fails otherwise gets a
+few chances, for a button that does not work is no reason to take the rest away. Panels of this
+program stay, whatever they raise: an operator needs them.
+
+A panel that never returns holds up the window, and nothing in its own process can end it.
+"""
+
+import logging
+import sys
+from collections import Counter
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import FrameType, TracebackType
+
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QDockWidget, QMainWindow, QTabWidget, QWidget
+
+from rotemina.app.panel import Panel
+from rotemina.app.shell.workbench import Level
+
+logger = logging.getLogger(__name__)
+
+#: What a panel may raise in slots and timers before it is left out.
+MOST_FAULTS = 3
+_OWN = "rotemina."
+
+Hook = Callable[[type[BaseException], BaseException, TracebackType | None], object]
+
+
+class PanelWatch:
+    """Watches the panels of a window from :meth:`install` to :meth:`remove`.
+
+    Parameters
+    ----------
+    window : QMainWindow
+    panels : dict of str to Panel
+        The window's own: one that is left out is taken from it.
+    docks : dict of str to QDockWidget
+        Likewise.
+    tell : callable
+        Tells the operator something: a level and a text.
+    """
+
+    def __init__(
+        self,
+        window: QMainWindow,
+        panels: dict[str, Panel],
+        docks: dict[str, QDockWidget],
+        tell: Callable[[Level, str], object],
+    ) -> None:
+        self._window = window
+        self._panels = panels
+        self._docks = docks
+        self._tell = tell
+        # By module and the packages above it: whose code it is, also after a panel has gone.
+        self._modules: dict[str, str] = {}
+        for name, panel in panels.items():
+            if not type(panel).__module__.startswith(_OWN):
+                for module in _upwards(type(panel).__module__):
+                    self._modules.setdefault(module, name)
+        self._faults: Counter[str] = Counter()
+        self._before: Hook = sys.excepthook
+
+    def install(self) -> None:
+        """Begin to watch."""
+        self._before, sys.excepthook = sys.excepthook, self.on_exception
+
+    def remove(self) -> None:
+        """Watch no longer."""
+        sys.excepthook = self._before
+
+    def on_exception(
+        self, kind: type[BaseException], error: BaseException, trace: TracebackType | None
+    ) -> None:
+        """Take note of an exception that nobody caught; others' go to the hook before."""
+        if not self._noted(error, trace):
+            self._before(kind, error, trace)
+
+    @contextmanager
+    def guarding(self) -> Iterator[None]:
+        """Take note of what panels raise while this lasts.
+
+        What an event raises in the middle of a call of Qt's is raised by that call in its turn.
+        """
+        try:
+            yield
+        except Exception as error:
+            if not self._noted(error, error.__traceback__):
+                raise
+
+    def _noted(self, error: BaseException, trace: TracebackType | None) -> bool:
+        """Judge an exception, and return whether it is that of a panel that is watched."""
+        frames = list(_frames(trace))
+        name = next(filter(None, map(self._owner, frames)), None)
+        if name is None:
+            return False
+        if name not in self._panels:
+            return True  # what is left of it may fail as long as it likes
+        logger.error("panel %s", name, exc_info=error)
+        self._faults[name] += 1
+        said = f"{type(error).__name__}: {error}"
+        painting = any(frame.f_code.co_name == "paintEvent" for frame in frames)
+        if painting or self._faults[name] >= MOST_FAULTS:
+            panel = self._panels.pop(name)
+            dock = self._docks.pop(name, None)
+            what = "failing to paint itself" if painting else f"failing {self._faults[name]} times"
+            self._tell(Level.ERROR, f"Panel {name!r} is left out after {what}: {said}")
+            # Not now: this may be in the middle of the panel's own event.
+            QTimer.singleShot(0, self._window, lambda: self._take_out(panel, dock))
+        elif self._faults[name] == 1:
+            self._tell(Level.WARNING, f"Panel {name!r} has failed: {said}")
+        return True
+
+    def _owner(self, frame: FrameType) -> str | None:
+        """Return the panel that a frame's code is of."""
+        above = _upwards(str(frame.f_globals.get("__name__", "")))
+        return next((self._modules[module] for module in above if module in self._modules), None)
+
+    def _take_out(self, panel: Panel, dock: QDockWidget | None) -> None:
+        """Take a panel out of the window and end it, with its timers and what it listens to."""
+        panel.hide()
+        if dock is not None:
+            self._window.removeDockWidget(dock)
+            dock.deleteLater()
+        elif (tabs := _tabs_of(panel)) is not None:
+            tabs.removeTab(tabs.indexOf(panel))
+        panel.deleteLater()
+
+
+def _frames(trace: TracebackType | None) -> Iterator[FrameType]:
+    while trace is not None:
+        yield trace.tb_frame
+        trace = trace.tb_next
+
+
+def _upwards(module: str) -> Iterator[str]:
+    """Yield a module's name and those of the packages above it."""
+    while module:
+        yield module
+        module = module.rpartition(".")[0]
+
+
+def _tabs_of(panel: QWidget) -> QTabWidget | None:
+    """Return the tabs that a panel is a page of."""
+    widget = panel.parentWidget()
+    while widget is not None and not isinstance(widget, QTabWidget):
+        widget = widget.parentWidget()
+    return widget

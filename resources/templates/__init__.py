@@ -1,0 +1,1 @@
+"""Templates of packages with plugins, for ``rotemina plugin new``."""

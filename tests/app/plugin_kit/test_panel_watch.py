@@ -1,0 +1,165 @@
+"""A third party's panel that fails while the window is open is named and left out; ours stay."""
+
+import sys
+from types import ModuleType
+
+import pytest
+from PySide6.QtCore import QCoreApplication, QEvent, Qt
+from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QTabWidget, QWidget
+from shiboken6 import isValid
+
+from rotemina.app.plugin_kit.panel_watch import MOST_FAULTS, PanelWatch
+from rotemina.app.shell.workbench import Level
+
+THEIRS = """
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QLabel
+
+
+class Fragile(QLabel):
+    paints_badly = False
+
+    def paintEvent(self, event):
+        if self.paints_badly:
+            raise ValueError("no colour")
+
+    def click(self):
+        raise KeyError("thy")
+
+    def tick(self):
+        QTimer.singleShot(0, self, self.click)
+"""
+
+
+def module_of(name):
+    """A module that was imported from elsewhere."""
+    module = ModuleType(name)
+    exec(compile(THEIRS, name, "exec"), vars(module))  # noqa: S102
+    return module
+
+
+@pytest.fixture
+def make(qtbot):
+    """Make a window with two panels, one in a dock and one in a tab, that is watched."""
+    made = []
+
+    def make(package="others_panels"):
+        window = QMainWindow()
+        qtbot.addWidget(window)
+        kind = module_of(f"{package}.panel").Fragile
+        docked, tabbed = kind("docked"), module_of("second_panels").Fragile("tabbed")
+        dock, tabs = QDockWidget("docked"), QTabWidget()
+        dock.setWidget(docked)
+        tabs.addTab(QLabel("ours"), "ours")
+        tabs.addTab(tabbed, "tabbed")
+        window.setCentralWidget(tabs)
+        window.addDockWidget(Qt.DockWidgetArea.RightDockWidgetArea, dock)
+        told = []
+        panels, docks = {"docked": docked, "tabbed": tabbed}, {"docked": dock}
+        watch = PanelWatch(window, panels, docks, lambda *said: told.append(said))
+        watch.install()
+        made.append(watch)
+        window.show()
+        return window, panels, docks, told
+
+    yield make
+    for watch in made:
+        watch.remove()
+
+
+def settle():
+    for _ in range(3):  # what is due now, what that has asked for, and what is to be deleted
+        QCoreApplication.processEvents()
+        QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+
+
+def test_one_that_cannot_paint_is_left_out_at_once(make):
+    window, panels, docks, told = make()
+    bad = panels["docked"]
+    bad.paints_badly = True
+    bad.repaint()
+    settle()
+    ((level, text),) = told
+    assert level is Level.ERROR
+    assert "'docked' is left out" in text
+    assert "ValueError: no colour" in text
+    assert not isValid(bad)
+    assert docks == {}
+    assert list(panels) == ["tabbed"]
+    assert window.findChildren(QDockWidget) == []
+
+
+def test_one_that_fails_in_slots_and_timers_has_a_few_chances(make):
+    _, panels, _, told = make()
+    bad = panels["tabbed"]
+    tabs = bad.parentWidget().parentWidget()
+    for _ in range(MOST_FAULTS):
+        assert isValid(bad)
+        bad.tick()
+        settle()
+    assert [level for level, _ in told] == [Level.WARNING, Level.ERROR]
+    assert f"failing {MOST_FAULTS} times: KeyError: 'thy'" in told[-1][1]
+    assert not isValid(bad)
+    assert [tabs.tabText(number) for number in range(tabs.count())] == ["ours"]
+    assert list(panels) == ["docked"]
+
+
+def raised(call):
+    try:
+        call()
+    except Exception as error:
+        return type(error), error, error.__traceback__
+    raise AssertionError("nothing was raised")
+
+
+def test_what_an_event_raises_within_a_call_is_noted(make):
+    window, panels, docks, told = make()
+    panels["docked"].paints_badly = True
+    watch = PanelWatch(window, panels, docks, lambda *said: told.append(said))
+    with watch.guarding():
+        panels["docked"].grab()
+    settle()
+    assert "'docked' is left out" in told[0][1]
+    with pytest.raises(ZeroDivisionError), watch.guarding():
+        _ = 1 / 0
+
+
+def test_what_is_left_of_a_panel_may_fail_in_silence(make):
+    _, panels, _, told = make()
+    bad = panels["docked"]
+    seen = raised(bad.click)
+    for _ in range(MOST_FAULTS + 5):
+        sys.excepthook(*seen)
+    settle()
+    assert len(told) == 2
+
+
+@pytest.mark.parametrize("package", ["rotemina.plugins.control", "rotemina.app.shell"])
+def test_our_own_stay_and_go_to_the_hook_before(make, monkeypatch, package):
+    passed_on = []
+    monkeypatch.setattr(sys, "excepthook", lambda *seen: passed_on.append(seen[0]))
+    _, panels, docks, told = make(package)
+    sys.excepthook(*raised(panels["docked"].click))
+    assert passed_on == [KeyError]
+    assert (told, list(panels), list(docks)) == ([], ["docked", "tabbed"], ["docked"])
+
+
+def test_what_no_panel_raised_goes_to_the_hook_before(make, monkeypatch):
+    passed_on = []
+    monkeypatch.setattr(sys, "excepthook", lambda *seen: passed_on.append(seen[0]))
+    make()
+    sys.excepthook(*raised(lambda: 1 / 0))
+    assert passed_on == [ZeroDivisionError]
+
+
+def test_a_panel_that_stands_alone_is_taken_out(make, qtbot):
+    _, panels, _, _ = make()
+    alone = panels["tabbed"]
+    parent = QWidget()
+    qtbot.addWidget(parent)
+    alone.setParent(parent)
+    alone.show()
+    alone.paints_badly = True
+    parent.show()
+    settle()
+    assert not isValid(alone)
