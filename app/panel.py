@@ -12,8 +12,9 @@ from typing import ClassVar
 from PySide6.QtWidgets import QWidget
 
 from rotemina.app.shell.workbench import Workbench
+from rotemina.sim.plugin_points import API_VERSIONS
 
-API_VERSION = 1
+API_VERSION = API_VERSIONS["rotemina.panels"]
 STALE_S = 0.5  # data older than this is shown as old
 
 

@@ -2,6 +2,7 @@
 
 import json
 import logging
+import threading
 from pathlib import Path
 from typing import TypeVar
 
@@ -16,7 +17,7 @@ Value = TypeVar("Value", str, bool, int, float)
 
 
 class Settings:
-    """A small JSON file of preferences: ``section.key`` → text, number or switch.
+    """A small JSON file of preferences: ``section.key`` → text, number or switch. For any thread.
 
     Parameters
     ----------
@@ -25,6 +26,7 @@ class Settings:
 
     def __init__(self, path: Path | None = None) -> None:
         self._path = path or user_config_path("rotemina", appauthor=False) / "settings.json"
+        self._lock = threading.Lock()  # only one thread changes and writes
         self._values = self._load()
 
     @property
@@ -47,12 +49,13 @@ class Settings:
 
     def set(self, key: str, value: str | bool | int | float) -> None:
         """Keep a preference and write the file; a failure is logged, not raised."""
-        self._values[key] = value
-        try:
-            self._path.parent.mkdir(parents=True, exist_ok=True)
-            write_text(self._path, json.dumps(self._values, indent=1, sort_keys=True))
-        except (OSError, FileWriteError) as error:
-            logger.warning("%s: preferences cannot be kept: %s", self._path, error)
+        with self._lock:
+            self._values[key] = value
+            try:
+                self._path.parent.mkdir(parents=True, exist_ok=True)
+                write_text(self._path, json.dumps(self._values, indent=1, sort_keys=True))
+            except (OSError, FileWriteError) as error:
+                logger.warning("%s: preferences cannot be kept: %s", self._path, error)
 
     def _load(self) -> dict[str, object]:
         try:

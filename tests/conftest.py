@@ -1,6 +1,7 @@
 """What every test may use: an offscreen Qt and the folder of shared material."""
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,9 @@ settings.register_profile("repeatable", derandomize=True, deadline=None, print_b
 settings.load_profile("repeatable")
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+
+#: Panels of every window in tests, whatever others they ask for.
+USUAL = ("control", "plots", "trajectory", "comparison")
 
 BESIDE_REPOSITORY = Path(__file__).parents[2] / "shared"
 
@@ -36,7 +40,32 @@ def settings(tmp_path):
 
 
 @pytest.fixture
-def make_robot_window(qtbot, settings, tmp_path):
+def panels_made(request, monkeypatch):
+    """Leave out of a window the panels that a module of tests does not ask for.
+
+    Making all of them takes seconds. ``PANELS`` in a module names those beside the usual ones;
+    tests of one panel ask for that one by their place; others, and those that are marked
+    ``every_panel``, get all.
+    """
+    wanted = getattr(request.module, "PANELS", None)
+    if "plugins" in request.path.parts:
+        wanted = {*(wanted or ()), request.path.parent.name, *request.path.stem.split("_")}
+    if wanted is None or request.node.get_closest_marker("every_panel") is not None:
+        return
+    from rotemina.app.shell import host
+
+    discover = host.discover
+
+    def some(group, base):
+        found = discover(group, base)
+        kept = {name: one for name, one in found.found.items() if name in {*USUAL, *wanted}}
+        return replace(found, found=kept)
+
+    monkeypatch.setattr(host, "discover", some)
+
+
+@pytest.fixture
+def make_robot_window(qtbot, settings, tmp_path, panels_made):
     """Make windows on the simulator of any robot; all are closed, and no thread stays.
 
     With a driver of its own, made of the robot, nobody waits until the window can move anything.

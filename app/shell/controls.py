@@ -6,6 +6,8 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
+_WHY_NOT = "whyNot"
+
 
 def plain_tip(*lines: str) -> str:
     """Return a tooltip whose lines are no markup, whatever they hold."""
@@ -18,6 +20,12 @@ def allow(widget: QWidget, why_not: str | None, tip: str) -> None:
     text = plain_tip(tip, f"Not now: {why_not}" if why_not else "")
     if widget.toolTip() != text:
         widget.setToolTip(text)
+        widget.setProperty(_WHY_NOT, why_not or "")
+
+
+def why_not(widget: QWidget) -> str | None:
+    """Return why a control cannot act, as :func:`allow` was told last."""
+    return widget.property(_WHY_NOT) or None
 
 
 class ElidedLabel(QLabel):

@@ -26,7 +26,7 @@ def make_panels(workbench: Workbench) -> tuple[dict[str, Panel], Mapping[str, st
     for name, kind in sorted(found.found.items(), key=lambda item: (item[1].order, item[0])):
         try:
             panels[name] = kind(workbench)
-        except Exception as error:  # whatever a plugin raises, the window opens without it
+        except (Exception, SystemExit) as error:  # whatever it raises, the window opens without it
             logger.exception("panel %s cannot be made", name)
             broken[name] = f"{type(error).__name__}: {error}"
     return panels, broken

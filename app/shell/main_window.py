@@ -1,20 +1,19 @@
 """The window that hosts the panels: tool bar with the stop button, docks, notices, status."""
 
-from base64 import b64decode, b64encode
-from collections.abc import Callable
+import logging
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import NamedTuple
 
-from PySide6.QtCore import QByteArray, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QCloseEvent, QKeySequence
 from PySide6.QtWidgets import (
     QApplication,
+    QDialog,
     QDockWidget,
     QFileDialog,
     QMainWindow,
     QMenu,
     QMessageBox,
-    QTabBar,
     QTabWidget,
     QVBoxLayout,
     QWidget,
@@ -22,44 +21,28 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
-from rotemina.app.shell import theme as themes
+from rotemina.app.shell import commands, key_help, layout_menu, layouts
+from rotemina.app.shell.arrangement import Arrangement
 from rotemina.app.shell.column_mapping import ask_columns
+from rotemina.app.shell.entries import Entry, command_entries, panel_entries
 from rotemina.app.shell.host import make_panels
+from rotemina.app.shell.log_page import LogPage
+from rotemina.app.shell.message_log import MessageLog
 from rotemina.app.shell.motion_bar import MotionBar, StopWatch
 from rotemina.app.shell.notices import NoticeBar
+from rotemina.app.shell.palette import Palette
+from rotemina.app.shell.progress import ProgressLine
 from rotemina.app.shell.recording_sign import RecordingSign
 from rotemina.app.shell.replay_bar import ReplayBar
 from rotemina.app.shell.status import StatusText
+from rotemina.app.shell.support_page import SupportPage
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.drivers.samples import DeviceState
 
-LAYOUT_VERSION = 1
+LEAST_HEIGHT = 300  # px of the central panels: notices must not make the window grow
 FILES = "Records and trajectories (*.csv *.txt *.dat *.gz);;All files (*)"
-DOCK_AREAS = {
-    Area.LEFT: Qt.DockWidgetArea.LeftDockWidgetArea,
-    Area.RIGHT: Qt.DockWidgetArea.RightDockWidgetArea,
-    Area.BOTTOM: Qt.DockWidgetArea.BottomDockWidgetArea,
-}
 # Wide tables and long forms: one behind the other, not side by side or one below the other.
 TABBED = (Area.BOTTOM, Area.RIGHT)
-
-
-def _decoded(text: str) -> QByteArray:
-    """Return kept bytes; none where they were spoilt, which Qt then ignores."""
-    try:
-        return QByteArray(b64decode(text, validate=True))
-    except ValueError:
-        return QByteArray()
-
-
-class Command(NamedTuple):
-    """One entry of a menu."""
-
-    menu: str
-    text: str
-    shortcut: str
-    run: Callable[[], object]
-    tip: str
 
 
 class MainWindow(QMainWindow):
@@ -75,22 +58,33 @@ class MainWindow(QMainWindow):
         self.panels, broken = make_panels(workbench)
         self.docks: dict[str, QDockWidget] = {}
         self._menus: dict[str, QMenu] = {}
+        self._leaving = False
+        self._support: SupportPage | None = None
+        self.log = MessageLog()
+        logging.getLogger().addHandler(self.log)
+        workbench.closing.connect(lambda: logging.getLogger().removeHandler(self.log))
+        workbench.noticed.connect(self.log.notice)
         self._bar = MotionBar(workbench)
         self.stop_button, self.emergency_button = self._bar.stop, self._bar.emergency
         self.addToolBar(self._bar)
         self._make_docks()
+        self.arrangement = Arrangement(self)
         self._make_menus()
         self._make_status_bar()
-        self._restore()
+        self.log_page = LogPage(self.log, workbench.theme, self)
+        workbench.theme_changed.connect(self.log_page.set_theme)
+        self.palette_page = Palette(self._entries, self)
+        self.arrangement.restore()
+        self.arrangement.dress()
         application = QApplication.instance()
         assert application is not None
-        self._stop_watch = StopWatch(workbench, self.stop_button, self)
+        self._stop_watch = StopWatch(workbench, self.stop_button, self.emergency_button, self)
         application.installEventFilter(self._stop_watch)
         workbench.noticed.connect(self.notices.show_notice)
         workbench.refreshed.connect(self._refresh)
-        workbench.plan_changed.connect(lambda _: self._bring_up("trajectory"))
-        workbench.run_changed.connect(lambda _: self._bring_up("comparison"))
-        workbench.ports_offered.connect(lambda ports: ports and self._bring_up("connection"))
+        workbench.plan_changed.connect(lambda _: self.bring_up("trajectory"))
+        workbench.run_changed.connect(lambda _: self.bring_up("comparison"))
+        workbench.ports_offered.connect(lambda ports: ports and self.bring_up("connection"))
         for name, reason in broken.items():
             workbench.notify(Level.ERROR, f"Panel {name!r} is left out: {reason}")
 
@@ -98,6 +92,7 @@ class MainWindow(QMainWindow):
 
     def _make_docks(self) -> None:
         centre = QWidget()
+        centre.setMinimumHeight(LEAST_HEIGHT)
         column = QVBoxLayout(centre)
         column.setContentsMargins(6, 6, 6, 6)
         column.addWidget(self.replay_bar)
@@ -105,7 +100,7 @@ class MainWindow(QMainWindow):
         column.addWidget(self._central_panels(), 1)
         self.setCentralWidget(centre)
         for area in TABBED:
-            self.setTabPosition(DOCK_AREAS[area], QTabWidget.TabPosition.North)
+            self.setTabPosition(layouts.DOCK_AREAS[area], QTabWidget.TabPosition.North)
         self.setCorner(Qt.Corner.BottomLeftCorner, Qt.DockWidgetArea.LeftDockWidgetArea)
         first: dict[Area, QDockWidget] = {}
         for name, panel in self.panels.items():
@@ -114,27 +109,17 @@ class MainWindow(QMainWindow):
             dock = self.docks[name] = self._dock(name, panel)
             if panel.area in TABBED and first.setdefault(panel.area, dock) is not dock:
                 self.tabifyDockWidget(first[panel.area], dock)
-        for area, dock in first.items():
+        for dock in first.values():
             dock.raise_()
-            self._hide_forgotten_tabs(area)
         if Area.BOTTOM in first:
             self.resizeDocks([first[Area.BOTTOM]], [260], Qt.Orientation.Vertical)
-        self._default_state = self.saveState(LAYOUT_VERSION)
-
-    def _hide_forgotten_tabs(self, area: Area) -> None:
-        """Hide the tab bars of fewer docks that Qt makes on the way and forgets (seen in 6.11)."""
-        titles = {panel.title for panel in self.panels.values() if panel.area is area}
-        only_mine = Qt.FindChildOption.FindDirectChildrenOnly
-        for bar in self.findChildren(QTabBar, options=only_mine):
-            shown = {bar.tabText(number) for number in range(bar.count())}
-            if shown < titles:
-                bar.hide()
 
     def _central_panels(self) -> QWidget:
         central = [panel for panel in self.panels.values() if panel.area is Area.CENTRE]
+        self.central_tabs: QTabWidget | None = None
         if len(central) == 1:
             return central[0]
-        tabs = QTabWidget()
+        tabs = self.central_tabs = QTabWidget()
         for panel in central:
             tabs.addTab(panel, panel.title)
         return tabs
@@ -145,7 +130,7 @@ class MainWindow(QMainWindow):
         panel.setObjectName("panel")
         panel.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         dock.setWidget(panel)
-        self.addDockWidget(DOCK_AREAS[panel.area], dock)
+        self.addDockWidget(layouts.DOCK_AREAS[panel.area], dock)
         return dock
 
     def _make_menus(self) -> None:
@@ -153,43 +138,25 @@ class MainWindow(QMainWindow):
             menu = self._menu(command.menu)
             action = QAction(command.text, self)
             action.setShortcut(QKeySequence(command.shortcut))
+            # Of the whole program: a floating dock is a window of its own.
+            action.setShortcutContext(Qt.ShortcutContext.ApplicationShortcut)
             action.setStatusTip(command.tip)
             action.triggered.connect(lambda _=False, run=command.run: run())
             menu.addAction(action)
         view = self._menu("&View")
         view.addSeparator()
+        arrangement = self.arrangement
+        self.layout_menu = layout_menu.KeptLayoutMenu(arrangement.kept, arrangement.use_kept, view)
+        view.addMenu(self.layout_menu)
+        view.addSeparator()
         for dock in self.docks.values():
             view.addAction(dock.toggleViewAction())
+        self.layout_row = layout_menu.LayoutRow(arrangement.arrange)
+        self.menuBar().setCornerWidget(self.layout_row)
 
-    def commands(self) -> list[Command]:
+    def commands(self) -> list[commands.Command]:
         """Return every command of the menus."""
-        bench = self.workbench
-        return [
-            Command(
-                "&File", "Load &trajectory …", "Ctrl+T", self.ask_trajectory, "Load and dry-run"
-            ),
-            Command("&File", "&Open record …", "Ctrl+O", self.ask_record, "Compare with the model"),
-            Command("&File", "&Save record …", "Ctrl+S", self.ask_save, "Save the last record"),
-            Command("&File", "&Quit", "Ctrl+Q", self.close, "Stop and leave"),
-            Command(
-                "&Motion",
-                "&Play or pause",
-                "Ctrl+P",
-                bench.toggle_playback,
-                "The loaded trajectory",
-            ),
-            Command("&Motion", "&Stop", "", bench.stop, "Stop all axes and hold (Esc)"),
-            Command("&Motion", "&Emergency stop", "", bench.emergency_stop, "Latched (Shift+Esc)"),
-            Command("&Motion", "Re&lease the emergency stop", "", bench.release, "Unlatch it"),
-            Command("&Motion", "&Back", "", bench.undo, "Back to before the latest move"),
-            Command("&Motion", "&Home all axes", "", bench.home, "Find the limit switches"),
-            Command("&Motion", "&Clear fault", "", bench.clear_fault, "Acknowledge it"),
-            Command("&Motion", "&Reconnect", "", bench.reconnect, "Connect after a failure"),
-            Command("&Motion", "&Disconnect", "", bench.let_go, "Stop, and let go of the device"),
-            Command("&View", "&Light theme", "", lambda: self.use_theme("light"), ""),
-            Command("&View", "&Dark theme", "", lambda: self.use_theme("dark"), ""),
-            Command("&View", "&Restore the layout", "", self.reset_layout, "Bring all docks back"),
-        ]
+        return commands.commands(self)
 
     def _menu(self, title: str) -> QMenu:
         """Return a menu of the menu bar, made when it is first asked for."""
@@ -200,6 +167,8 @@ class MainWindow(QMainWindow):
     def _make_status_bar(self) -> None:
         self._status = StatusText(self.workbench)
         self.statusBar().addWidget(self._status, 1)
+        self.progress_line = ProgressLine()
+        self.statusBar().addPermanentWidget(self.progress_line)
         self.recording_sign = RecordingSign(self.workbench)
         self.statusBar().addPermanentWidget(self.recording_sign)
         self.statusBar().setSizeGripEnabled(False)
@@ -250,48 +219,93 @@ class MainWindow(QMainWindow):
 
     def use_theme(self, name: str) -> None:
         """Change the colours and remember them."""
-        theme = themes.theme_named(name)
-        application = QApplication.instance()
-        assert isinstance(application, QApplication)
-        themes.apply(application, theme)
-        self.workbench.settings.set("window.theme", theme.name)
-        self.workbench.set_theme(theme)
+        self.arrangement.use_theme(name)
 
     def reset_layout(self) -> None:
         """Bring every dock back to where it was at first."""
-        self.restoreState(self._default_state, LAYOUT_VERSION)
-        for dock in self.docks.values():
-            dock.show()
+        self.arrangement.reset()
 
-    def _restore(self) -> None:
-        self.resize(1280, 800)
-        settings = self.workbench.settings
-        self.restoreGeometry(_decoded(settings.get("window.geometry", "")))
-        self.restoreState(_decoded(settings.get("window.state", "")), LAYOUT_VERSION)
+    def ask_layout_name(self) -> None:
+        """Ask for a name, and keep the layout under it."""
+        layout_menu.ask_name(self, self.arrangement.keep)
 
-    def _remember(self) -> None:
-        kept = {"geometry": self.saveGeometry(), "state": self.saveState(LAYOUT_VERSION)}
-        for key, value in kept.items():
-            self.workbench.settings.set(f"window.{key}", b64encode(value.data()).decode("ascii"))
+    def bring_up(self, name: str) -> None:
+        """Show a panel, in front of those beside it, whether its dock was closed or not."""
+        if name in self.docks:
+            self.docks[name].show()
+            self.docks[name].raise_()
+        elif name in self.panels and self.central_tabs is not None:
+            self.central_tabs.setCurrentWidget(self.panels[name])
+
+    # --- help -------------------------------------------------------------------------------------
+
+    def toggle_palette(self) -> None:
+        """Open the command palette, or close it."""
+        if self.palette_page.isVisible():
+            self.palette_page.hide()
+        else:
+            self.palette_page.open_anew()
+
+    def _entries(self) -> Iterator[Entry]:
+        yield from command_entries(self.commands())
+        use = self.arrangement.use_kept
+        for name in self.arrangement.kept.names():
+            yield Entry("Layout", name, "", None, lambda name=name: use(name))
+        yield from panel_entries(self.panels, self.docks, self.bring_up)
+
+    def show_keys(self) -> None:
+        """List all shortcuts."""
+        key_help.KeyHelp(key_help.keys(self.findChildren(QAction)), self).show()
+
+    def show_log(self) -> None:
+        """Show all that the program told."""
+        _come_up(self.log_page)
+
+    def show_support(self) -> None:
+        """Put a support bundle together and show what is in it."""
+        if self._support is not None:
+            self._support.close()
+            self._support.deleteLater()
+        self._support = SupportPage(self.workbench, self.log, self)
+        _come_up(self._support)
 
     # --- what happens -----------------------------------------------------------------------------
 
     def _refresh(self, state: SessionState) -> None:
         self._bar.refresh(state)
-
-    def _bring_up(self, name: str) -> None:
-        if name in self.docks:
-            self.docks[name].raise_()
+        self.progress_line.show_progress(self.workbench.progress)
 
     def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Stop first, and then ask where a played record would be lost."""
+        """Stop first; then ask where a record would be lost, and wait for what is being written.
+
+        To close it once more leaves at once: what was recorded stays to be recovered.
+        """
         self.workbench.stop()
-        if self._would_lose_a_record() and not self._may_discard():
+        if not self._leaving and self._would_lose_a_record() and not self._may_discard():
             event.ignore()
             return
-        self._remember()
+        waiting = self.workbench.operation.recording is not None or self.workbench.busy
+        if waiting and not self._leaving:
+            event.ignore()
+            self._leave_later()
+            return
+        self._leaving = True
+        self.arrangement.remember()
         self.workbench.close()
         event.accept()
+
+    def _leave_later(self) -> None:
+        """Close when a recording is in its file, which may take long; the window lives on."""
+        self._leaving = True
+        self.workbench.notify(
+            Level.INFO,
+            "The window closes as soon as everything is written. Close it once more to leave at "
+            "once: a recording can be recovered at the next start.",
+        )
+        self.workbench.finish_recording(self.close, self._stay)
+
+    def _stay(self) -> None:
+        self._leaving = False
 
     def _would_lose_a_record(self) -> bool:
         playing = self.workbench.session.snapshot().activity is DeviceState.PLAYING
@@ -307,3 +321,9 @@ class MainWindow(QMainWindow):
             button.No,
         )
         return answer == button.Yes
+
+
+def _come_up(page: QDialog) -> None:
+    page.show()
+    page.raise_()
+    page.activateWindow()

@@ -18,15 +18,18 @@ _SOFTWARE = "This is a stop by software, not the machine's emergency switch."
 
 
 class StopWatch(QObject):
-    """Stops all motion on Esc and on the stop button, whatever else is open.
+    """Stops all motion on Esc and on the stop buttons, whatever else is open or has the focus.
 
-    Shift+Esc latches. The event goes on to where it was meant for, so that Esc closes a dialog too.
+    Shift+Esc latches, and so does the emergency button; only that releases what it latched. The
+    event goes on to where it was meant for, so that Esc closes a dialog too.
     """
 
-    def __init__(self, requests: Requests, button: QPushButton, parent: QObject) -> None:
+    def __init__(
+        self, requests: Requests, stop: QPushButton, emergency: QPushButton, parent: QObject
+    ) -> None:
         super().__init__(parent)
         self._requests = requests
-        self._button = button
+        self._stops = ((stop, requests.stop), (emergency, requests.emergency_stop))
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
         """Stop, and let the event pass."""
@@ -37,10 +40,12 @@ class StopWatch(QObject):
         return False
 
     def _click(self, event: QMouseEvent) -> None:
-        """Stop where the button was pressed although a menu that is open takes the click."""
-        place = self._button.mapFromGlobal(event.globalPosition().toPoint())
-        if self._button.isVisible() and self._button.rect().contains(place):
-            self._requests.stop()
+        """Stop where a button was pressed although a menu that is open takes the click."""
+        at = event.globalPosition().toPoint()
+        for button, stop in self._stops:
+            over = button.isVisible() and button.rect().contains(button.mapFromGlobal(at))
+            if over and not button.isChecked():
+                stop()
 
     def _press(self, event: QKeyEvent) -> None:
         if event.key() != Qt.Key.Key_Escape:

@@ -62,15 +62,28 @@ def main(folder: Path) -> int:
                 count += 1
                 panels = window.panels if theme == "dark" else {}
                 for panel_name, panel in panels.items():
-                    if panel_name in window.docks:  # one behind another has no size of its own
-                        window.docks[panel_name].raise_()
-                        QApplication.processEvents()
+                    bring_up(window, panel_name)  # one behind another has no size of its own
                     panel.grab().save(str(folder / f"{panel_name}-{name}.png"))
                     count += 1
         window.workbench.close()
         window.hide()
     print(f"{count} pictures in {folder}")
     return 0
+
+
+def bring_up(window: "MainWindow", name: str) -> None:
+    """Put a panel before the others of its place; the microscope with its first picture."""
+    from PySide6.QtWidgets import QApplication, QTabWidget
+
+    panel = window.panels[name]
+    if name in window.docks:
+        window.docks[name].raise_()
+    for tabs in window.findChildren(QTabWidget):
+        if tabs.indexOf(panel) >= 0:
+            tabs.setCurrentWidget(panel)
+    QApplication.processEvents()
+    while name == "microscope" and panel.view.frame is None:
+        QApplication.processEvents()
 
 
 def diagnose(window: "MainWindow") -> None:

@@ -12,8 +12,10 @@ from PySide6.QtGui import QIcon, QImage, QPixmap
 from PySide6.QtWidgets import QApplication
 
 from rotemina.app.motion.session import MotionSession
+from rotemina.app.plugin_kit.panel_watch import PanelWatch
 from rotemina.app.settings import Settings
 from rotemina.app.shell import theme as themes
+from rotemina.app.shell.layouts import OPERATE
 from rotemina.app.shell.main_window import MainWindow
 from rotemina.app.shell.workbench import Workbench
 
@@ -49,10 +51,15 @@ def run(session: MotionSession, settings: Settings) -> int:
     """Show the window and run it; return the exit status."""
     application = make_application()
     window = make_window(session, settings)
+    watch = PanelWatch(window, window.panels, window.docks, window.workbench.notify)
+    watch.install()
     # Python's collector runs on whatever thread happens to allocate, and what it frees on the
     # session's thread may belong to Qt, which allows that on this one alone.
     collector = GarbageCollector(interval=1.0)
-    window.show()
+    with watch.guarding():
+        window.show()
+        if not settings.get("window.state", ""):  # a first start shows what is needed to begin
+            window.arrangement.arrange(OPERATE)
     window.workbench.start()
     # Only asked for here: a handler may interrupt anything, a lock that closing needs as well.
     signal.signal(signal.SIGINT, lambda *_: QTimer.singleShot(0, window.close))
@@ -61,5 +68,6 @@ def run(session: MotionSession, settings: Settings) -> int:
     wake.timeout.connect(lambda: None)
     wake.start()
     status = application.exec()
+    watch.remove()
     collector.timer.stop()
     return status

@@ -10,6 +10,7 @@ from typing import TypeVar
 
 from PySide6.QtCore import QTimer, Signal
 
+from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.motion.deviation import Excess
 from rotemina.app.motion.operation import Operation
 from rotemina.app.motion.playback import Playback, PlaybackPhase
@@ -18,6 +19,7 @@ from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import CommandRefused, Event, Faulted, PlaybackFinished
 from rotemina.app.settings import Settings
 from rotemina.app.shell.background import Background
+from rotemina.app.shell.progress import Progress
 from rotemina.app.shell.replaying import Replaying, opened, remark
 from rotemina.app.shell.requests import Requests
 from rotemina.app.shell.theme import Theme
@@ -77,7 +79,9 @@ class Workbench(Requests):
     ``played_folder`` by itself as soon as it ends. ``pace`` (times as fast as the trajectory says)
     and ``bounds`` (of the deviation of readings from the model, m or rad by axis) are what the next
     playback is begun with. ``operation`` is what an operator's hand does with the machine: input
-    devices, teleoperation, penetration, recorder. Its data go beside ``played_folder``. ``source``
+    devices, teleoperation, penetration, recorder. Its data go beside ``played_folder``.
+    ``microscope`` is camera, calibration, clicks and vision. ``progress`` is long work that is
+    under way, see :meth:`long_work`. ``source``
     is what is shown: the machine, or a replay of ``replaying``; whoever draws positions reads
     ``source`` and ``shown``, and whoever acts on the machine reads ``session`` and ``refreshed``.
 
@@ -118,6 +122,7 @@ class Workbench(Requests):
         self.unsaved: Record | None = None
         self.pace = 1.0
         self.bounds: dict[str, float] = {}
+        self.progress: Progress | None = None
         self._background = Background(self)
         self._exceeded.connect(self._tell_excess)
         self._told.connect(lambda text: self.notify(Level.WARNING, text))
@@ -125,6 +130,14 @@ class Workbench(Requests):
         self.playback = Playback(session, self._exceeded.emit)
         self.operation = Operation(
             session, settings.folder, played_folder.parent, told=self._told.emit
+        )
+        self.microscope = Microscope(
+            session,
+            settings.folder,
+            recorder=lambda: self.operation.recording,
+            penetration=lambda: self.operation.penetration.status.phase,
+            told=self._told.emit,
+            settings=settings,
         )
         self.replaying = Replaying(session, self.operation.penetration)
         self._happened.connect(self._on_event)
@@ -137,6 +150,7 @@ class Workbench(Requests):
         """Connect to the driver and begin to refresh the panels."""
         self.session.start()
         self.operation.start()
+        self.microscope.start()
         self._frames.start()
 
     def close(self) -> None:
@@ -144,6 +158,7 @@ class Workbench(Requests):
         self._frames.stop()
         self.closing.emit()
         self._unsubscribe()
+        self.microscope.close()
         self.operation.close()
         self.playback.close()
         self.session.close()
@@ -284,6 +299,49 @@ class Workbench(Requests):
 
         self.busy_changed.emit(doing)
         self._background.run(kind, work, finished, failed)
+
+    def long_work(
+        self,
+        kind: str,
+        progress: Progress,
+        work: Callable[[Progress], Answer],
+        done: Callable[[Answer], None],
+        undone: Callable[[], None] = lambda: None,
+    ) -> None:
+        """Do something that takes long, as :meth:`work` does; the window shows how far it is.
+
+        ``work`` reports to the progress that it is given, and ends where that raises because the
+        operator has called it off.
+        """
+
+        def finished(answer: Answer) -> None:
+            self._end_progress(progress)
+            done(answer)
+
+        def failed(message: str) -> None:
+            self._end_progress(progress)
+            self.notify(Level.INFO if progress.cancelled else Level.ERROR, message)
+            undone()
+
+        self.progress = progress
+        self._background.run(kind, lambda: work(progress), finished, failed)
+
+    def _end_progress(self, progress: Progress) -> None:
+        if self.progress is progress:
+            self.progress = None
+
+    def finish_recording(self, done: Callable[[], None], undone: Callable[[], None]) -> None:
+        """End the recording that runs, and write all that is to be written, in the background.
+
+        ``done`` is called when nothing is left to be waited for, ``undone`` after a failure.
+        """
+
+        def work(_: Progress) -> None:
+            if self.operation.recording is not None:
+                self.operation.stop_recording()
+
+        progress = Progress("The recording is put into one file.", cancellable=False)
+        self.long_work("last recording", progress, work, lambda _: done(), undone)
 
     def _refresh(self) -> None:
         state = self.session.snapshot()

@@ -1,128 +1,112 @@
 """One axis of the control menu: readout, place in the range, jog, go-to."""
 
-from html import escape
+import time
 
-from PySide6.QtCore import QRectF, Qt
-from PySide6.QtGui import QPainter, QPaintEvent
-from PySide6.QtWidgets import (
-    QFrame,
-    QGridLayout,
-    QHBoxLayout,
-    QLabel,
-    QLineEdit,
-    QPushButton,
-    QSizePolicy,
-    QWidget,
-)
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushButton
 
-from rotemina.app.display import PLAIN_NUMBER, Scale, axis_scale, label
+from rotemina.app.display import Scale, axis_scale, label
 from rotemina.app.motion.state import SessionState
-from rotemina.app.panel import STALE_S
+from rotemina.app.shell.controls import ElidedLabel, allow, plain_tip
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.drivers.clock import Clock
 from rotemina.drivers.samples import DeviceState
-from rotemina.plugins.control.step_choice import StepChoice
-from rotemina.sim.units import from_unit
-
-
-class RangeBar(QWidget):
-    """Where an axis is within its range: a line with a mark for its command and its position."""
-
-    def __init__(self, workbench: Workbench, axis: str) -> None:
-        super().__init__()
-        self._workbench = workbench
-        self._low, self._high = workbench.robot.axes[axis].range
-        self._position: float | None = None
-        self._command: float | None = None
-        self.setFixedHeight(10)
-        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-
-    def show_position(self, position: float | None, command: float | None) -> None:
-        """Move the marks; None hides one."""
-        self._position, self._command = position, command
-        self.update()
-
-    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
-        """Draw the range, the stretch up to the position, and the command's mark."""
-        theme = self._workbench.theme
-        painter = QPainter(self)
-        painter.setPen(Qt.PenStyle.NoPen)
-        width, middle = self.width(), self.height() / 2
-        painter.setBrush(theme.line)
-        painter.drawRect(QRectF(0, middle - 2, width, 4))
-        if self._position is not None:
-            painter.setBrush(theme.real)
-            painter.drawRect(QRectF(0, middle - 2, width * self._share(self._position), 4))
-        if self._command is not None:
-            painter.setBrush(theme.text)
-            painter.drawRect(QRectF((width - 2) * self._share(self._command), 0, 2, self.height()))
-        painter.end()
-
-    def _share(self, value: float) -> float:
-        return min(max((value - self._low) / (self._high - self._low), 0.0), 1.0)
+from rotemina.plugins.control.asking import Confirmation
+from rotemina.plugins.control.holding import Holding
+from rotemina.plugins.control.parts import TargetField, set_property, text_label
+from rotemina.plugins.control.readout import RangeBar, Readout
+from rotemina.plugins.control.step_choice import SpeedChoice, StepChoice
+from rotemina.plugins.control.wording import (
+    echo,
+    is_little,
+    is_stale,
+    left_text,
+    no_position,
+    range_tip,
+    status_text,
+    typed,
+    way,
+)
+from rotemina.sim.trajectory.limits import check_target
 
 
 class AxisRow(QFrame):
-    """Readout and controls of one axis; its controls lock while its position is unknown."""
+    """Readout and controls of one axis; its controls lock while its position is unknown.
 
-    def __init__(self, axis: str, workbench: Workbench, steps: StepChoice) -> None:
+    A number in the field is read back in place of the state, with its unit, and its way from here
+    in place of what is left of the range.
+    """
+
+    def __init__(
+        self,
+        axis: str,
+        workbench: Workbench,
+        steps: StepChoice,
+        speed: SpeedChoice,
+        clock: Clock = time.monotonic,
+    ) -> None:
         super().__init__()
         self.setObjectName("axisRow")
-        self._axis, self._workbench, self._steps = axis, workbench, steps
-        self._scale: Scale = axis_scale(workbench.robot.axes[axis])
+        self._axis, self._workbench, self._clock = axis, workbench, clock
+        self._steps, self._speed = steps, speed
+        self._described = workbench.robot.axes[axis]
+        self._scale: Scale = axis_scale(self._described)
+        self._command: float | None = None
+        self.confirmation = Confirmation(self._described.span)
+        self.holding = Holding(workbench, axis, self)
         self._bar = RangeBar(workbench, axis)
-        self._readout = QLabel("–")
-        self._readout.setTextFormat(Qt.TextFormat.PlainText)
-        self._readout.setProperty("readout", True)
-        self._readout.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        self._readout.setAccessibleName(f"{label(axis)} position")
-        self._command = QLabel("")
-        self._command.setProperty("quiet", True)
-        self._command.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        self._command.setToolTip("What the axis was last told; the large number is measured")
+        self._readout = Readout(workbench, f"{label(axis)} position")
+        self.status = ElidedLabel()
+        self.status.setAccessibleName(f"{label(axis)} state")
+        self.left = text_label()
+        self.left.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        self.left.setAccessibleName(f"{label(axis)} range left")
         self.minus, self.plus = self._jog_button("−", -1), self._jog_button("+", +1)
         self.target = self._target_field()
         self.go = QPushButton("Go")
-        self.go.setToolTip(f"Move {escape(label(axis))} to the typed position")
+        self.go.setAccessibleName(f"Go to the typed {label(axis)}")
         self.go.clicked.connect(self._go)
         self._lay_out()
 
     def refresh(self, state: SessionState) -> None:
         """Show the newest sample and lock what must not be used now."""
         known = state.position_known and self._axis in state.measured
-        stale = state.age_s is None or state.age_s > STALE_S
-        if known:
-            position, command = state.measured[self._axis], state.command[self._axis]
-            self._readout.setText(self._scale.text(position))
-            self._command.setText(f"→ {self._scale.number(command)}")
-            self._bar.show_position(position, command)
-        else:
-            self._readout.setText("unknown")
-            self._command.setText("")
-            self._bar.show_position(None, None)
-        _set_property(self._readout, "stale", stale or not known)
-        free = state.locked is None and state.activity is not DeviceState.PLAYING
-        for widget in (self.minus, self.plus, self.target, self.go):
-            widget.setEnabled(known and not stale and free)
+        stale = is_stale(state)
+        position = state.measured[self._axis] if known else None
+        self._command = state.command[self._axis] if known else None
+        self._readout.show_value(
+            "unknown" if position is None else self._scale.text(position), stale=stale or not known
+        )
+        self._bar.show_position(position, self._command, stale=stale)
+        self._bar.setToolTip(
+            plain_tip(range_tip(self._axis, position, self._described, self._scale))
+        )
+        self._show_left(position)
+        self.confirmation.follow(self._command)
+        self._show_status(state)
+        self._lock(_against(state, known=known, stale=stale))
+
+    # --- parts ------------------------------------------------------------------------------------
 
     def _lay_out(self) -> None:
         name = QLabel(label(self._axis))
         name.setTextFormat(Qt.TextFormat.PlainText)  # a name from a file is no markup
         name.setProperty("heading", True)
-        name.setMinimumWidth(52)
-        low, high = self._workbench.robot.axes[self._axis].range
-        self._bar.setToolTip(f"Range {self._scale.text(low)} … {self._scale.text(high)}")
+        name.setMinimumWidth(44)
+        widest = self.left.fontMetrics().horizontalAdvance("8888.8 µrad left")
+        self.left.setFixedWidth(widest)
         controls = QHBoxLayout()
-        controls.setSpacing(6)
+        controls.setSpacing(4)
         controls.addWidget(self.minus)
         controls.addWidget(self.plus)
         controls.addWidget(self.target, 1)
-        controls.addWidget(QLabel(self._scale.symbol))
         controls.addWidget(self.go)
+        controls.addWidget(self.left)
         grid = QGridLayout(self)
-        grid.setContentsMargins(0, 2, 0, 6)
-        grid.setVerticalSpacing(2)
+        grid.setContentsMargins(0, 0, 0, 3)
+        grid.setVerticalSpacing(1)
         grid.addWidget(name, 0, 0)
-        grid.addWidget(self._command, 0, 1)
+        grid.addWidget(self.status, 0, 1)
         grid.addWidget(self._readout, 0, 2)
         grid.setColumnStretch(1, 1)
         grid.addWidget(self._bar, 1, 0, 1, 3)
@@ -131,38 +115,101 @@ class AxisRow(QFrame):
     def _jog_button(self, text: str, sign: int) -> QPushButton:
         button = QPushButton(text)
         button.setProperty("jog", True)
-        button.setFixedWidth(38)
-        button.setToolTip(
-            f"Move {escape(label(self._axis))} one step {'up' if sign > 0 else 'down'}"
-        )
+        button.setFixedWidth(34)
         button.setAccessibleName(f"{label(self._axis)} {text}")
-        button.clicked.connect(
-            lambda: self._workbench.jog(self._axis, sign * self._steps.step(self._axis))
-        )
+        button.clicked.connect(lambda _: self._step(sign))
+        button.pressed.connect(lambda: self._hold(button, sign))
+        button.released.connect(self.holding.end)
         return button
 
-    def _target_field(self) -> QLineEdit:
-        field = QLineEdit()
-        field.setPlaceholderText("go to")
+    def _target_field(self) -> TargetField:
+        field = TargetField()
+        field.setPlaceholderText(f"go to [{self._scale.symbol}]")
+        field.setMinimumWidth(60)
         field.setAccessibleName(f"{label(self._axis)} target in {self._scale.symbol}")
+        field.textEdited.connect(lambda _: self.confirmation.withdraw())
         field.returnPressed.connect(self._go)
         return field
 
-    def _go(self) -> None:
-        text = self.target.text().strip()
-        if PLAIN_NUMBER.fullmatch(text) is None:
+    # --- moves ------------------------------------------------------------------------------------
+
+    def _step(self, sign: int) -> None:
+        step, axis = self._steps.step(self._axis), self._axis
+        if step is not None:
+            session, speeds = self._workbench.session, self._speed.speeds((axis,))
+            self._workbench.ask(lambda: session.jog(axis, sign * step, speeds=speeds))
+
+    def _hold(self, button: QPushButton, sign: int) -> None:
+        if self._steps.step(self._axis) is not None:
+            return
+        speed = self._speed.speed(self._axis)
+        if speed is None:
             self._workbench.notify(
                 Level.WARNING,
-                f"{label(self._axis)}: {text!r} is no position; type a number in "
-                f"{self._scale.symbol} with a decimal point.",
+                f"{label(self._axis)}: the robot file gives no max_speed; use steps instead.",
             )
             return
-        target = float(from_unit(float(text), self._scale.unit))
-        self._workbench.go_to({self._axis: target})
+        self.holding.begin(button, sign * speed)
+
+    def _go(self) -> None:
+        text, axis = self.target.text(), self._axis
+        target = typed(text, self._scale)
+        if target is None:
+            self._workbench.notify(Level.WARNING, no_position(axis, text, self._scale))
+            return
+        if self._command is None:
+            return  # it is being locked, for the reason in the tooltip
+        if not self._workbench.ask(lambda: check_target(self._workbench.robot, axis, target)):
+            return  # nobody is asked about a move that cannot be made
+        if self.confirmation.take(target, self._command, self._clock()):
+            session, speeds = self._workbench.session, self._speed.speeds((axis,))
+            self._workbench.ask(lambda: session.go_to({axis: target}, speeds=speeds))
+
+    # --- what is shown ----------------------------------------------------------------------------
+
+    def _show_left(self, position: float | None) -> None:
+        meant = way(self.target.text(), self._scale, self._command)
+        text = meant or left_text(position, self._described, self._scale)
+        if text != self.left.text():
+            self.left.setText(text)
+        set_property(self.left, "quiet", not meant)
+        set_property(self.left, "bad", not meant and is_little(position, self._described))
+
+    def _show_status(self, state: SessionState) -> None:
+        """Show what a typed number means, or else how the axis stands."""
+        meant = echo(self.target.text(), self._scale)
+        asked = self.confirmation.asked is not None
+        self.status.show_text(meant or status_text(self._axis, state, self._scale))
+        set_property(self.status, "quiet", not meant)
+        set_property(self.status, "bad", not meant and self._axis in state.unhomed)
+        word = "Move?" if asked else "Go"
+        if word != self.go.text():
+            self.go.setText(word)
+            self.go.setProperty("primary", asked)
+            self.go.style().unpolish(self.go)
+            self.go.style().polish(self.go)
+
+    def _lock(self, why_not: str | None) -> None:
+        name, held = label(self._axis), self._steps.step(self._axis) is None
+        how = "while it is held" if held else "one step"
+        allow(self.minus, why_not, f"Move {name} down {how}")
+        allow(self.plus, why_not, f"Move {name} up {how}")
+        allow(self.target, why_not, f"Where {name} is to go, in {self._scale.symbol}")
+        allow(
+            self.go,
+            why_not,
+            "A large move: press once more to make it"
+            if self.confirmation.asked is not None
+            else f"Move {name} to the typed position",
+        )
 
 
-def _set_property(widget: QWidget, name: str, value: bool) -> None:
-    if widget.property(name) != value:
-        widget.setProperty(name, value)
-        widget.style().unpolish(widget)
-        widget.style().polish(widget)
+def _against(state: SessionState, *, known: bool, stale: bool) -> str | None:
+    """Return why an axis must not be moved from here now."""
+    if state.locked is not None:
+        return state.locked
+    if not known:
+        return "its position is not known"
+    if stale:
+        return "its reading is too old"
+    return "a trajectory is playing" if state.activity is DeviceState.PLAYING else None

@@ -1,41 +1,95 @@
-"""The step of a stage's jog buttons: one choice for its lengths and one for its angles."""
+"""The step of a stage's jog buttons, and the speed of all moves from this menu."""
 
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QWidget
+from collections.abc import Iterable
+
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
 from rotemina.app.display import step_presets
+from rotemina.plugins.control.parts import SteadyChoice
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.units import symbol, to_unit
 
+SPEEDS = (1.0, 0.5, 0.25, 0.1, 0.05, 0.01)  # of an axis' greatest speed
+
 
 class StepChoice(QWidget):
-    """Step presets of a stage, small first; the default moves a thousandth of the range or less."""
+    """Step presets of a stage, small first, one choice for its lengths and one for its angles.
+
+    The default moves a thousandth of the range or less. Behind the steps stands "hold": the axis
+    goes while its button is held.
+    """
 
     def __init__(self, robot: Robot, axes: tuple[str, ...]) -> None:
         super().__init__()
         row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 2)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(6)
         row.addWidget(QLabel("Step"))
-        self._boxes: dict[str, QComboBox] = {}
+        self.boxes: dict[str, SteadyChoice] = {}
         self._quantities = {name: robot.axes[name].unit or "m" for name in axes}
         for quantity in dict.fromkeys(self._quantities.values()):
             spans = [robot.axes[n].span for n in axes if self._quantities[n] == quantity]
             box = _box(quantity, min(spans))
-            self._boxes[quantity] = box
-            row.addWidget(box, 1)
+            self.boxes[quantity] = box
+            row.addWidget(box)
 
-    def step(self, axis: str) -> float:
-        """Return the chosen step of an axis, m or rad."""
-        return float(self._boxes[self._quantities[axis]].currentData())
+    def step(self, axis: str) -> float | None:
+        """Return the chosen step of an axis, m or rad; None: it goes while its button is held."""
+        chosen = self.boxes[self._quantities[axis]].currentData()
+        return None if chosen is None else float(chosen)
+
+    def hold(self, quantity: str) -> None:
+        """Choose "hold" for lengths (``m``) or angles (``rad``)."""
+        box = self.boxes[quantity]
+        box.setCurrentIndex(box.count() - 1)
 
 
-def _box(quantity: str, span: float) -> QComboBox:
-    box = QComboBox()
+class SpeedChoice(SteadyChoice):
+    """The share of each axis' greatest speed that jog and go-to use."""
+
+    def __init__(self, robot: Robot) -> None:
+        super().__init__("Speed of moves", "Speed of steps, hold and go-to, of the axis' greatest")
+        self._robot = robot
+        for share in SPEEDS:
+            self.addItem(f"{100 * share:g} %", share)
+
+    @property
+    def share(self) -> float:
+        """The share, 0 to 1."""
+        return float(self.currentData())
+
+    def choose(self, share: float) -> None:
+        """Choose a share; another one than those offered is left out."""
+        if (index := self.findData(share)) >= 0:
+            self.setCurrentIndex(index)
+
+    def speeds(self, axes: Iterable[str]) -> dict[str, float]:
+        """Return the bounds on the axes' speeds, m/s or rad/s; none at full speed."""
+        share = self.share
+        return {} if share == 1.0 else dict(self._of(axes, share))
+
+    def speed(self, axis: str) -> float | None:
+        """Return how fast an axis goes while its button is held; None if it has no bound."""
+        return dict(self._of((axis,), self.share)).get(axis)
+
+    def _of(self, axes: Iterable[str], share: float) -> Iterable[tuple[str, float]]:
+        for axis in axes:
+            most = self._robot.axes[axis].max_speed
+            if most is not None:
+                yield axis, share * most
+
+
+def _box(quantity: str, span: float) -> SteadyChoice:
+    kind = "angles" if quantity == "rad" else "lengths"
+    box = SteadyChoice(
+        f"Jog step, {kind}",
+        f"How far one press of + or − moves an axis ({kind}); hold: while the button is held",
+    )
     for step in step_presets(quantity, span):
         box.addItem(step_text(step, quantity), step)
         if step <= span / 1000:
             box.setCurrentIndex(box.count() - 1)
-    box.setAccessibleName(f"Jog step, {'angles' if quantity == 'rad' else 'lengths'}")
-    box.setToolTip("How far one press of + or − moves an axis")
+    box.addItem("hold", None)
     return box
 
 

@@ -1,6 +1,7 @@
-"""The live plot of one axis, with the size of its gap in words."""
+"""The live plot of one axis, with the size of its gap, or what its cursors read, in words."""
 
-from enum import StrEnum
+from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 from PySide6.QtCore import Qt
@@ -8,51 +9,74 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from rotemina.app.display import axis_scale, label
 from rotemina.app.motion.history import LiveWindow
-from rotemina.app.shell.plot import SignalPlot
+from rotemina.app.shell.controls import ElidedLabel, plain_tip
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
+from rotemina.plugins.plots.analysis import spectrum
+from rotemina.plugins.plots.cursor_text import Reading, Shown, loop_text, nearest, values_text
+from rotemina.plugins.plots.signals import OtherRun
+from rotemina.plugins.plots.view_plot import ViewPlot, logarithm
+from rotemina.sim.arrays import FloatArray
 from rotemina.sim.units import symbol, to_unit
 
+CURVES = ("command", "model", "other", "measured")
+_NOTHING = np.empty(0)
+_LEAST_DECADES = 2.0  # of a spectrum: fewer have no round numbers to stand beside
 
-class Shown(StrEnum):
-    """What the plots draw."""
 
-    POSITION = "position"
-    GAP = "gap"
+class Picture(NamedTuple):
+    """What one frame draws.
+
+    ``other`` is the run beside the present one, its time ``shift_s`` earlier or later.
+    """
+
+    window: LiveWindow
+    span_s: float
+    shown: Shown
+    other: OtherRun | None = None
+    shift_s: float = 0.0
 
 
 class AxisPlot(QWidget):
-    """Command, model and measurement of one axis over the last seconds."""
+    """Command, model and measurement of one axis: over time, as a loop, or as spectra."""
 
-    def __init__(self, workbench: Workbench, column: int, *, times: bool) -> None:
+    def __init__(
+        self,
+        workbench: Workbench,
+        column: int,
+        *,
+        times: bool,
+        moved: Callable[[ViewPlot], None] = lambda _: None,
+    ) -> None:
         super().__init__()
         name = tuple(workbench.robot.axes)[column]
         axis = workbench.robot.axes[name]
-        self._column = column
+        self._column, self._times = column, times
         self._scale = axis_scale(axis)
         self._gap_unit = "urad" if axis.unit == "rad" else "um"
         floor = axis.sensor.noise_floor if axis.sensor else axis.span * 1e-5
         self._floor = floor or axis.span * 1e-6
-        self._title = QLabel(label(name))
+        self._view: Shown | None = None
+        self._read: tuple[FloatArray, FloatArray] = (_NOTHING, _NOTHING)
+        self._title, self._unit = QLabel(label(name)), QLabel()
+        self.figures = ElidedLabel()
         self._title.setProperty("heading", True)
         self._title.setTextFormat(Qt.TextFormat.PlainText)
-        self._unit = QLabel()
-        self._unit.setProperty("quiet", True)
-        self._gap = QLabel()
-        self._gap.setProperty("quiet", True)
-        self.plot = SignalPlot(workbench.theme)
+        for quiet in (self._unit, self.figures):
+            quiet.setProperty("quiet", True)
+        self._unit.setTextFormat(Qt.TextFormat.PlainText)
+        self.plot = ViewPlot(workbench.theme, moved)
         self.plot.add_curve("command", "command")
         self.plot.add_curve("model", "model", width=3)  # seen on both sides of the measured line
+        self.plot.add_curve("other", "good")
         self.plot.add_curve("measured", "real")
-        self.plot.show_times(times)
         self.plot.setMinimumHeight(60)  # notices and the banner of a replay need room, too
         head = QHBoxLayout()
         head.setContentsMargins(4, 0, 4, 0)
         head.setSpacing(6)
         head.addWidget(self._title)
         head.addWidget(self._unit)
-        head.addStretch(1)
-        head.addWidget(self._gap)
+        head.addWidget(self.figures, 1)
         column_layout = QVBoxLayout(self)
         column_layout.setContentsMargins(0, 0, 0, 0)
         column_layout.setSpacing(1)
@@ -63,47 +87,168 @@ class AxisPlot(QWidget):
         """Change the colours."""
         self.plot.set_theme(theme)
 
-    def draw(self, window: LiveWindow, span_s: float, shown: Shown) -> None:
-        """Draw a window of live data; time runs up to 0, the newest sample."""
-        self.plot.set_time(-span_s, 0.0)
-        if len(window.device_time_s) == 0:
-            self._gap.setText("")
-            for name in ("command", "model", "measured"):
+    def draw(self, picture: Picture) -> None:
+        """Draw a picture; time runs up to 0, the newest sample."""
+        shown, window = picture.shown, picture.window
+        self._use_view(shown)
+        self._read = (_NOTHING, _NOTHING)
+        if shown in (Shown.POSITION, Shown.GAP):
+            self.plot.set_time(-picture.span_s, 0.0)
+        if len(window) == 0:
+            self.figures.show_text("")
+            for name in CURVES:
                 self.plot.clear_signal(name)
             return
-        since = window.device_time_s - window.device_time_s[-1]
-        model, measured = (s[:, self._column] for s in (window.model, window.measured))
-        gap = measured - model
-        self._gap.setText(
+        gap = (window.measured - window.model)[:, self._column]
+        self.figures.show_text(
             f"gap rms {to_unit(np.sqrt(np.mean(gap**2)), self._gap_unit):.3g} "
             f"{symbol(self._gap_unit)}"
         )
-        if shown is Shown.GAP:
-            self._draw_gap(since, gap)
-        else:
-            self._draw_position(since, window.command[:, self._column], model, measured)
+        {
+            Shown.POSITION: self._draw_position,
+            Shown.GAP: self._draw_gap,
+            Shown.LOOP: self._draw_loop,
+            Shown.SPECTRUM: self._draw_spectrum,
+        }[shown](picture)
 
-    def _draw_gap(self, since: np.ndarray, gap: np.ndarray) -> None:
-        self._unit.setText(f"[{symbol(self._gap_unit)}]")
+    def read_cursors(self) -> None:
+        """Write what the cursors read in place of the gap."""
+        shown, (a, b) = self._view, self.plot.cursors
+        if shown is Shown.LOOP:
+            self._tell(loop_text(a, b, self._scale.symbol))
+            return
+        at_a, at_b = (nearest(*self._read, at) for at, _ in (a, b))
+        unit = self._unit.text().strip("[]")
+        if shown is Shown.SPECTRUM and at_a is not None and at_b is not None:
+            at_a, at_b = 10.0**at_a, 10.0**at_b
+        self._tell(values_text(at_a, at_b, unit))
+
+    def _tell(self, read: Reading) -> None:
+        self.figures.show_text(read.short)
+        self.figures.setToolTip(plain_tip(read.full))
+
+    # --- views ------------------------------------------------------------------------------------
+
+    def _use_view(self, shown: Shown) -> None:
+        if shown is self._view:
+            return
+        self._view = shown
+        spectral, loop = shown is Shown.SPECTRUM, shown is Shown.LOOP
+        across = "frequency [Hz]" if spectral else "" if loop else "time [s]"
+        self.plot.show_scales(across, logarithmic=spectral, numbers=loop or self._times)
+        unit = self._scale.symbol
+        if shown is Shown.GAP:
+            unit = symbol(self._gap_unit)
+        elif spectral:
+            unit = f"{symbol(self._gap_unit)}/√Hz"
+        self._unit.setText(f"[{unit}]")
+        for name in CURVES:
+            self.plot.clear_signal(name)
+
+    def _draw_gap(self, picture: Picture) -> None:
+        window = picture.window
+        since = window.device_time_s - window.device_time_s[-1]
+        gap = window.measured[:, self._column] - window.model[:, self._column]
         values = to_unit(gap, self._gap_unit)
-        self.plot.clear_signal("command")
-        self.plot.clear_signal("model")
         self.plot.show_signal("measured", since, values)
+        self._read = (since, values)
         self._follow(self._gap_unit, values)
 
-    def _draw_position(
-        self, since: np.ndarray, command: np.ndarray, model: np.ndarray, measured: np.ndarray
-    ) -> None:
-        self._unit.setText(f"[{self._scale.symbol}]")
+    def _draw_position(self, picture: Picture) -> None:
+        window = picture.window
+        newest = window.device_time_s[-1]
+        since = window.device_time_s - newest
         signals = {
-            name: to_unit(values, self._scale.unit)
-            for name, values in (("measured", measured), ("command", command), ("model", model))
+            "measured": self._shown(window.measured),
+            "command": self._shown(window.command),
+            "model": self._shown(window.model),
         }
         for name, values in signals.items():
             self.plot.show_signal(name, since, values)
+        self._read = (since, signals["measured"])
+        other = self._other(picture)
+        if other is not None:
+            time_s, _, measured = other
+            self.plot.show_signal("other", time_s - newest, measured)
+            seen = measured[(time_s >= newest - picture.span_s) & (time_s <= newest)]
+            if len(seen):
+                signals["other"] = seen
         self._follow(self._scale.unit, *signals.values())
 
-    def _follow(self, unit: str, *signals: np.ndarray) -> None:
-        low = min(float(values.min()) for values in signals)
-        high = max(float(values.max()) for values in signals)
-        self.plot.follow(low, high, 8.0 * float(to_unit(self._floor, unit)))
+    def _draw_loop(self, picture: Picture) -> None:
+        window = picture.window
+        command = self._shown(window.command)
+        signals = {"model": self._shown(window.model), "measured": self._shown(window.measured)}
+        for name, values in signals.items():
+            self.plot.show_loop(name, command, values)
+        across = [command]
+        other = self._other(picture)
+        if other is not None and np.isfinite(other[1]).all():
+            _, asked, measured = other
+            self.plot.show_loop("other", asked, measured)
+            across.append(asked)
+            signals["other"] = measured
+        least = 8.0 * float(to_unit(self._floor, self._scale.unit))
+        low, high = _extent(across)
+        self.plot.follow_across(low, high, least)
+        self._follow(self._scale.unit, *signals.values())
+
+    def _draw_spectrum(self, picture: Picture) -> None:
+        window, column = picture.window, self._column
+        parts = (window.command, window.model, window.measured)
+        signals = np.stack([to_unit(part[:, column], self._gap_unit) for part in parts], axis=1)
+        found = spectrum(window.device_time_s, signals)
+        if found is None:
+            for name in CURVES:
+                self.plot.clear_signal(name)
+            return
+        across = np.log10(found.frequency_hz)
+        levels = dict(zip(("command", "model", "measured"), found.density.T, strict=True))
+        self._read = (across, logarithm(levels["measured"]))
+        seen = [self._read[1]]
+        other = self._other(picture)
+        if other is not None:
+            time_s, _, measured = other
+            again = spectrum(time_s, to_unit(self._si(measured), self._gap_unit)[:, None])
+            if again is not None:
+                self._draw_density("other", np.log10(again.frequency_hz), again.density[:, 0])
+                seen.append(logarithm(again.density[:, 0]))
+        for name, density in levels.items():
+            self._draw_density(name, across, density)
+        self.plot.follow_across(float(across[0]), float(across[-1]), 0.1)
+        # A command at rest has next to no spectrum: its rounding is no reason to zoom out.
+        self.plot.follow(*_extent(seen), _LEAST_DECADES)
+
+    def _draw_density(self, name: str, across: FloatArray, density: FloatArray) -> None:
+        values = logarithm(density)
+        if np.isfinite(values).all():
+            self.plot.show_signal(name, across, values)
+        else:
+            self.plot.clear_signal(name)
+
+    def _other(self, picture: Picture) -> tuple[FloatArray, FloatArray, FloatArray] | None:
+        """Return time, command and reading of the other run as they are drawn, or nothing."""
+        other = picture.other
+        if other is None or not np.isfinite(other.measured[:, self._column]).all():
+            self.plot.clear_signal("other")
+            return None
+        return (
+            other.time_s + picture.shift_s,
+            self._shown(other.command),
+            self._shown(other.measured),
+        )
+
+    def _shown(self, values: FloatArray) -> FloatArray:
+        return to_unit(values[:, self._column], self._scale.unit)
+
+    def _si(self, values: FloatArray) -> FloatArray:
+        return values / to_unit(1.0, self._scale.unit)
+
+    def _follow(self, unit: str, *signals: FloatArray) -> None:
+        self.plot.follow(*_extent(signals), 8.0 * float(to_unit(self._floor, unit)))
+
+
+def _extent(signals: "list[FloatArray] | tuple[FloatArray, ...]") -> tuple[float, float]:
+    low = min(float(np.nanmin(values)) for values in signals)
+    high = max(float(np.nanmax(values)) for values in signals)
+    return low, high

@@ -1,23 +1,48 @@
-"""Live time plots of every axis: command, model and measurement, or the gap between them."""
+"""Plots of every axis: over time, loops, spectra; cursors, another run beside, and export."""
+
+import time
+from collections.abc import Callable, Iterable
+from functools import partial
+from html import escape
+from pathlib import Path
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QComboBox,
+    QFileDialog,
     QGridLayout,
     QHBoxLayout,
     QLabel,
+    QMenu,
     QPushButton,
     QVBoxLayout,
+    QWidget,
 )
 
 from rotemina.app.display import stages
+from rotemina.app.motion.history import LiveWindow
 from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.controls import plain_tip
 from rotemina.app.shell.theme import Theme
-from rotemina.app.shell.workbench import Workbench
-from rotemina.plugins.plots.axis_plot import AxisPlot, Shown
+from rotemina.app.shell.workbench import Level, Run, Workbench
+from rotemina.drivers.clock import Clock
+from rotemina.plugins.plots.axis_plot import AxisPlot, Picture
+from rotemina.plugins.plots.cursor_text import Shown, across_text
+from rotemina.plugins.plots.exporting import save_picture
+from rotemina.plugins.plots.signals import OtherRun, alignment, as_record, latest
+from rotemina.plugins.plots.view_plot import ViewPlot
+from rotemina.sim.records.writing import write_record
 
 SPANS_S = (2, 5, 10, 30, 60)
+SPECTRUM_S = 0.25  # a spectrum is computed no oftener
 LEGEND = (("command", "command"), ("model", "model"), ("measured", "real"))
+VIEWS = {
+    Shown.POSITION: "Position",
+    Shown.GAP: "Gap: measured − model",
+    Shown.LOOP: "Loop: over command",
+    Shown.SPECTRUM: "Spectrum",
+}
+_ALONE, _KEPT, _IN_HAND = "alone", "kept", "run"
 
 
 class PlotsPanel(Panel):
@@ -27,70 +52,265 @@ class PlotsPanel(Panel):
     area = Area.CENTRE
     order = 10
 
-    def __init__(self, workbench: Workbench) -> None:
+    def __init__(self, workbench: Workbench, clock: Clock = time.monotonic) -> None:
         super().__init__(workbench)
+        self._clock, self._drawn_s = clock, float("-inf")
+        self._held: LiveWindow | None = None
+        self._picture: Picture | None = None
+        self.other: OtherRun | None = None
+        self._shift_s = 0.0
+        self._read_view: Shown | None = None  # the view that the cursors stand in
         lowest = {axes[-1] for axes in stages(workbench.robot).values() if axes}
         self.plots = {
-            name: AxisPlot(workbench, column, times=name in lowest)
+            name: AxisPlot(workbench, column, times=name in lowest, moved=self._cursor_moved)
             for column, name in enumerate(workbench.robot.axes)
         }
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.addLayout(self._header())
-        grid = QGridLayout()
+        self.area_of_plots = QWidget()
+        grid = QGridLayout(self.area_of_plots)
+        grid.setContentsMargins(0, 0, 0, 0)
         grid.setSpacing(6)
         for place, axes in enumerate(stages(workbench.robot).values()):
             for row, name in enumerate(axes):
                 grid.addWidget(self.plots[name], row, place)
-        column.addLayout(grid, 1)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(3)
+        column.addLayout(self._header())
+        column.addWidget(self._legend)
+        column.addWidget(self.area_of_plots, 1)
         workbench.shown.connect(lambda _: self.refresh())
         workbench.replaying.changed.connect(self._begin_anew)
         workbench.theme_changed.connect(self._use_theme)
+        workbench.run_changed.connect(self._take_run)
 
     def refresh(self) -> None:
         """Draw the newest samples, unless paused or out of sight; recording goes on."""
         if self.pause.isChecked() or not self.isVisible():
             return
+        spectral = self._shown() is Shown.SPECTRUM
+        if spectral and self._clock() - self._drawn_s < SPECTRUM_S:
+            return
+        self._draw(self.workbench.source.history.tail(float(self.span.currentData())))
+
+    def align(self) -> None:
+        """Move the other run in time to where its commands are those that are shown."""
+        if self.other is None:
+            self.workbench.notify(Level.WARNING, "There is no other run to align: choose one.")
+            return
+        window = self._whole()
+        shift = alignment(window, self.other)
+        if shift is None and len(window):
+            self.workbench.notify(
+                Level.INFO, f"{self.other.name} has no motion to align by: the ends are aligned."
+            )
+            shift = float(window.device_time_s[-1] - self.other.time_s[-1])
+        self._shift_s = shift or 0.0
+        self._draw_again()
+
+    def save_data(self, path: Path) -> None:
+        """Write what is shown as a record; a failure becomes a notice."""
+        window, robot = self._stretch(), self.workbench.robot
+        self.workbench.work(
+            "save plots",
+            f"Writing {path.name} …",
+            lambda: write_record(as_record(window, robot), path),
+            lambda _: self.workbench.notify(Level.GOOD, f"Saved {path}"),
+        )
+
+    def save_picture(self, path: Path) -> None:
+        """Write a picture of all plots, PNG or SVG by the name."""
+        if self.workbench.ask(lambda: save_picture(self.area_of_plots, path)):
+            self.workbench.notify(Level.GOOD, f"Saved {path}")
+
+    # --- parts ------------------------------------------------------------------------------------
+
+    def _header(self) -> QHBoxLayout:
+        self.shown = _choice("What the plots show", VIEWS.items())
+        self.span = _choice("How far back the plots show", ((s, f"{s} s") for s in SPANS_S))
+        for box in (self.shown, self.span):
+            box.setSizeAdjustPolicy(box.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.shown.setMinimumContentsLength(11)
+        self.span.setMinimumContentsLength(4)
+        self.span.setCurrentIndex(SPANS_S.index(10))
+        self.beside = _choice(
+            "Another run beside the present one",
+            ((_ALONE, "No other run"), (_KEPT, "Keep this run"), (_IN_HAND, "Run in hand")),
+        )
+        self.beside.setToolTip(
+            plain_tip(
+                "Keep this run: what is shown now stays, in green, beside what comes.",
+                "Run in hand: the record that was opened or played last.",
+            )
+        )
+        self.shown.currentIndexChanged.connect(lambda _: self._change_view())
+        self.span.currentIndexChanged.connect(lambda _: self._draw_again())
+        self.beside.activated.connect(lambda _: self._choose_other())
+        self.cursors = QPushButton("Cursors")
+        self.cursors.setCheckable(True)
+        self.cursors.setToolTip("Two lines to be dragged; what they read stands above each plot")
+        self.cursors.toggled.connect(lambda _: self._show_cursors())
+        self.pause = QPushButton("Pause")
+        self.pause.setCheckable(True)
+        self.pause.setToolTip("Hold the picture still; motion, recording and replay go on")
+        self.pause.toggled.connect(self._hold)
+        self.more = QPushButton("More")
+        self.more.setMenu(self._menu())
+        self._legend = QLabel()
+        self._legend.setTextFormat(Qt.TextFormat.RichText)
+        self._legend.setMinimumWidth(1)  # it is cut before the window is made wider
+        self._use_theme(self.workbench.theme)
+        row = QHBoxLayout()
+        row.setSpacing(4)
+        for widget, stretch in ((self.shown, 2), (self.beside, 1), (self.span, 0)):
+            row.addWidget(widget, stretch)
+        for widget in (self.cursors, self.pause, self.more):
+            row.addWidget(widget)
+        return row
+
+    def _menu(self) -> QMenu:
+        menu = QMenu(self)
+        menu.addAction("Align the other run", self.align)
+        menu.addSeparator()
+        for text, name, kinds, save in (
+            ("Save picture …", "plots.png", "Pictures (*.png *.svg)", self.save_picture),
+            ("Save data …", "plots.csv", "Records (*.csv *.csv.gz)", self.save_data),
+        ):
+            menu.addAction(text, partial(_ask_path, self, text, name, kinds, save))
+        return menu
+
+    # --- what is drawn ----------------------------------------------------------------------------
+
+    def _shown(self) -> Shown:
+        return Shown(self.shown.currentData())
+
+    def _whole(self) -> LiveWindow:
+        """Return all that may be shown: the history, or what the pause holds of it."""
+        return self._held if self._held is not None else self.workbench.source.history.tail()
+
+    def _stretch(self) -> LiveWindow:
+        """Return what is drawn."""
+        picture = self._picture
+        if picture is not None:
+            return picture.window
+        return latest(self._whole(), float(self.span.currentData()))
+
+    def _draw(self, window: LiveWindow) -> None:
+        self._drawn_s = self._clock()
         span_s = float(self.span.currentData())
-        window = self.workbench.source.history.tail(span_s)
-        shown = Shown(self.shown.currentData())
+        picture = Picture(window, span_s, self._shown(), self.other, self._shift_s)
+        self._picture = picture
         for plot in self.plots.values():
-            plot.draw(window, span_s, shown)
+            plot.draw(picture)
+        if self._read_view is picture.shown:
+            self._read_cursors()
+
+    def _draw_again(self) -> None:
+        self._draw(latest(self._whole(), float(self.span.currentData())))
+
+    def _change_view(self) -> None:
+        self._draw_again()
+        self._show_cursors()
+
+    def _hold(self, held: bool) -> None:
+        self._held = self.workbench.source.history.tail() if held else None
+        self._draw_again()
 
     def _begin_anew(self) -> None:
         """Draw what is shown now: no picture of the machine stays in a replay, nor the reverse."""
         self.pause.setChecked(False)
         self.refresh()
 
-    def _header(self) -> QHBoxLayout:
-        self.shown = QComboBox()
-        self.shown.addItem("Position", str(Shown.POSITION))
-        self.shown.addItem("Gap: measured − model", str(Shown.GAP))
-        self.shown.setAccessibleName("What the plots show")
-        self.span = QComboBox()
-        for seconds in SPANS_S:
-            self.span.addItem(f"{seconds} s", seconds)
-        self.span.setCurrentIndex(SPANS_S.index(10))
-        self.span.setAccessibleName("How far back the plots show")
-        self.pause = QPushButton("Pause")
-        self.pause.setCheckable(True)
-        self.pause.setToolTip("Hold the picture still; motion, recording and replay go on")
-        self._legend = QLabel()
-        self._legend.setTextFormat(Qt.TextFormat.RichText)
+    # --- the other run ----------------------------------------------------------------------------
+
+    def _choose_other(self) -> None:
+        chosen = self.beside.currentData()
+        if chosen == _IN_HAND:
+            self._take_run(self.workbench.run)
+            return
+        self.other = None
+        if chosen == _KEPT:
+            window = self._stretch()
+            self.workbench.ask(lambda: self._keep(window))
+        self._name_other()
+        self._draw_again()
+
+    def _keep(self, window: LiveWindow) -> None:
+        self.other, self._shift_s = OtherRun.of_window("The kept run", window), 0.0
+
+    def _take_run(self, run: Run | None) -> None:
+        """Put the run in hand beside the present one, where that is chosen."""
+        if self.beside.currentData() != _IN_HAND:
+            return
+        self.other = None
+        if run is None:
+            self.workbench.notify(Level.WARNING, "There is no run in hand: open or play one.")
+        else:
+            self.other = OtherRun.of_record(run.name, run.record, self.workbench.robot)
+            self.align()
+        self._name_other()
+
+    def _name_other(self) -> None:
+        if self.other is None:
+            self.beside.setCurrentIndex(0)
         self._use_theme(self.workbench.theme)
-        row = QHBoxLayout()
-        row.addWidget(self._legend, 1)
-        row.addWidget(self.shown)
-        row.addWidget(self.span)
-        row.addWidget(self.pause)
-        return row
+
+    # --- cursors ----------------------------------------------------------------------------------
+
+    def _show_cursors(self) -> None:
+        on, loop = self.cursors.isChecked(), self._shown() is Shown.LOOP
+        for plot in self.plots.values():
+            plot.plot.show_cursors(across=on, along=on and loop)
+        self._read_view = self._shown() if on else None
+        if on:
+            self._read_cursors()
+        else:
+            self._use_theme(self.workbench.theme)
+            self._draw_again()
+
+    def _cursor_moved(self, moved: ViewPlot) -> None:
+        """Move the cursors of all plots with those of one, where all have one scale across."""
+        if self._read_view is None:
+            return
+        if self._read_view is not Shown.LOOP:
+            (a, _), (b, _) = moved.cursors
+            for plot in self.plots.values():
+                if plot.plot is not moved:
+                    plot.plot.place_cursors(a, b)
+        self._read_cursors()
+
+    def _read_cursors(self) -> None:
+        (a, _), (b, _) = next(iter(self.plots.values())).plot.cursors
+        shown = self._shown()
+        if shown is Shown.SPECTRUM:
+            a, b = 10.0**a, 10.0**b
+        self._legend.setText(across_text(shown, a, b))
+        for plot in self.plots.values():
+            plot.read_cursors()
 
     def _use_theme(self, theme: Theme) -> None:
+        other = () if self.other is None else ((self.other.name, "good"),)
         self._legend.setText(
             "&nbsp;&nbsp;".join(
-                f'<span style="color:{getattr(theme, role)}">▬</span> {name}'
-                for name, role in LEGEND
+                f'<span style="color:{getattr(theme, role)}">▬</span> {escape(name)}'
+                for name, role in (*LEGEND, *other)
             )
         )
         for plot in self.plots.values():
             plot.use_theme(theme)
+
+
+def _choice(name: str, offered: Iterable[tuple[object, str]]) -> QComboBox:
+    box = QComboBox()
+    for value, text in offered:
+        # Qt would hand an enumeration of text back as plain text anyway.
+        box.addItem(text, str(value) if isinstance(value, str) else value)
+    box.setAccessibleName(name)
+    return box
+
+
+def _ask_path(
+    parent: QWidget, title: str, name: str, kinds: str, save: Callable[[Path], None]
+) -> None:
+    path, _ = QFileDialog.getSaveFileName(parent, title, name, kinds)
+    if path:
+        save(Path(path))

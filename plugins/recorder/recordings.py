@@ -234,7 +234,7 @@ def _button(text: str, run: Callable[[], object]) -> QPushButton:
 def _field(what: str) -> QLineEdit:
     field = QLineEdit()
     field.setPlaceholderText(what)
-    field.setFixedWidth(66)
+    field.setFixedWidth(60)
     field.setAccessibleName(f"{what.capitalize()} of the stretch in seconds")
     field.setToolTip(f"Seconds from the begin of the recording; empty: its {what}")
     return field

@@ -8,6 +8,8 @@ from PySide6.QtWidgets import QFileDialog
 from rotemina.drivers.errors import ConnectionLostError
 from rotemina.drivers.simulator.driver import Simulator
 
+PANELS = {"connection"}  # that is brought to the front
+
 LONG_MS = 30_000
 
 

@@ -1,0 +1,124 @@
+"""How the window looks: layouts, theme and size of text, all of them kept between starts."""
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QByteArray, QObject, QTimer
+from PySide6.QtWidgets import QApplication
+
+from rotemina.app.panel import Area
+from rotemina.app.shell import layouts
+from rotemina.app.shell import theme as themes
+from rotemina.app.shell.workbench import Level
+
+if TYPE_CHECKING:
+    from rotemina.app.shell.main_window import MainWindow
+
+_THEME, _SCALE, _AUTOMATIC = "window.theme", "window.scale", 0.0
+
+
+class Arrangement(QObject):
+    """Arranges and dresses a window; made when its docks stand where they stand at first."""
+
+    def __init__(self, window: "MainWindow") -> None:
+        super().__init__(window)
+        self._window, self._bench = window, window.workbench
+        self._settings = window.workbench.settings
+        self._first = window.saveState(layouts.VERSION)
+        self.kept = layouts.KeptLayouts(self._settings)
+        # After Qt has laid out: only then is it seen which tabs belong to nothing.
+        self._tidy = QTimer(self, singleShot=True, interval=0)
+        self._tidy.timeout.connect(lambda: layouts.hide_forgotten_tabs(window))
+        for dock in window.docks.values():
+            dock.visibilityChanged.connect(lambda _: self._tidy.start())
+            dock.topLevelChanged.connect(lambda _: self._tidy.start())
+
+    # --- layouts ----------------------------------------------------------------------------------
+
+    def arrange(self, layout: layouts.Layout) -> None:
+        """Put the panels where a layout wants them; the others are closed."""
+        window = self._window
+        docks = {name: (window.panels[name].area, dock) for name, dock in window.docks.items()}
+        layouts.arrange(window, docks, layout, self.text_scale)
+        for name in layout.places.get(Area.CENTRE, ()):
+            window.bring_up(name)
+        self._tidy.start()
+
+    def reset(self) -> None:
+        """Bring every dock back to where it was at first."""
+        self._use(self._first)
+        for dock in self._window.docks.values():
+            dock.show()
+
+    def keep(self, name: str) -> None:
+        """Keep the layout as it is under a name, in the place of one of that name."""
+        objection = self.kept.objection(name)
+        if objection is not None:
+            self._bench.notify(Level.WARNING, f"The layout is not saved: {objection}.")
+            return
+        self.kept.keep(name, self._window.saveState(layouts.VERSION))
+        self._bench.notify(Level.GOOD, f"The layout is saved as {name!r}.")
+
+    def use_kept(self, name: str) -> None:
+        """Bring back a layout that was kept."""
+        if not self._use(self.kept.state(name)):
+            self._bench.notify(
+                Level.WARNING, f"The layout {name!r} cannot be read; delete it and save it anew."
+            )
+
+    def restore(self) -> None:
+        """Bring back size and layout of the last time."""
+        self._window.resize(1280, 800)
+        self._window.restoreGeometry(layouts.decoded(self._settings.get("window.geometry", "")))
+        self._use(layouts.decoded(self._settings.get("window.state", "")))
+
+    def remember(self) -> None:
+        """Keep size and layout for the next time."""
+        window = self._window
+        kept = {"geometry": window.saveGeometry(), "state": window.saveState(layouts.VERSION)}
+        for key, value in kept.items():
+            self._settings.set(f"window.{key}", layouts.encoded(value))
+
+    def _use(self, state: QByteArray) -> bool:
+        done = self._window.restoreState(state, layouts.VERSION)
+        self._tidy.start()
+        return done
+
+    # --- theme and size of text -------------------------------------------------------------------
+
+    @property
+    def text_scale(self) -> float:
+        """How large text is, 1.0 for 13 px; chosen, or as the screen suits."""
+        chosen = self._settings.get(_SCALE, _AUTOMATIC)
+        return chosen if chosen in themes.SCALES else self._suiting
+
+    @property
+    def _suiting(self) -> float:
+        return themes.scale_for(self._window.screen().size().height())
+
+    def use_theme(self, name: str) -> None:
+        """Change the colours and remember them."""
+        theme = themes.theme_named(name)
+        self._settings.set(_THEME, theme.name)
+        self._dress(theme)
+        self._bench.set_theme(theme)
+
+    def step_scale(self, steps: int) -> None:
+        """Make text larger or smaller by steps, and remember it."""
+        place = themes.SCALES.index(self.text_scale) + steps
+        self._settings.set(_SCALE, themes.SCALES[min(max(place, 0), len(themes.SCALES) - 1)])
+        self._dress(self._bench.theme)
+
+    def suit_the_screen(self) -> None:
+        """Make text as large as the screen suits from now on."""
+        self._settings.set(_SCALE, _AUTOMATIC)
+        self._dress(self._bench.theme)
+
+    def dress(self) -> None:
+        """Take the size of text of the last time."""
+        if self.text_scale != 1.0:
+            self._dress(self._bench.theme)
+
+    def _dress(self, theme: themes.Theme) -> None:
+        application = QApplication.instance()
+        assert isinstance(application, QApplication)
+        themes.apply(application, theme, self.text_scale)

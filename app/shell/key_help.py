@@ -1,0 +1,58 @@
+"""The list of all shortcuts, made from the actions that have them."""
+
+from collections.abc import Iterable
+from html import escape
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtWidgets import QDialog, QLabel, QScrollArea, QVBoxLayout, QWidget
+
+#: Keys that no action has, for they work wherever the focus is.
+ANYWHERE = (
+    ("Esc", "Stop all axes and hold; a stop by software"),
+    ("Shift+Esc", "Emergency stop: latched until it is released; a stop by software"),
+)
+
+
+def keys(actions: Iterable[QAction]) -> list[tuple[str, str]]:
+    """Return each shortcut as people read it, with what it does, those of stops first."""
+    rows = list(ANYWHERE)
+    for action in actions:
+        what = action.text().replace("&", "").removesuffix(" …")
+        if action.statusTip():
+            what = f"{what} ({action.statusTip()})"
+        for shortcut in action.shortcuts():
+            rows.append((shortcut.toString(QKeySequence.SequenceFormat.NativeText), what))
+    return rows
+
+
+class KeyHelp(QDialog):
+    """A window that lists shortcuts."""
+
+    def __init__(self, rows: Iterable[tuple[str, str]], parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setWindowTitle("Keys")
+        self.table = QLabel(_table(rows))
+        self.table.setTextFormat(Qt.TextFormat.RichText)
+        self.table.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.table.setContentsMargins(12, 8, 12, 8)
+        self.table.setWordWrap(True)
+        self.table.setAlignment(Qt.AlignmentFlag.AlignTop)
+        area = QScrollArea()
+        area.setObjectName("panelScroll")
+        area.setWidgetResizable(True)
+        area.setWidget(self.table)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(area)
+        self.resize(600, 520)
+
+
+def _table(rows: Iterable[tuple[str, str]]) -> str:
+    lines = (
+        f"<tr><td style='padding: 2px 18px 2px 0'><b>{escape(key)}</b></td>"
+        f"<td style='padding: 2px 0'>{escape(what)}</td></tr>"
+        for key, what in rows
+    )
+    return f"<table>{''.join(lines)}</table>"

@@ -1,0 +1,63 @@
+"""The window's layouts in its menu: those of the user, and a row of buttons for the built-in."""
+
+from collections.abc import Callable
+
+from PySide6.QtWidgets import QHBoxLayout, QInputDialog, QMenu, QToolButton, QWidget
+
+from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.layouts import BUILT_IN, LONGEST_NAME, KeptLayouts, Layout
+
+
+class LayoutRow(QWidget):
+    """One button for each built-in layout, for the corner of the menu bar."""
+
+    def __init__(self, use: Callable[[Layout], object]) -> None:
+        super().__init__()
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 6, 0)
+        row.setSpacing(2)
+        self.buttons: dict[str, QToolButton] = {}
+        for layout in BUILT_IN:
+            button = self.buttons[layout.word] = QToolButton()
+            button.setObjectName("layoutChoice")
+            button.setText(layout.word)
+            button.setToolTip(plain_tip(f"{layout.tip} ({layout.shortcut})"))
+            button.setAccessibleName(f"Layout: {layout.word}")
+            button.clicked.connect(lambda _=False, layout=layout: use(layout))
+            row.addWidget(button)
+
+
+class KeptLayoutMenu(QMenu):
+    """The layouts of the user's own: to be shown again, or deleted."""
+
+    def __init__(self, kept: KeptLayouts, use: Callable[[str], object], parent: QWidget) -> None:
+        super().__init__("My layouts", parent)
+        self._kept, self._use = kept, use
+        self.aboutToShow.connect(self.fill)
+        self.fill()
+
+    def fill(self) -> None:
+        """Offer what is kept now."""
+        self.clear()
+        names = self._kept.names()
+        for name in names:
+            action = self.addAction(name.replace("&", "&&"))
+            action.triggered.connect(lambda _=False, name=name: self._use(name))
+        if not names:
+            self.addAction("None is saved yet").setEnabled(False)
+            return
+        delete = self.addMenu("Delete")
+        for name in names:
+            action = delete.addAction(name.replace("&", "&&"))
+            action.triggered.connect(lambda _=False, name=name: self._kept.forget(name))
+
+
+def ask_name(parent: QWidget, use: Callable[[str], object]) -> QInputDialog:
+    """Ask for the name of a layout beside the window, whose stop button can still be used."""
+    dialog = QInputDialog(parent)
+    dialog.setWindowTitle("Save layout")
+    dialog.setLabelText(f"Name of the layout (up to {LONGEST_NAME} letters):")
+    dialog.textValueSelected.connect(lambda text: use(text.strip()))
+    dialog.finished.connect(dialog.deleteLater)
+    dialog.show()
+    return dialog

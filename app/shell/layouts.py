@@ -1,0 +1,212 @@
+"""Named layouts: which panels stand where, for what an operator is about to do."""
+
+import json
+from base64 import b64decode, b64encode
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from PySide6.QtCore import QByteArray, Qt
+from PySide6.QtWidgets import QDockWidget, QMainWindow, QTabBar
+
+from rotemina.app.panel import Area
+from rotemina.app.settings import Settings
+
+VERSION = 1  # of what Qt keeps of a layout
+MOST_KEPT = 20
+LONGEST_NAME = 40
+_KEPT = "window.layouts"
+DOCK_AREAS = {
+    Area.LEFT: Qt.DockWidgetArea.LeftDockWidgetArea,
+    Area.RIGHT: Qt.DockWidgetArea.RightDockWidgetArea,
+    Area.BOTTOM: Qt.DockWidgetArea.BottomDockWidgetArea,
+}
+_SIDE = 0.2  # of the window's width
+# px at normal text: a form is cut off when it is narrower, and reads no better when it is wider.
+_NARROWEST, _WIDEST = 330, 460
+_NEAR = 6  # px between the tabs of docks and the docks
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """Where panels stand; those that it does not name are closed, and can be brought back.
+
+    Attributes
+    ----------
+    title, shortcut, tip : as in the menu
+    places : area -> panels by name, the first in front
+    bottom : share of the window's height that the docks at the bottom take
+    """
+
+    title: str
+    shortcut: str
+    tip: str
+    places: Mapping[Area, tuple[str, ...]]
+    bottom: float
+
+    @property
+    def word(self) -> str:
+        """The title without the mark of its key."""
+        return self.title.replace("&", "")
+
+
+OPERATE = Layout(
+    "&Operate",
+    "Ctrl+1",
+    "Drive the machine: control, devices, trajectory, penetration, recorder",
+    {
+        Area.CENTRE: ("plots",),
+        Area.LEFT: ("control",),
+        Area.RIGHT: ("connection", "teleoperation", "inputs"),
+        Area.BOTTOM: ("trajectory", "comparison", "penetration", "recorder", "view3d"),
+    },
+    0.33,
+)
+TUNE = Layout(
+    "T&une",
+    "Ctrl+2",
+    "Adjust the machine and its model: identification, calibration, effects",
+    {
+        Area.CENTRE: ("plots",),
+        Area.LEFT: ("control",),
+        Area.RIGHT: ("connection",),
+        Area.BOTTOM: ("identification", "calibration", "effects", "trajectory", "comparison"),
+    },
+    0.45,
+)
+DIAGNOSE = Layout(
+    "Dia&gnose",
+    "Ctrl+3",
+    "Find out why the machine departs from its model: gap, comparison, effects",
+    {
+        Area.CENTRE: ("plots",),
+        Area.BOTTOM: ("gap", "comparison", "trajectory", "effects", "faults", "recorder"),
+    },
+    0.48,
+)
+BUILT_IN = (OPERATE, TUNE, DIAGNOSE)
+
+
+def arrange(
+    window: QMainWindow,
+    docks: Mapping[str, tuple[Area, QDockWidget]],
+    layout: Layout,
+    text_scale: float,
+) -> None:
+    """Put docks where a layout wants them; the others are closed where their panels want to be."""
+    for _, dock in docks.values():
+        dock.setFloating(False)
+        window.removeDockWidget(dock)
+    named = {
+        name: area
+        for area, names in layout.places.items()
+        for name in names
+        if name in docks and area in DOCK_AREAS
+    }
+    rest = {name: area for name, (area, _) in docks.items() if name not in named}
+    first: dict[Area, QDockWidget] = {}
+    for name, area in {**named, **rest}.items():
+        dock = docks[name][1]
+        window.addDockWidget(DOCK_AREAS[area], dock)
+        if first.setdefault(area, dock) is not dock:
+            window.tabifyDockWidget(first[area], dock)
+        dock.setVisible(name in named)
+    for area in layout.places:
+        if area in first:
+            first[area].raise_()
+    _size(window, first, layout.bottom, text_scale)
+
+
+def hide_forgotten_tabs(window: QMainWindow) -> None:
+    """Hide tab bars that Qt has made on the way and forgotten (seen in 6.11).
+
+    The tabs of docks stand right above (or below) the one in front; those that stand above none
+    are what is left of another layout.
+    """
+    docks = [
+        dock
+        for dock in window.findChildren(QDockWidget)
+        if dock.isVisible() and not dock.isFloating()
+    ]
+    only_mine = Qt.FindChildOption.FindDirectChildrenOnly
+    for bar in window.findChildren(QTabBar, options=only_mine):
+        if bar.isVisible() and not any(_belongs(bar, dock) for dock in docks):
+            bar.hide()
+
+
+def _belongs(bar: QTabBar, dock: QDockWidget) -> bool:
+    titles = {bar.tabText(number).replace("&", "") for number in range(bar.count())}
+    place, tabs = dock.geometry(), bar.geometry()
+    beside = min(abs(tabs.bottom() - place.top()), abs(place.bottom() - tabs.top())) <= _NEAR
+    return beside and abs(tabs.left() - place.left()) <= _NEAR and dock.windowTitle() in titles
+
+
+def _size(
+    window: QMainWindow, first: Mapping[Area, QDockWidget], bottom: float, text_scale: float
+) -> None:
+    side = round(min(max(_SIDE * window.width(), _NARROWEST * text_scale), _WIDEST * text_scale))
+    for area in (Area.LEFT, Area.RIGHT):
+        if area in first:
+            window.resizeDocks([first[area]], [side], Qt.Orientation.Horizontal)
+    if Area.BOTTOM in first:
+        height = round(bottom * window.height())
+        window.resizeDocks([first[Area.BOTTOM]], [height], Qt.Orientation.Vertical)
+
+
+class KeptLayouts:
+    """The layouts that a user has saved under names, among the preferences."""
+
+    def __init__(self, settings: Settings) -> None:
+        self._settings = settings
+
+    def names(self) -> tuple[str, ...]:
+        """Return their names in the order of the alphabet."""
+        return tuple(sorted(self._all(), key=str.casefold))
+
+    def state(self, name: str) -> QByteArray:
+        """Return what Qt keeps of one; nothing where there is none or it was spoilt."""
+        return decoded(self._all().get(name, ""))
+
+    def keep(self, name: str, state: QByteArray) -> None:
+        """Keep one, in the place of that of the same name."""
+        self._write({**self._all(), name: encoded(state)})
+
+    def forget(self, name: str) -> None:
+        """Keep one no longer."""
+        self._write({other: state for other, state in self._all().items() if other != name})
+
+    def objection(self, name: str) -> str | None:
+        """Return why a layout cannot be kept under a name, or None."""
+        if not name:
+            return "write a name"
+        if len(name) > LONGEST_NAME:
+            return f"the name has {len(name)} letters; {LONGEST_NAME} are the most"
+        if name.casefold() in (layout.word.casefold() for layout in BUILT_IN):
+            return f"{name} is a layout of the program; choose another name"
+        if len(self._all()) >= MOST_KEPT and name not in self._all():
+            return f"{MOST_KEPT} layouts are kept, which is the most; delete one first"
+        return None
+
+    def _all(self) -> dict[str, str]:
+        try:
+            kept = json.loads(self._settings.get(_KEPT, "{}"))
+        except (ValueError, RecursionError):
+            return {}
+        if not isinstance(kept, dict):
+            return {}
+        return {name: state for name, state in kept.items() if isinstance(state, str)}
+
+    def _write(self, layouts: Mapping[str, str]) -> None:
+        self._settings.set(_KEPT, json.dumps(layouts))
+
+
+def encoded(state: QByteArray) -> str:
+    """Return bytes of Qt's as text."""
+    return b64encode(state.data()).decode("ascii")
+
+
+def decoded(text: str) -> QByteArray:
+    """Return kept bytes; none where they were spoilt, which Qt then ignores."""
+    try:
+        return QByteArray(b64decode(text, validate=True))
+    except ValueError:
+        return QByteArray()

@@ -1,0 +1,172 @@
+"""The log page: all that the program told, to be filtered and copied."""
+
+from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt, QTimer
+from PySide6.QtGui import QColor, QGuiApplication, QHideEvent, QShowEvent
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QComboBox,
+    QDialog,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QTableView,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.message_log import Message, MessageLog, chosen
+from rotemina.app.shell.theme import Theme
+from rotemina.app.shell.workbench import Level
+
+REFRESH_MS = 300
+_HEADINGS = ("Time", "Level", "Source", "Message")
+_LEAST = {
+    "All messages": Level.INFO,
+    "Warnings and errors": Level.WARNING,
+    "Errors only": Level.ERROR,
+}
+_ROLES = {Level.WARNING: "warning", Level.ERROR: "danger_text", Level.GOOD: "good"}
+_Index = QModelIndex | QPersistentModelIndex
+_TOP = QModelIndex()
+
+
+class MessageTable(QAbstractTableModel):
+    """Messages as rows, the newest first."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self.theme = theme
+        self._rows: tuple[Message, ...] = ()
+
+    def show_messages(self, messages: tuple[Message, ...]) -> None:
+        """Show others."""
+        self.beginResetModel()
+        self._rows = messages[::-1]
+        self.endResetModel()
+
+    def message(self, row: int) -> Message:
+        """Return the message of a row."""
+        return self._rows[row]
+
+    def rowCount(self, parent: _Index = _TOP) -> int:  # noqa: N802 (Qt's name)
+        """Return how many messages there are."""
+        return 0 if parent.isValid() else len(self._rows)
+
+    def columnCount(self, parent: _Index = _TOP) -> int:  # noqa: N802 (Qt's name)
+        """Return how many columns there are."""
+        return 0 if parent.isValid() else len(_HEADINGS)
+
+    def headerData(  # noqa: N802 (Qt's name)
+        self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
+    ) -> object:
+        """Return the heading of a column."""
+        across = orientation is Qt.Orientation.Horizontal
+        return _HEADINGS[section] if across and role == Qt.ItemDataRole.DisplayRole else None
+
+    def data(self, index: _Index, role: int = Qt.ItemDataRole.DisplayRole) -> object:
+        """Return the text, tip or colour of a cell."""
+        message = self._rows[index.row()]
+        if role == Qt.ItemDataRole.DisplayRole:
+            first_line = message.text.partition("\n")[0]
+            cells = (f"{message.time:%H:%M:%S}", str(message.level), message.source, first_line)
+            return cells[index.column()]
+        if role == Qt.ItemDataRole.ToolTipRole:
+            return plain_tip(f"{message.time:%Y-%m-%d %H:%M:%S}", *message.text.splitlines())
+        if role == Qt.ItemDataRole.ForegroundRole and index.column() == 1:
+            return QColor(getattr(self.theme, _ROLES.get(message.level, "text")))
+        return None
+
+
+class LogPage(QDialog):
+    """A window of its own beside the operator's, with filter and copy."""
+
+    def __init__(self, log: MessageLog, theme: Theme, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setWindowTitle("Log")
+        self.resize(860, 420)
+        self._log, self._shown = log, -1
+        self.model = MessageTable(theme)
+        self.level, self.words = QComboBox(), QLineEdit()
+        self.level.addItems(list(_LEAST))
+        self.level.setAccessibleName("Which messages")
+        self.words.setPlaceholderText("words to look for")
+        self.words.setAccessibleName("Words to look for in messages")
+        self.words.setClearButtonEnabled(True)
+        self.table = self._make_table()
+        self.count = QLabel()
+        self.count.setProperty("quiet", True)
+        self.copy = QPushButton("Copy")
+        self.copy.setAutoDefault(False)
+        self.copy.clicked.connect(self.copy_messages)
+        self._lay_out()
+        self.level.currentIndexChanged.connect(lambda _: self._show_messages())
+        self.words.textChanged.connect(lambda _: self._show_messages())
+        self._timer = QTimer(self, interval=REFRESH_MS)
+        self._timer.timeout.connect(self.refresh)
+
+    def refresh(self) -> None:
+        """Show what has been added since; a selection is left alone."""
+        if self._log.count != self._shown and not self.table.selectionModel().hasSelection():
+            self._show_messages()
+
+    def set_theme(self, theme: Theme) -> None:
+        """Change the colours."""
+        self.model.theme = theme
+        self.table.viewport().update()
+
+    def copy_messages(self) -> None:
+        """Copy the selected messages, or all that are shown, oldest first."""
+        selected = sorted(index.row() for index in self.table.selectionModel().selectedRows())
+        rows = selected or range(self.model.rowCount())
+        lines = [self.model.message(row).line for row in rows]
+        QGuiApplication.clipboard().setText("\n".join(reversed(lines)))
+
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
+        """Begin to look for new messages."""
+        self._show_messages()
+        self._timer.start()
+        super().showEvent(event)
+
+    def hideEvent(self, event: QHideEvent) -> None:  # noqa: N802 (Qt's name)
+        """Look no longer."""
+        self._timer.stop()
+        super().hideEvent(event)
+
+    def _show_messages(self) -> None:
+        self._shown = self._log.count
+        messages = self._log.messages()
+        picked = chosen(messages, _LEAST[self.level.currentText()], self.words.text())
+        self.model.show_messages(picked)
+        self.count.setText(f"{len(picked)} of {len(messages)} messages")
+        tip = "Copy the selected messages, or all that are shown"
+        allow(self.copy, None if picked else "no message is shown", tip)
+
+    def _make_table(self) -> QTableView:
+        table = QTableView()
+        table.setModel(self.model)
+        table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        table.setAccessibleName("Messages, newest first")
+        table.verticalHeader().hide()
+        table.setShowGrid(False)
+        table.setWordWrap(False)
+        table.setTabKeyNavigation(False)
+        header = table.horizontalHeader()
+        header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+        header.setSectionResizeMode(QHeaderView.ResizeMode.Interactive)
+        header.setStretchLastSection(True)
+        for column, width in enumerate((80, 80, 190)):
+            table.setColumnWidth(column, width)
+        return table
+
+    def _lay_out(self) -> None:
+        top = QHBoxLayout()
+        top.addWidget(self.level)
+        top.addWidget(self.words, 1)
+        top.addWidget(self.count)
+        top.addWidget(self.copy)
+        column = QVBoxLayout(self)
+        column.addLayout(top)
+        column.addWidget(self.table, 1)

@@ -1,0 +1,129 @@
+"""The command palette: everything that can be done, found by a few letters, without a mouse."""
+
+from collections.abc import Callable, Iterable
+
+from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import (
+    QDialog,
+    QLabel,
+    QLineEdit,
+    QListWidget,
+    QListWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.shell.entries import Entry
+from rotemina.app.shell.fuzzy import score
+
+_WIDTH, _HEIGHT = 560, 380
+_TO_THE_LIST = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
+_UNABLE = 0.7  # what cannot be done now comes after what fits about as well
+
+
+class Palette(QDialog):
+    """A field and the list of what fits it; Enter does what is marked.
+
+    What cannot be done now is listed too, with the reason; Enter on it does nothing.
+
+    Parameters
+    ----------
+    entries : callable
+        Returns all that can be done, anew whenever the palette is opened.
+    parent : QWidget
+    """
+
+    def __init__(self, entries: Callable[[], Iterable[Entry]], parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setWindowTitle("Find a command")
+        self._ask = entries
+        self._entries: tuple[Entry, ...] = ()
+        self._shown: tuple[Entry, ...] = ()
+        self.field, self.list = QLineEdit(), QListWidget()
+        self.field.setPlaceholderText("a few letters of what to do")
+        self.field.setAccessibleName("Letters of what to do")
+        self.field.textChanged.connect(self._show_fitting)
+        self.field.installEventFilter(self)
+        self.list.setAccessibleName("What can be done")
+        self.list.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.list.setTextElideMode(Qt.TextElideMode.ElideRight)
+        self.list.itemClicked.connect(lambda _: self.do())
+        self.list.currentRowChanged.connect(self._explain)
+        self.reason = QLabel()
+        self.reason.setTextFormat(Qt.TextFormat.PlainText)
+        self.reason.setWordWrap(True)
+        self.reason.setProperty("quiet", True)
+        column = QVBoxLayout(self)
+        for widget in (self.field, self.list, self.reason):
+            column.addWidget(widget)
+
+    def open_anew(self) -> None:
+        """Open it with all that can be done now, and nothing typed."""
+        self._entries = tuple(self._ask())
+        self.field.clear()
+        self._show_fitting("")
+        self.resize(_WIDTH, _HEIGHT)
+        parent = self.parentWidget()
+        corner = parent.mapToGlobal(parent.rect().topLeft())
+        self.move(corner.x() + (parent.width() - self.width()) // 2, corner.y() + 60)
+        self.show()
+        self.raise_()
+        self.activateWindow()
+        self.field.setFocus()
+
+    def do(self) -> None:
+        """Close, and do what is marked; what cannot be done leaves it open with the reason."""
+        row = self.list.currentRow()
+        if row < 0 or self._shown[row].why_not is not None:
+            return
+        entry = self._shown[row]
+        self.hide()
+        entry.run()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
+        """Hand the keys that walk through the list on to it."""
+        if watched is self.field and isinstance(event, QKeyEvent):
+            down = event.type() == QEvent.Type.KeyPress
+            if down and event.key() in _TO_THE_LIST:
+                self.list.event(event)
+                return True
+            if down and event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+                self.do()
+                return True
+        return super().eventFilter(watched, event)
+
+    def _show_fitting(self, typed: str) -> None:
+        found = []
+        for number, entry in enumerate(self._entries):
+            fits = score(typed, entry.text)
+            if fits is not None:
+                worth = fits if entry.why_not is None else _UNABLE * fits
+                found.append((-worth, entry.why_not is not None, number, entry))
+        found.sort(key=lambda each: each[:3])
+        self._shown = tuple(entry for *_, entry in found)
+        self.list.clear()
+        for entry in self._shown:
+            self.list.addItem(_item(entry))
+        self.list.setCurrentRow(0 if self._shown else -1)
+        self._explain(self.list.currentRow())
+
+    def _explain(self, row: int) -> None:
+        if not 0 <= row < len(self._shown):
+            self.reason.setText("" if self._shown else "Nothing has these letters.")
+            return
+        reason = self._shown[row].why_not
+        self.reason.setText(f"Not now: {reason}." if reason else "Enter does it.")
+
+
+def _item(entry: Entry) -> QListWidgetItem:
+    keys = f"   [{entry.shortcut}]" if entry.shortcut else ""
+    why = f"   – not now: {entry.why_not}" if entry.why_not else ""
+    item = QListWidgetItem(f"{entry.text}{keys}{why}")
+    item.setToolTip("")
+    if entry.why_not is not None:
+        font = item.font()
+        font.setItalic(True)
+        item.setFont(font)
+    return item

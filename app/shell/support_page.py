@@ -1,0 +1,130 @@
+"""The page that shows what a support bundle holds before it is written."""
+
+from collections.abc import Sequence
+from datetime import datetime
+from pathlib import Path
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import (
+    QDialog,
+    QFileDialog,
+    QHBoxLayout,
+    QLabel,
+    QListWidget,
+    QPlainTextEdit,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.display import size_text
+from rotemina.app.shell.controls import allow
+from rotemina.app.shell.message_log import MessageLog
+from rotemina.app.shell.progress import Progress
+from rotemina.app.shell.scrubbing import Scrubber
+from rotemina.app.shell.support_bundle import Item, gather, write_bundle
+from rotemina.app.shell.workbench import Level, Workbench
+
+_SHOWN = 20_000  # letters of a file; the rest of a record looks alike
+_INTRODUCTION = (
+    "This is what the bundle will hold. User names, home folders and the name of this computer "
+    "are taken out already. Nothing is sent: the archive is written where you choose."
+)
+
+
+class SupportPage(QDialog):
+    """Lists the files of a bundle with their content, and saves it."""
+
+    def __init__(self, workbench: Workbench, log: MessageLog, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setWindowTitle("Support bundle")
+        self.resize(820, 480)
+        self._workbench = workbench
+        self.items: tuple[Item, ...] = ()
+        introduction = QLabel(_INTRODUCTION)
+        introduction.setWordWrap(True)
+        self.list, self.view, self.save = QListWidget(), QPlainTextEdit(), QPushButton("Save …")
+        self.list.setAccessibleName("Files of the bundle")
+        self.list.setFixedWidth(230)
+        self.list.currentRowChanged.connect(self._show_item)
+        self.view.setReadOnly(True)
+        self.view.setAccessibleName("Content of the file")
+        self.view.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
+        self.save.clicked.connect(self.ask_where)
+        self._allow_saving()
+        middle = QHBoxLayout()
+        middle.addWidget(self.list)
+        middle.addWidget(self.view, 1)
+        buttons = QHBoxLayout()
+        buttons.addStretch(1)
+        buttons.addWidget(self.save)
+        column = QVBoxLayout(self)
+        column.addWidget(introduction)
+        column.addLayout(middle, 1)
+        column.addLayout(buttons)
+        self._gather(log)
+
+    def ask_where(self) -> None:
+        """Ask where to, and write the bundle there."""
+        settings = self._workbench.settings
+        dialog = QFileDialog(
+            self, "Save support bundle", settings.get("files.folder", ""), "Archives (*.zip)"
+        )
+        dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setDefaultSuffix("zip")
+        dialog.selectFile(f"rotemina-support-{datetime.now():%Y-%m-%d}.zip")
+        dialog.fileSelected.connect(lambda name: self.write(Path(name)))
+        dialog.show()
+
+    def write(self, path: Path) -> None:
+        """Write the bundle, away from the window's thread, and close the page."""
+        bench, items = self._workbench, self.items
+
+        def work(progress: Progress) -> None:
+            write_bundle(path, items, progress.reached)
+
+        bench.long_work(
+            "support bundle",
+            Progress("The support bundle is written."),
+            work,
+            lambda _: bench.notify(Level.GOOD, f"Saved {path}"),
+        )
+        self.close()
+
+    def _gather(self, log: MessageLog) -> None:
+        bench = self._workbench
+        preferences, state, record = bench.settings.values, bench.session.snapshot(), bench.record
+        driver, robot = bench.session.driver.name, bench.robot.name
+
+        def work(progress: Progress) -> tuple[Item, ...]:
+            scrubber = Scrubber.of_this_user()
+            told = log.messages()
+            return gather(
+                told, preferences, state, driver, robot, record, scrubber, progress.reached
+            )
+
+        bench.long_work(
+            "support items", Progress("The support bundle is put together."), work, self._show_items
+        )
+
+    def _show_items(self, items: Sequence[Item]) -> None:
+        self.items = tuple(items)
+        for item in items:
+            size = size_text(len(item.text.encode("utf-8")))
+            self.list.addItem(f"{item.name}   {size}")
+        self.list.setCurrentRow(0)
+        self._allow_saving()
+
+    def _allow_saving(self) -> None:
+        why_not = None if self.items else "the bundle is still being put together"
+        allow(self.save, why_not, "Write all of it into one zip archive")
+
+    def _show_item(self, row: int) -> None:
+        if 0 <= row < len(self.items):
+            item = self.items[row]
+            cut = item.text[:_SHOWN]
+            more = "\n…" if len(item.text) > _SHOWN else ""
+            self.view.setPlainText(f"{cut}{more}")
+            self.view.setToolTip(item.about)

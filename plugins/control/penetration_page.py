@@ -1,0 +1,123 @@
+"""The penetration's two buttons, as they are in its own panel, and what goes on."""
+
+import time
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWidget
+
+from rotemina.app.motion.penetration.status import UNDER_WAY, Phase
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.phase import Tone, set_tone
+from rotemina.app.shell.workbench import Workbench
+from rotemina.drivers.clock import Clock
+from rotemina.plugins.control.parts import text_label
+from rotemina.plugins.penetration.prospect import Prospect
+from rotemina.plugins.penetration.words import (
+    against_button,
+    arm_tip,
+    arm_word,
+    button_tip,
+    button_word,
+    counts,
+    headline,
+    message,
+)
+
+_TONES = {
+    Phase.DISARMED: Tone.QUIET,
+    Phase.ARMED: Tone.WARNING,
+    Phase.DONE: Tone.GOOD,
+    Phase.ABORTED: Tone.WARNING,
+    Phase.FAILED: Tone.DANGER,
+    Phase.HELD: Tone.DANGER,
+}
+
+
+class PenetrationPage(QWidget):
+    """Arm with the parameters that the Penetration panel holds; start, stop, retract."""
+
+    def __init__(self, workbench: Workbench, clock: Clock = time.monotonic) -> None:
+        super().__init__()
+        self._workbench, self._operation = workbench, workbench.operation
+        self._clock, self._pressed_s = clock, float("-inf")
+        self._shown = Phase.DISARMED
+        self._prospect: Prospect | None = None
+        self._planned_for: object = None
+        self.arm = QPushButton("Arm")
+        self.arm.clicked.connect(lambda _: self._arm())
+        self.button = QPushButton("Start")
+        self.button.setProperty("primary", True)
+        # By Tab alone: no space bar that follows a click may start or end anything.
+        self.button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        # On pressing, not on release: what stops must not wait for the finger to lift.
+        self.button.pressed.connect(self._press)
+        self.phase = QLabel()
+        self.phase.setAccessibleName("Phase of the penetration")
+        self.phase.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.message = text_label(lines=3)
+        self.parameters = text_label()
+        self.phase.setMinimumSize(130, 22)
+        self.phase.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+        row = QHBoxLayout()
+        row.setSpacing(6)
+        row.addWidget(self.arm, 1)
+        row.addWidget(self.button, 2)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(10, 6, 10, 4)
+        column.setSpacing(4)
+        column.addLayout(row)
+        column.addWidget(self.phase)
+        column.addWidget(self.message)
+        column.addWidget(self.parameters)
+        column.addStretch(1)
+
+    def refresh(self, state: SessionState) -> None:
+        """Show a moment, and lock what cannot be done now."""
+        status = self._operation.penetration.status
+        self._shown = phase = status.phase
+        self.arm.setText(arm_word(phase))
+        against = f"it is in {phase}; stop it first" if phase in UNDER_WAY else None
+        if arm_word(phase) == "Arm" and against is None:
+            against = self._against_arming(state)
+        allow(self.arm, against, arm_tip(phase))
+        self.button.setText(button_word(phase))
+        allow(self.button, against_button(status, state), button_tip(phase))
+        self.phase.setText(headline(status))
+        set_tone(self.phase, _TONES.get(phase, Tone.BUSY))
+        told = message(status, against)
+        if told != self.message.text():
+            self.message.setText(told)
+            self.message.setToolTip(plain_tip(told))
+        axis = self._operation.penetration_parameters.axis
+        told = f"Axis {axis}; parameters: see the Penetration panel."
+        if told != self.parameters.text():
+            self.parameters.setText(told)
+
+    def _against_arming(self, state: SessionState) -> str | None:
+        session, parameters = self._workbench.session, self._operation.penetration_parameters
+        if self._prospect is None or self._planned_for != (parameters, session.driver):
+            self._planned_for = (parameters, session.driver)
+            self._prospect = Prospect.of(session, parameters)
+        if self._prospect.plan is None:
+            return self._prospect.problem
+        if state.locked is not None:
+            return f"motion is locked: {state.locked}"
+        return self._operation.penetration.why_not(parameters, self._prospect.plan)
+
+    def _arm(self) -> None:
+        operation, word = self._operation, arm_word(self._shown)
+        if word != arm_word(operation.penetration.status.phase):
+            return  # it acts as it was labelled, or not at all
+        if word == "Arm":
+            parameters = operation.penetration_parameters
+            self._workbench.ask(lambda: operation.arm_penetration(parameters))
+        else:
+            self._workbench.ask(operation.penetration.disarm)
+
+    def _press(self) -> None:
+        now_s = self._clock()
+        phase, since_s = self._operation.penetration.status.phase, now_s - self._pressed_s
+        self._pressed_s = now_s
+        if counts(self._shown, phase, since_s):
+            self._workbench.ask(self._operation.press_penetration)

@@ -1,0 +1,142 @@
+"""Saved positions, homing, and the way back."""
+
+from collections.abc import Callable, Mapping
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QVBoxLayout, QWidget
+
+from rotemina.app.display import axis_scale, label
+from rotemina.app.motion.saved_positions import LONGEST_NAME, SavedPositions
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.plugins.connection.reasons import against_going_back, against_homing, in_motion
+from rotemina.plugins.control.parts import SteadyChoice, button, text_label
+from rotemina.plugins.control.step_choice import SpeedChoice
+
+
+class PositionsPage(QWidget):
+    """Keep where the robot is under a name; go there again by a safe way."""
+
+    def __init__(self, workbench: Workbench, speed: SpeedChoice) -> None:
+        super().__init__()
+        self._workbench, self._speed = workbench, speed
+        self.positions = SavedPositions(workbench.settings.folder, workbench.robot)
+        self._again: str | None = None  # what the next press replaces or deletes
+        self.names = SteadyChoice("Saved positions", "Places of all axes, by name")
+        self.names.setPlaceholderText("none saved yet")
+        self.names.currentIndexChanged.connect(lambda _: self._choose())
+        self.name = QLineEdit()
+        self.name.setPlaceholderText("name of this place")
+        self.name.setMaxLength(LONGEST_NAME)
+        self.name.setAccessibleName("Name for where the robot is now")
+        self.name.textEdited.connect(lambda _: self._forget())
+        self.go = button("Go there", "", self._go)
+        self.delete = button("Delete", "", self._delete)
+        self.keep = button("Save", "", self._keep)
+        self.place = text_label(lines=3)
+        self.home = button("Home all", "", workbench.home)
+        self.back = button("Back", "", workbench.undo)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(10, 6, 10, 4)
+        column.setSpacing(5)
+        column.addLayout(_row((self.names, 1), (self.go, 0), (self.delete, 0)))
+        column.addWidget(self.place)
+        column.addLayout(_row((self.name, 1), (self.keep, 0)))
+        column.addLayout(_row((self.home, 1), (self.back, 1)))
+        column.addStretch(1)
+        if workbench.ask(self.positions.read):
+            self._list()
+
+    def refresh(self, state: SessionState) -> None:
+        """Lock what cannot be done now."""
+        none = None if self.names.currentText() else "no position is chosen"
+        moving = in_motion(state)
+        allow(
+            self.go,
+            none or state.locked or moving,
+            "Lift the tip above both places, go across, come down",
+        )
+        allow(self.delete, none, "Forget this position; asks once more")
+        known = None if state.position_known and state.command else "the position is not known"
+        nameless = None if self.name.text().strip() else "type a name first"
+        allow(self.keep, known or moving or nameless, "Keep where all axes are told to be")
+        driver = self._workbench.session.driver
+        allow(self.home, against_homing(state, driver), "Find the limit switches of all axes")
+        allow(
+            self.back,
+            against_going_back(state, undoable=self._workbench.session.undoable),
+            "Go back to where the axes rested before the latest move: up, across, down",
+        )
+
+    # --- what buttons do --------------------------------------------------------------------------
+
+    def _go(self) -> None:
+        place = self.positions.kept.get(self.names.currentText())
+        if place is not None:
+            session, speeds = self._workbench.session, self._speed.speeds(place)
+            self._workbench.ask(lambda: session.go_safely(place, speeds))
+
+    def _keep(self) -> None:
+        name, place = self.name.text().strip(), self._workbench.session.snapshot().command
+        if name in self.positions.kept and not self._sure(f"keep {name}", self.keep, "Replace?"):
+            return
+        self._forget()
+        if self._do(lambda: self.positions.keep(name, place), name):
+            self.name.clear()
+            self._workbench.notify(Level.GOOD, f"Position {name!r} is saved.")
+
+    def _delete(self) -> None:
+        name = self.names.currentText()
+        if self._sure(f"delete {name}", self.delete, "Sure?"):
+            self._forget()
+            self._do(lambda: self.positions.delete(name), "")
+
+    def _do(self, change: Callable[[], None], name: str) -> bool:
+        done = self._workbench.ask(change)
+        self._list(name)
+        return done
+
+    def _sure(self, what: str, asked: QWidget, word: str) -> bool:
+        """Whether this is the second press for the same; the first one changes the button."""
+        if self._again == what:
+            return True
+        self._forget()
+        self._again = what
+        asked.setText(word)
+        return False
+
+    def _forget(self) -> None:
+        self._again = None
+        self.keep.setText("Save")
+        self.delete.setText("Delete")
+
+    # --- what is shown ----------------------------------------------------------------------------
+
+    def _list(self, name: str = "") -> None:
+        names = sorted(self.positions.kept, key=str.casefold)
+        self.names.clear()
+        self.names.addItems(names)
+        self.names.setCurrentIndex(names.index(name) if name in names else min(0, len(names) - 1))
+
+    def _choose(self) -> None:
+        self._forget()
+        place = self.positions.kept.get(self.names.currentText())
+        text = "" if place is None else self._text(place)
+        self.place.setText(text)
+        self.place.setToolTip(plain_tip(text) if text else "")
+
+    def _text(self, place: Mapping[str, float]) -> str:
+        axes = self._workbench.robot.axes
+        return ", ".join(
+            f"{label(axis)} {axis_scale(axes[axis]).text(place[axis])}".replace(" ", "\u00a0")
+            for axis in axes
+        )
+
+
+def _row(*widgets: tuple[QWidget, int]) -> QHBoxLayout:
+    row = QHBoxLayout()
+    row.setSpacing(6)
+    for widget, stretch in widgets:
+        row.addWidget(widget, stretch, Qt.AlignmentFlag.AlignVCenter)
+    return row

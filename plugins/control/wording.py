@@ -1,0 +1,199 @@
+"""What the control menu says of an axis, and what a typed target means. Free of Qt."""
+
+from rotemina.app.display import PLAIN_NUMBER, Scale, label
+from rotemina.app.motion.ownership import HOMING, OPERATOR, PLAYBACK
+from rotemina.app.motion.state import SessionState
+from rotemina.app.motion.teleoperation.views import TeleoperationState
+from rotemina.app.panel import STALE_S
+from rotemina.sim.kinematics.keep_out import SLOW_HEIGHT, SLOW_SPEED, KeepOutZone
+from rotemina.sim.robot.model import Axis
+from rotemina.sim.trajectory.wording import readable
+from rotemina.sim.units import from_unit
+
+LITTLE = 0.1  # of the range: what is left below it is pointed at
+_NOT_TAKEN = (OPERATOR, PLAYBACK, HOMING)
+
+
+# --- readouts -------------------------------------------------------------------------------------
+
+
+def is_stale(state: SessionState) -> bool:
+    """Whether the readings are too old to act on."""
+    return state.age_s is None or state.age_s > STALE_S
+
+
+def age_text(age_s: float | None) -> str:
+    """Return how old a reading is that is too old."""
+    if age_s is None:
+        return "no data"
+    if age_s < 100.0:
+        return f"{age_s:.1f} s old"
+    return f"{age_s / 60.0:.0f} min old" if age_s < 6000.0 else f"{age_s / 3600.0:.0f} h old"
+
+
+def status_text(axis: str, state: SessionState, scale: Scale) -> str:
+    """Return the one thing that matters most of an axis, beside its reading."""
+    if axis in state.unhomed:
+        return "not homed"
+    if is_stale(state) and state.measured:
+        return age_text(state.age_s)
+    if not state.position_known or axis not in state.command:
+        return ""
+    owner = state.owners.get(axis)
+    told = f"→ {scale.number(state.command[axis])}"
+    return told if owner in (None, OPERATOR) else f"{owner} {told}"
+
+
+def left_text(position: float | None, axis: Axis, scale: Scale) -> str:
+    """Return how far it is to the nearer end of the range."""
+    if position is None:
+        return ""
+    return f"{_rough(_left(position, axis), scale)} left"
+
+
+def is_little(position: float | None, axis: Axis) -> bool:
+    """Whether an axis is close to an end of its range."""
+    return position is not None and _left(position, axis) < LITTLE * axis.span
+
+
+def range_tip(axis: str, position: float | None, described: Axis, scale: Scale) -> str:
+    """Return the range of an axis, and what is left of it on both sides."""
+    low, high = described.range
+    text = f"{label(axis)} range: {scale.text(low)} … {scale.text(high)}"
+    if position is None:
+        return text
+    down, up = max(position - low, 0.0), max(high - position, 0.0)
+    return f"{text}; left: {scale.text(down)} down, {scale.text(up)} up"
+
+
+def _left(position: float, axis: Axis) -> float:
+    low, high = axis.range
+    return max(min(position - low, high - position), 0.0)
+
+
+def _rough(value: float, scale: Scale) -> str:
+    return Scale(scale.unit, 1).text(value)
+
+
+# --- typed targets --------------------------------------------------------------------------------
+
+
+def typed(text: str, scale: Scale) -> float | None:
+    """Return the position (SI) that a text means; None if it is no plain number.
+
+    A comma is refused: nobody can tell a decimal comma from a thousands separator.
+    """
+    if PLAIN_NUMBER.fullmatch(text.strip()) is None:
+        return None
+    return float(from_unit(float(text), scale.unit))
+
+
+def echo(text: str, scale: Scale) -> str:
+    """Return what a typed text means, with its unit."""
+    if not text.strip():
+        return ""
+    target = typed(text, scale)
+    if target is None:
+        return "a point, no comma" if "," in text else "no number"
+    return f"to {scale.text(target)}"
+
+
+def way(text: str, scale: Scale, command: float | None) -> str:
+    """Return how far from here the typed position is; empty where that is not known."""
+    target = typed(text, scale)
+    if target is None or command is None:
+        return ""
+    distance = scale.text(target - command)
+    return distance if distance.startswith("-") else f"+{distance}"
+
+
+def no_position(axis: str, text: str, scale: Scale) -> str:
+    """Return why a text moves nothing."""
+    return (
+        f"{label(axis)}: {text.strip()!r} is no position; type a number in {scale.symbol} with a "
+        "decimal point."
+    )
+
+
+# --- tip ------------------------------------------------------------------------------------------
+
+
+def tip_text(state: SessionState, zone: KeepOutZone | None) -> str:
+    """Return where the tip is, and what is below it."""
+    if zone is None:
+        return "No tip: this robot has no chain of axes to one."
+    if state.tip is None or not state.position_known:
+        return "Tip: unknown."
+    above = above_floor(state, zone)
+    if above is None:
+        return f"Tip {_millimetres(state.tip[2])} high; no floor is taught."
+    if above < 0.0:
+        return f"Tip {_millimetres(-above)} below its floor."
+    slow = "; slow zone" if above < SLOW_HEIGHT else ""
+    return f"Tip {_millimetres(above)} above its floor{slow}."
+
+
+def tip_short(state: SessionState, zone: KeepOutZone | None) -> str:
+    """Return the tip's height in few letters."""
+    if zone is None:
+        return ""
+    above = above_floor(state, zone)
+    if above is not None:
+        return f"Tip over floor {_millimetres(above)}"
+    known = state.tip is not None and state.position_known
+    return "No floor taught" if known else "Tip unknown"
+
+
+def above_floor(state: SessionState, zone: KeepOutZone | None) -> float | None:
+    """Return the height of the tip above its floor, m; None where one of them is not known."""
+    if zone is None or state.tip is None or not state.position_known:
+        return None
+    height = state.tip[2] - zone.low
+    return height if abs(height) < float("inf") else None
+
+
+def bounds_text(zone: KeepOutZone | None) -> str:
+    """Return what bounds the tip, and what the slow zone means."""
+    if zone is None:
+        return "Only the ranges of the axes hold this robot."
+    bounds = []
+    if abs(zone.low) < float("inf"):
+        bounds.append(f"floor at {_millimetres(zone.low)}")
+    if abs(zone.high) < float("inf"):
+        bounds.append(f"objective at {_millimetres(zone.high)}")
+    if zone.radius < float("inf"):
+        bounds.append(f"at most {_millimetres(zone.radius)} from the middle")
+    if not bounds:
+        return "Nothing bounds the tip but its axes. Teach a floor in Connection, Tip."
+    slow = (
+        f" Within {readable(SLOW_HEIGHT, 'm')} above the floor it goes down at "
+        f"{readable(SLOW_SPEED, 'm')}/s at most."
+        if abs(zone.low) < float("inf")
+        else ""
+    )
+    return f"{', '.join(bounds).capitalize()}.{slow}"
+
+
+def _millimetres(metres: float) -> str:
+    return f"{1e3 * metres:.4f} mm"
+
+
+# --- owners ---------------------------------------------------------------------------------------
+
+
+def taken(state: SessionState) -> tuple[str, ...]:
+    """Return the axes that somebody else drives from whom they may be taken over."""
+    return tuple(axis for axis, owner in state.owners.items() if owner not in _NOT_TAKEN)
+
+
+def owners_text(state: SessionState) -> str:
+    """Return who drives which axes."""
+    by_owner: dict[str, list[str]] = {}
+    for axis, owner in state.owners.items():
+        by_owner.setdefault(owner, []).append(label(axis))
+    return "; ".join(f"{owner}: {', '.join(axes)}" for owner, axes in by_owner.items())
+
+
+def steering_text(state: TeleoperationState, device: str) -> str:
+    """Return what drives, and how."""
+    return f"{device} · {state.mode} · {state.law} × {state.factor:g}"

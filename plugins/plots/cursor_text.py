@@ -1,0 +1,58 @@
+"""What two cursors read: places, differences, and their inverse. Free of Qt."""
+
+from enum import StrEnum
+from typing import NamedTuple
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+
+
+class Shown(StrEnum):
+    """What the plots draw."""
+
+    POSITION = "position"
+    GAP = "gap"
+    LOOP = "loop"
+    SPECTRUM = "spectrum"
+
+
+class Reading(NamedTuple):
+    """What cursors say above a plot, and all of it in the tooltip."""
+
+    short: str
+    full: str
+
+
+def nearest(x: FloatArray, y: FloatArray, at: float) -> float | None:
+    """Return the value of the sample that is nearest to a place; x (n,) increases."""
+    if len(x) == 0 or not x[0] <= at <= x[-1]:
+        return None
+    right = min(int(np.searchsorted(x, at)), len(x) - 1)
+    left = max(right - 1, 0)
+    return float(y[left] if at - x[left] <= x[right] - at else y[right])
+
+
+def across_text(shown: Shown, a: float, b: float) -> str:
+    """Return what the cursors say of time or frequency, for all plots together."""
+    if shown is Shown.LOOP:
+        return "Cursors: Δx and Δy of each loop stand above it."
+    unit, inverse = ("Hz", "s") if shown is Shown.SPECTRUM else ("s", "Hz")
+    difference = b - a
+    text = f"A {a:.4g} {unit}  B {b:.4g} {unit}  Δ {difference:.4g} {unit}"
+    return text if difference == 0.0 else f"{text}  1/Δ {1.0 / difference:.4g} {inverse}"
+
+
+def values_text(a: float | None, b: float | None, unit: str) -> Reading:
+    """Return what a signal has at the cursors, and the difference."""
+    if a is None or b is None:
+        return Reading("cursor outside", "a cursor stands where nothing was measured")
+    short = f"Δ {b - a:.4g} {unit}"
+    return Reading(short, f"A {a:.7g} {unit}, B {b:.7g} {unit}, {short}")
+
+
+def loop_text(a: tuple[float, float], b: tuple[float, float], unit: str) -> Reading:
+    """Return the differences of two points of a loop, and their ratio."""
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    short = f"Δx {dx:.4g}  Δy {dy:.4g} {unit}"
+    return Reading(short, short if dx == 0.0 else f"{short}, Δy/Δx {dy / dx:.4g}")

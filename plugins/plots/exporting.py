@@ -1,0 +1,41 @@
+"""Pictures of the plots."""
+
+from pathlib import Path
+
+from PySide6.QtCore import QBuffer, QPoint, QSize
+from PySide6.QtGui import QPainter
+from PySide6.QtSvg import QSvgGenerator
+from PySide6.QtWidgets import QWidget
+
+from rotemina.app.files import write_text
+from rotemina.sim.whole_files import FileWriteError
+
+
+def save_picture(widget: QWidget, path: Path) -> None:
+    """Draw a widget into a file: as lines for ``.svg``, else as pixels (``.png``).
+
+    Raises
+    ------
+    FileWriteError
+        If the file cannot be written.
+    """
+    if path.suffix.lower() == ".svg":
+        _save_svg(widget, path)
+    elif not widget.grab().save(str(path)):
+        raise FileWriteError(
+            f"{path}: the picture cannot be written; choose another folder, or .png or .svg"
+        )
+
+
+def _save_svg(widget: QWidget, path: Path) -> None:
+    drawn = QBuffer()
+    drawn.open(QBuffer.OpenModeFlag.WriteOnly)
+    generator = QSvgGenerator()
+    generator.setOutputDevice(drawn)
+    generator.setSize(QSize(widget.width(), widget.height()))
+    generator.setViewBox(widget.rect())
+    generator.setTitle("Plots of the axes")
+    painter = QPainter(generator)
+    widget.render(painter, QPoint())
+    painter.end()
+    write_text(path, drawn.data().toStdString())

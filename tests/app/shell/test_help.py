@@ -1,0 +1,172 @@
+"""Palette, keys, log page and support bundle, and every action of the window."""
+
+import zipfile
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QAction, QGuiApplication
+from PySide6.QtWidgets import QApplication, QFileDialog, QInputDialog, QPushButton
+
+from rotemina.app.shell import entries, key_help
+from rotemina.app.shell import theme as themes
+from rotemina.app.shell.controls import allow
+from rotemina.app.shell.workbench import Level
+
+LONG_MS = 30_000
+
+
+@pytest.fixture
+def silent(monkeypatch):
+    """No dialog waits for an answer."""
+    monkeypatch.setattr(QFileDialog, "show", lambda dialog: dialog.close())
+    monkeypatch.setattr(QInputDialog, "show", lambda dialog: dialog.close())
+
+
+def all_actions(menu):
+    for action in menu.actions():
+        if action.menu() is not None:
+            yield from all_actions(action.menu())
+        elif not action.isSeparator():
+            yield action
+
+
+def test_every_action_of_every_menu_and_of_the_palette(qtbot, window, silent, monkeypatch):
+    clicked, dressed = [], []
+    # Panels test what their own buttons do. (A bound method would not be given the button.)
+    monkeypatch.setattr(QPushButton, "click", lambda button: clicked.append(button))
+    monkeypatch.setattr(themes, "apply", lambda _, theme, scale: dressed.append((theme, scale)))
+    texts = {command.text for command in window.commands()}
+    seen = set()
+    for action in all_actions(window.menuBar()):
+        if action.text() != "&Quit":
+            action.trigger()
+            seen.add(action.text())
+    assert texts - {"&Quit"} <= seen
+    assert {dock.windowTitle() for dock in window.docks.values()} <= seen
+    assert {theme for theme, _ in dressed} == set(themes.THEMES.values())
+    assert len({scale for _, scale in dressed}) > 1
+    window.workbench.release()
+    window.palette_page.hide()
+    offered = list(window._entries())
+    for entry in offered:
+        assert entry.where
+        assert entry.what.strip(": ") == entry.what != ""
+    assert texts <= {command.text for command in window.commands()}
+    done = 0
+    for entry in offered[len(texts) :]:  # the commands were just triggered
+        if entry.why_not is None:
+            entry.run()
+            done += 1
+    assert done > len(clicked) + len(window.docks)
+    assert len(clicked) > 20
+    assert window.isVisible()
+    qtbot.waitUntil(lambda: not window.workbench.busy, timeout=LONG_MS)
+
+
+def test_the_palette_finds_explains_and_does_by_keys_alone(qtbot, window):
+    bench, palette = window.workbench, window.palette_page
+    panel = window.panels["faults"]
+    able, unable = QPushButton("Zebra crossing …", panel), QPushButton("Zebra stripes", panel)
+    allow(able, None, "Go")
+    allow(unable, "there is no zebra", "Go")
+    pressed = []
+    able.clicked.connect(lambda: pressed.append("able"))
+    unable.clicked.connect(lambda: pressed.append("unable"))
+    for button in (able, unable):
+        button.show()
+    window.docks["faults"].close()
+    window.toggle_palette()
+    assert palette.isVisible()
+    qtbot.keyClicks(palette.field, "zeb")
+    assert [entry.what for entry in palette._shown] == ["Zebra crossing", "Zebra stripes"]
+    qtbot.keyClick(palette.field, Qt.Key.Key_Down)
+    assert palette.reason.text() == "Not now: there is no zebra."
+    assert "there is no zebra" in palette.list.item(1).text()
+    qtbot.keyClick(palette.field, Qt.Key.Key_Return)
+    assert pressed == []
+    assert palette.isVisible()
+    qtbot.keyClick(palette.field, Qt.Key.Key_Up)
+    qtbot.keyClick(palette.field, Qt.Key.Key_Return)
+    assert pressed == ["able"]
+    assert palette.isHidden()
+    assert not window.docks["faults"].isHidden()  # the panel that it acts in is shown
+    window.toggle_palette()
+    assert palette.field.text() == ""
+    qtbot.keyClicks(palette.field, "back latest move")
+    assert palette.reason.text() == "Not now: there is no move to take back."
+    palette.field.setText("qqqqq")
+    assert palette.list.count() == 0
+    assert "Nothing" in palette.reason.text()
+    window.toggle_palette()
+    assert palette.isHidden()
+    session = bench.session
+    session.jog("x", 1e-5)
+    qtbot.waitUntil(lambda: session.undoable and not session.snapshot().owners, timeout=LONG_MS)
+    undo = next(e for e in entries.command_entries(window.commands()) if e.what.startswith("Back"))
+    assert undo.why_not is None
+    there = session.snapshot().command["x"]
+    undo.run()
+    qtbot.waitUntil(lambda: session.snapshot().command["x"] < there - 0.9e-5, timeout=LONG_MS)
+
+
+def test_the_pages_of_help(qtbot, window, tmp_path):
+    keys_are_those_of_the_actions_and_no_two_are_alike(window)
+    the_log_page_filters_follows_and_copies(window)
+    the_support_bundle_is_shown_before_it_is_written(qtbot, window, tmp_path)
+
+
+def keys_are_those_of_the_actions_and_no_two_are_alike(window):
+    rows = key_help.keys(window.findChildren(QAction))
+    found = [key for key, _ in rows]
+    assert len(found) == len(set(found))
+    assert ("Shift+Esc", "Emergency stop: latched until it is released; a stop by software") in rows
+    given = {command.shortcut for command in window.commands() if command.shortcut}
+    assert given <= set(found)
+    window.show_keys()
+    page = window.findChild(key_help.KeyHelp)
+    assert "Ctrl+Shift+P" in page.table.text()
+    page.close()
+
+
+def the_log_page_filters_follows_and_copies(window):
+    bench, page = window.workbench, window.log_page
+    window.show_log()
+    bench.notify(Level.GOOD, "all is well")
+    bench.notify(Level.ERROR, "the <b>line</b> is cut\nsecond line")
+    bench.go_to({"x": 99.0})  # a command that is refused
+    page.refresh()
+    top = page.model.index(0, 3).data()
+    assert "99" in top
+    page.words.setText("LINE cut")
+    assert page.model.rowCount() == 1
+    assert page.model.index(0, 2).data() == "window"
+    assert page.model.index(0, 3).data() == "the <b>line</b> is cut"
+    page.copy.click()
+    assert QGuiApplication.clipboard().text().endswith("is cut\n    second line")
+    page.words.clear()
+    page.level.setCurrentIndex(2)
+    assert page.model.rowCount() == 2
+    page.table.selectRow(1)
+    page.copy.click()
+    assert "second line" in QGuiApplication.clipboard().text()
+    assert "99" not in QGuiApplication.clipboard().text()
+    page.words.setText("nobody ever said that")
+    assert not page.copy.isEnabled()
+    page.close()
+
+
+def the_support_bundle_is_shown_before_it_is_written(qtbot, window, tmp_path):
+    window.workbench.notify(Level.INFO, f"opened {tmp_path.home()}/secret.csv")
+    window.show_support()
+    page = window._support
+    assert not page.save.isEnabled()
+    qtbot.waitUntil(page.save.isEnabled, timeout=LONG_MS)
+    assert page.list.count() == 4
+    assert "secret.csv" in page.view.toPlainText()
+    assert str(tmp_path.home()) + "/" not in page.view.toPlainText()
+    target = tmp_path / "bundle.zip"
+    page.write(target)
+    qtbot.waitUntil(lambda: "Saved" in window.notices.notices()[0].text, timeout=LONG_MS)
+    with zipfile.ZipFile(target) as archive:
+        assert set(archive.namelist()) == {item.name for item in page.items}
+    QApplication.processEvents()

@@ -1,0 +1,68 @@
+"""Leaving while a recording is put together, and stops from windows beside the main one."""
+
+import html
+import threading
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication
+
+from rotemina.app.motion.recording.errors import RecordingError
+
+LONG_MS = 30_000
+
+
+def test_a_long_recording_does_not_hold_up_the_window(qtbot, window, monkeypatch):
+    operation, said = window.workbench.operation, window.notices.notices
+    gate, ended, stop = threading.Event(), [], operation.stop_recording
+
+    def fail():
+        raise RecordingError("the disk is full")
+
+    def wait_and_stop():
+        gate.wait(30.0)
+        ended.append(threading.current_thread() is not threading.main_thread())
+        return stop()
+
+    operation.start_recording()
+    monkeypatch.setattr(operation, "stop_recording", fail)
+    window.close()
+    qtbot.waitUntil(lambda: said()[0].text == "the disk is full", timeout=LONG_MS)
+    assert window.isVisible()
+    monkeypatch.setattr(operation, "stop_recording", wait_and_stop)
+    window.close()
+    assert window.isVisible()
+    assert "closes as soon as" in said()[0].text
+    line = window.progress_line
+    qtbot.waitUntil(lambda: "one file" in line.text.text(), timeout=LONG_MS)  # the loop runs
+    assert line.cancel.isHidden()
+    gate.set()
+    qtbot.waitUntil(window.isHidden, timeout=LONG_MS)
+    assert ended == [True]
+    assert list(operation.recordings.glob("*.arrows"))
+
+
+def test_stops_reach_from_a_floating_dock_and_from_a_page(qtbot, window):
+    session = window.workbench.session
+    dock = window.docks["faults"]
+    dock.setFloating(True)
+    dock.activateWindow()
+    window.show_log()
+    for widget in (dock, window.log_page.words, window.palette_page.field):
+        qtbot.keyClick(widget, Qt.Key.Key_Escape, Qt.KeyboardModifier.ShiftModifier)
+        assert session.snapshot().latched is not None
+        window.workbench.release()
+        assert session.snapshot().latched is None
+    menu = window.menuBar().actions()[0].menu()
+    menu.popup(window.mapToGlobal(window.rect().topLeft()))
+    button = window.emergency_button
+    place = button.mapToGlobal(button.rect().center())
+    qtbot.mousePress(menu, Qt.MouseButton.LeftButton, pos=menu.mapFromGlobal(place))
+    assert session.snapshot().latched is not None
+    menu.close()
+    qtbot.mouseClick(button, Qt.MouseButton.LeftButton)  # in alarm: it stays latched
+    assert session.snapshot().latched is not None
+    window.workbench.release()
+    button.refresh(session.snapshot())
+    for each in (button, window.stop_button):
+        assert "not the machine" in html.unescape(each.toolTip())
+    QApplication.processEvents()

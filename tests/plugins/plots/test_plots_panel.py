@@ -1,0 +1,117 @@
+"""The live plots: what is drawn, paused, and how the gap is shown."""
+
+import numpy as np
+import pytest
+
+from rotemina.app.shell.plot import SignalPlot
+from rotemina.app.shell.theme import DARK
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.records.record import Tap
+
+LONG_MS = 30_000
+
+
+@pytest.fixture
+def panel(qtbot, window):
+    panel = window.panels["plots"]
+    history = window.workbench.session.history
+    qtbot.waitUntil(lambda: len(history.tail(1.0)) > 100, timeout=LONG_MS)
+    return panel
+
+
+def drawn(panel, axis, curve):
+    return panel.plots[axis].plot._curves[curve].getData()
+
+
+def test_command_model_and_measurement_are_drawn_up_to_now(qtbot, window, panel):
+    window.workbench.jog("thx", 1e-5)
+    history = window.workbench.session.history
+
+    def settled():
+        newest = history.tail(0.1)
+        return abs(newest.command[0, 3] - 5.91775e-4) < 1e-9 and np.ptp(newest.model[:, 3]) < 1e-7
+
+    qtbot.waitUntil(settled, timeout=LONG_MS)
+    panel.refresh()
+    for curve in ("command", "model", "measured"):
+        time_s, values = drawn(panel, "thx", curve)
+        assert time_s[-1] == pytest.approx(0.0, abs=0.05)
+        assert values[-1] == pytest.approx(591.775, abs=3.0)
+
+
+def test_every_view_is_drawn_with_cursors_and_another_run_beside(qtbot, window, panel, tmp_path):
+    panel.shown.setCurrentIndex(1)
+    panel.refresh()
+    _, values = drawn(panel, "zn", "measured")
+    assert np.abs(values).max() < 0.1  # µm: sensor noise alone
+    _, model = drawn(panel, "zn", "model")
+    assert model is None or len(model) == 0
+    panel.beside.setCurrentIndex(2)
+    panel.beside.activated.emit(2)
+    assert "no run in hand" in window.notices.notices()[0].text
+    assert panel.beside.currentIndex() == 0
+    panel.pause.setChecked(True)  # so that nothing is drawn between what is asked and read
+    panel.beside.setCurrentIndex(1)
+    panel.beside.activated.emit(1)
+    assert "The kept run" in panel._legend.text()
+    for view in (0, 2, 3):
+        panel.shown.setCurrentIndex(view)
+        for curve in ("measured", "other"):
+            across, values = drawn(panel, "zn", curve)
+            assert len(across) == len(values) > 10
+        np.testing.assert_allclose(values, drawn(panel, "zn", "measured")[1], rtol=1e-9)
+    panel.cursors.setChecked(True)  # on the spectrum
+    plot, neighbour = panel.plots["x"].plot, panel.plots["zn"].plot
+    plot._lines[0].setValue(1.0)
+    plot._lines[1].setValue(2.0)
+    assert [at for at, _ in neighbour.cursors] == [1.0, 2.0]
+    assert panel._legend.text() == "A 10 Hz  B 100 Hz  Δ 90 Hz  1/Δ 0.01111 s"
+    assert panel.plots["zn"].figures.text().startswith("Δ ")
+    panel.shown.setCurrentIndex(2)
+    plot._lines[2].setValue(0.0)
+    assert panel.plots["x"].figures.text().startswith("Δx ")
+    assert neighbour.cursors[0][1] != 0.0  # every loop has its own
+    panel.cursors.setChecked(False)
+    assert panel.plots["x"].figures.text().startswith("gap rms")
+    saved(qtbot, panel, tmp_path)
+
+
+def saved(qtbot, panel, folder):
+    """Save what is shown, read it back, and find it beside itself."""
+    for name, begin in (("a.png", b"\x89PNG"), ("a.svg", b"<?xml")):
+        panel.save_picture(folder / name)
+        assert (folder / name).read_bytes().startswith(begin)
+    panel.save_picture(folder / "none" / "a.svg")
+    notices = panel.main_window.notices
+    assert str(folder / "none") in notices.notices()[0].text
+    panel.save_data(folder / "a.csv")
+    qtbot.waitUntil((folder / "a.csv").exists, timeout=LONG_MS)
+    record = read_record(folder / "a.csv", robot=panel.workbench.robot)
+    assert len(record.time_s) == len(panel._picture.window)
+    np.testing.assert_array_equal(
+        record.signal("thx", Tap.MEAS), panel._picture.window.measured[:, 3]
+    )
+
+
+def test_a_paused_picture_stays(qtbot, window, panel):
+    panel.refresh()
+    panel.pause.setChecked(True)
+    before = drawn(panel, "x", "measured")[1].copy()
+    window.workbench.jog("x", 1e-5)
+    state = window.workbench.session
+    qtbot.waitUntil(lambda: state.snapshot().command["x"] > 0.02750999, timeout=LONG_MS)
+    panel.refresh()
+    np.testing.assert_array_equal(drawn(panel, "x", "measured")[1], before)
+
+
+def test_the_scale_follows_only_when_it_must(qtbot):
+    plot = SignalPlot(DARK)
+    qtbot.addWidget(plot)
+    plot.follow(0.0, 1.0, 0.0)
+    first = plot.viewRange()[1]
+    plot.follow(0.05, 0.95, 0.0)
+    assert plot.viewRange()[1] == first
+    plot.follow(0.0, 3.0, 0.0)
+    assert plot.viewRange()[1][1] > 3.0
+    plot.follow(0.0, 0.1, 0.0)
+    assert plot.viewRange()[1][1] < 0.2
