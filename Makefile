@@ -18,9 +18,11 @@ EXTRAS_test := [test]
 EXTRAS_lint := [lint]
 EXTRAS_bench := [test,bench]
 EXTRAS_screenshots := [test]
+EXTRAS_docs := [docs]
+EXTRAS_release := [release]
 
 .NOTPARALLEL:
-.PHONY: run test test-slow soak lint bench screenshots clean help system rebuild
+.PHONY: run test test-slow soak lint bench screenshots docs dist bundle clean help system rebuild
 
 run: QT_PLATFORM :=
 run: system $(VENV)/.run  ## open the program with the built-in simulator
@@ -48,6 +50,24 @@ bench: system $(VENV)/.bench  ## measure against the alternatives (tests/benchma
 
 screenshots: system $(VENV)/.screenshots  ## draw the pictures of the documentation
 	@$(BIN)/python -m rotemina.app.shell.screenshots docs/screenshots
+
+# The site of a later version of a theme is not this one's business, nor are its makers' notices.
+docs: system $(VENV)/.docs $(VENV)/src  ## make the site of the documentation, build/docs
+	@NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet --strict --config-file docs/site/mkdocs.yml
+	@echo build/docs/index.html
+
+dist: system $(VENV)/.release  ## make the wheel and the source archive, build/dist
+	@rm -rf build/lib build/bdist.*
+	@$(BIN)/python -m build --outdir build/dist .
+
+# The folder is tried before it is called done.
+bundle: system $(VENV)/.release $(VENV)/src  ## make a folder that runs without Python, build/bundle
+	@$(BIN)/pyinstaller --noconfirm --log-level ERROR --distpath build/bundle \
+	--workpath build/pyinstaller .ci/bundle/rotemina.spec
+	@QT_QPA_PLATFORM=offscreen build/bundle/rotemina/rotemina doctor
+	@build/bundle/rotemina/rotemina simulate resources/trajectories/six_axis_tour.csv \
+	-o build/bundle/tried.csv
+	@echo build/bundle/rotemina
 
 clean:  ## remove .venv and everything else that was generated
 	rm -rf $(VENV) build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis
@@ -84,7 +104,7 @@ $(VENV)/.python: $(REBUILD) | system
 	@touch $@
 
 # Killed on the way, pip leaves packages that look complete: .unfinished has them made again.
-$(VENV)/.run $(VENV)/.test $(VENV)/.lint $(VENV)/.bench $(VENV)/.screenshots: \
+$(VENV)/.run $(VENV)/.test $(VENV)/.lint $(VENV)/.bench $(VENV)/.screenshots $(VENV)/.docs $(VENV)/.release: \
 $(VENV)/.%: pyproject.toml $(VENV)/.python
 	@echo 'Installing RoTeMiNa into $(VENV) (the first time this takes minutes)'
 	@touch $(VENV)/.unfinished

@@ -1,0 +1,37 @@
+"""``rotemina doctor``: whether this machine can run the program, and what to do where not."""
+
+import argparse
+import json
+import os
+from dataclasses import asdict
+
+_BROKEN = 1
+
+
+def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Add the subcommand."""
+    parser = commands.add_parser(
+        "doctor",
+        help="check this machine, and say what to do",
+        description="Check Python, packages, Qt, permissions of serial ports and joysticks, "
+        "folders, disk and clock. No board is opened. Exit status: 0 the program runs (what is "
+        "limited is told), 1 something is broken.",
+    )
+    parser.add_argument("--json", action="store_true", help="print the findings as JSON")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Print a line for each finding, advice below it; status 1 if anything is broken."""
+    from rotemina.app.machine_check import State, examine  # takes its time to import
+
+    findings = []
+    for found in examine(os.environ):
+        findings.append(found)
+        if not options.json:
+            print(f"{found.state:9}{found.name:14}{found.seen}", flush=True)
+            if found.advice:
+                print(f"{'':23}→ {found.advice}", flush=True)
+    if options.json:
+        print(json.dumps([asdict(found) for found in findings], indent=1, ensure_ascii=False))
+    return _BROKEN if any(found.state is State.BROKEN for found in findings) else 0

@@ -1,0 +1,30 @@
+"""The site is made without a warning, and nothing in it is fetched from elsewhere."""
+
+import re
+import subprocess
+import sys
+from importlib.util import find_spec
+
+import pytest
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(find_spec("mkdocs") is None, reason="mkdocs is installed by `make docs`")
+def test_the_site_is_whole_and_needs_no_network(root, tmp_path):
+    configuration = root / "docs" / "site" / "mkdocs.yml"
+    done = subprocess.run(
+        [
+            sys.executable, "-m", "mkdocs", "build", "--quiet", "--strict",
+            "--config-file", str(configuration), "--site-dir", str(tmp_path / "site"),
+        ],
+        capture_output=True, text=True, check=False, env={"NO_MKDOCS_2_WARNING": "1"},
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    driver = (tmp_path / "site" / "api" / "drivers.html").read_text("utf-8")
+    assert "move_to" in driver
+    for page in (tmp_path / "site").rglob("*.html"):
+        fetched = re.findall(
+            r"<(?:script|img|link rel=.stylesheet.)[^>]*(?:src|href)=.https?:[^>]*",
+            page.read_text("utf-8"),
+        )
+        assert fetched == [], page.name

@@ -1,0 +1,91 @@
+"""The wheel, as it is released: made from the source archive, tried apart from the source."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+import tarfile
+import tomllib
+import venv
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+
+
+def test_the_citation_names_the_version():
+    citation = (ROOT / "docs" / "CITATION.cff").read_text("utf-8")
+    assert re.findall(r"^version: (.*)$", citation, re.MULTILINE) == [PROJECT["version"]]
+    assert re.findall(r"^license: (.*)$", citation, re.MULTILINE) == [PROJECT["license"]]
+
+
+@pytest.fixture(scope="module")
+def archives(tmp_path_factory):
+    """Wheel and source archive, made without a network, each from the one before."""
+    generated = shutil.ignore_patterns(".*", "build", "dist", "*.egg-info", "__pycache__")
+    folder = tmp_path_factory.mktemp("release")
+    source = shutil.copytree(ROOT, folder / "source", ignore=generated)
+    subprocess.run(
+        [sys.executable, "-m", "build", "--no-isolation", "--outdir", str(folder), str(source)],
+        check=True, capture_output=True,
+    )  # fmt: skip
+    shutil.rmtree(source)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def command(archives):
+    """``rotemina`` of the wheel in an environment that borrows everything else from this one."""
+    environment = archives / "environment"
+    venv.create(environment)
+    bin_folder = environment / ("Scripts" if sys.platform == "win32" else "bin")
+    python = shutil.which("python", path=bin_folder)
+    (wheel,) = archives.glob("*.whl")
+    subprocess.run(
+        [
+            sys.executable, "-m", "pip", "--python", python, "install",
+            "--quiet", "--no-index", "--no-deps", str(wheel),
+        ],
+        check=True,
+    )  # fmt: skip
+    installed = next(environment.rglob("rotemina/app")).parents[1]
+    # A path in a .pth is not searched for further ones: the editable install stays out.
+    (installed / "borrowed.pth").write_text(sysconfig.get_path("purelib") + "\n", "utf-8")
+    return shutil.which("rotemina", path=bin_folder)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(find_spec("build") is None, reason="build comes with the extra 'test'")
+def test_the_source_archive_holds_what_a_wheel_is_made_of(archives):
+    (archive,) = archives.glob("*.tar.gz")
+    with tarfile.open(archive) as file:
+        names = {name.partition("/")[2] for name in file.getnames()}
+    assert {"pyproject.toml", "README.md", "LICENSE", "resources/robots/rotemina.toml"} <= names
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(find_spec("build") is None, reason="build comes with the extra 'test'")
+def test_the_wheel_runs_from_another_folder(command, tmp_path):
+    def answer(*words):
+        environment = {**os.environ, "QT_QPA_PLATFORM": "offscreen"}
+        environment.pop("PYTHONPATH", None)
+        done = subprocess.run(
+            [command, *words], cwd=tmp_path, env=environment,
+            capture_output=True, text=True, check=False,
+        )  # fmt: skip
+        assert done.returncode == 0, done.stdout + done.stderr
+        return done.stdout
+
+    assert answer("--version").strip() == f"rotemina {PROJECT['version']}"
+    found = {one["name"]: one for one in json.loads(answer("doctor", "--json"))}
+    assert str(Path(command).parent) in found["Python"]["seen"]
+    answer("excite", "sine", "--axes", "thx", "-o", "sine.csv")
+    answer("simulate", "sine.csv", "-o", "answer.csv")
+    assert (tmp_path / "answer.csv").stat().st_size > 1000
+    assert "hysteresis" in answer("effect", "list")
