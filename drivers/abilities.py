@@ -6,7 +6,7 @@ The rules are those of :class:`rotemina.drivers.driver.Driver`: final methods ch
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from math import isfinite
-from typing import final
+from typing import TYPE_CHECKING, final
 
 from rotemina.drivers.capture import Captured, CaptureRates
 from rotemina.drivers.driver import Driver
@@ -21,6 +21,10 @@ from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.trajectory.checked import CheckedTrajectory, accepted
 from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
+
+if TYPE_CHECKING:  # a board's commands need none of it
+    from rotemina.sim.compensate.inverse import Beyond
+    from rotemina.sim.compensate.model import InverseModel
 
 LONGEST_LEASE_S = 1.0
 DISPLAY_ROWS, DISPLAY_COLUMNS = 2, 20
@@ -411,3 +415,45 @@ class EffectCarrier(Driver, ABC):
     @abstractmethod
     def _set_effects(self, effects: tuple[AxisEffect, ...]) -> None:
         """Put checked effects in place."""
+
+
+class Compensator(Driver, ABC):
+    """A device that sends set-points of an axis through an inverse of its hysteresis.
+
+    Commands in its samples stay what was wanted; ``inputs`` show what was sent. It ends with
+    :meth:`Driver.close` and a cleared fault.
+    """
+
+    @property
+    @abstractmethod
+    def compensated(self) -> "Mapping[str, Beyond]":
+        """The axes that are, and in what each has gone beyond since; any thread may ask."""
+
+    @final
+    def compensate(self, axis: str, model: "InverseModel | None") -> None:
+        """Send an axis' set-points through an inverse, or, for None, as they are.
+
+        The axis stays where it is: its command becomes what the inverse takes for its position,
+        and with None what was sent to it last. It is moved within what the inverse saw.
+
+        Raises
+        ------
+        LimitError
+            If there is no such axis, the inverse is another's or does not reach where it stands.
+        StateError
+            If the device is closed, faulty or not at rest.
+        """
+        state = self._require_sound("change a compensation")
+        if state is not DeviceState.IDLE:
+            raise StateError(
+                f"{self.name}: cannot change a compensation while it is {state}; stop it or wait"
+            )
+        if axis not in self.robot.axes:
+            raise LimitError(f"{self.name}: no such axis {axis!r}; it has {', '.join(self.axes)}")
+        if model is not None and model.axis != axis:
+            raise LimitError(f"{self.name}: an inverse of axis {model.axis} is none of {axis}")
+        self._compensate(axis, model)
+
+    @abstractmethod
+    def _compensate(self, axis: str, model: "InverseModel | None") -> None:
+        """Change it; raise :class:`LimitError` where the inverse does not reach."""

@@ -17,6 +17,7 @@ from rotemina.drivers.errors import LimitError, ProtocolError, StateError
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.drivers.settings import SettingValue, resolve
 from rotemina.sim.errors import InputError
+from rotemina.sim.plugin_points import API_VERSIONS
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.limits import check_target
 
@@ -41,7 +42,8 @@ class Driver(ABC):
         For an unknown setting or a value of the wrong type.
     """
 
-    api_version: ClassVar[int] = 2
+    #: The version of this interface that the class was written for.
+    api_version: ClassVar[int] = API_VERSIONS["rotemina.drivers"]
     #: How screens and records call the device.
     name: ClassVar[str] = "device"
     #: Whether the device lives on ``clock`` alone, and so can run faster than real time.

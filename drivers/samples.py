@@ -69,6 +69,9 @@ class Samples:
         Which row of the playing trajectory began to act at this sample; -1 for any other sample,
         also for one between two rows. A device that acts at its own ticks leaves out rows that
         another one in the same tick replaced.
+    reference : (n, axes) float64, optional
+        What an independent instrument, such as a laser, said at the same time, m or rad; None
+        where there is none.
 
     Raises
     ------
@@ -81,9 +84,12 @@ class Samples:
     measured: FloatArray
     inputs: FloatArray
     playback_row: IntArray
+    reference: FloatArray | None = None
 
     def __post_init__(self) -> None:
-        for name in ("device_time_s", "command", "measured", "inputs"):
+        for name in ("device_time_s", "command", "measured", "inputs", "reference"):
+            if getattr(self, name) is None:
+                continue
             array = np.ascontiguousarray(getattr(self, name), dtype=np.float64)
             object.__setattr__(self, name, read_only(array))
         rows = np.ascontiguousarray(self.playback_row, dtype=np.int64).view()
@@ -94,6 +100,8 @@ class Samples:
     def _check(self) -> None:
         count = len(self)
         shapes = {self.command.shape, self.measured.shape, self.inputs.shape}
+        if self.reference is not None:
+            shapes.add(self.reference.shape)
         if len(shapes) != 1 or self.command.shape[:1] != (count,) or self.command.ndim != 2:
             raise ProtocolError(f"samples: arrays of shapes {sorted(shapes)} for {count} times")
         if self.playback_row.shape != (count,):
@@ -123,7 +131,14 @@ class Samples:
             np.concatenate([part.measured for part in parts]),
             np.concatenate([part.inputs for part in parts]),
             np.concatenate([part.playback_row for part in parts]),
+            _joined([part.reference for part in parts]),
         )
 
     def __len__(self) -> int:
         return len(self.device_time_s)
+
+
+def _joined(parts: Sequence[FloatArray | None]) -> FloatArray | None:
+    """Return what an instrument said in all parts; nothing where it was missing in one."""
+    known = [part for part in parts if part is not None]
+    return np.concatenate(known) if len(known) == len(parts) else None

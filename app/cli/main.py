@@ -12,15 +12,21 @@ from importlib.metadata import version
 
 from rotemina.app.cli import (
     board,
+    calibrate,
     compare,
+    compensate,
     convert,
+    doctor,
     driver,
     effect,
     excite,
     gap,
+    plate,
     play,
+    plugin,
     recording,
     simulate,
+    tune,
     window,
 )
 from rotemina.sim.errors import InputError
@@ -55,7 +61,10 @@ def build_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"rotemina {version('rotemina')}")
     window.add_options(parser)
     commands = parser.add_subparsers(title="subcommands", metavar="")
-    for module in (play, simulate, compare, gap, convert, excite, effect, driver, board, recording):
+    for module in (
+        play, simulate, compare, gap, compensate, convert, excite, effect, driver, board, recording,
+        plate, plugin, calibrate, tune, doctor,
+    ):  # fmt: skip
         module.add_parser(commands)
     return parser
 

@@ -5,6 +5,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+from rotemina.app.cli.compensate_apply import named_inverse
 from rotemina.app.cli.options import add_columns, add_robot, robot_of
 from rotemina.app.motion.player import play_offline
 from rotemina.sim.errors import InputError
@@ -31,6 +32,12 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     )
     add_robot(parser)
     add_columns(parser)
+    parser.add_argument(
+        "--compensate",
+        type=Path,
+        metavar="INVERSE",
+        help="send every set-point through the inverse that this file recommends",
+    )
     parser.add_argument("--seed", type=int, default=0, help="of the sensors' noise (default: 0)")
     parser.add_argument("--dry-run", action="store_true", help="only check it against the limits")
     parser.set_defaults(run=run)
@@ -46,8 +53,11 @@ def run(options: argparse.Namespace) -> int:
     if options.dry_run:
         print(f"{options.trajectory}: {checked.duration_s:.6g} s, {checked.rows} rows, in limits")
         return 0
+    inverse = None if options.compensate is None else named_inverse(options.compensate, robot)
     output = options.output or _free_name(options.trajectory)
-    record = play_offline(robot, checked.require(), seed=options.seed, progress=_progress())
+    record = play_offline(
+        robot, checked.require(), seed=options.seed, progress=_progress(), inverse=inverse
+    )
     write_record(record, output)
     print(f"{output}: {len(record.time_s)} rows, {record.duration_s:.6g} s")
     return 0

@@ -49,6 +49,11 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         "--period", type=float, default=SETPOINT_PERIOD_S, metavar="S",
         help="of the rows of a trajectory (default: %(default)g s)",
     )  # fmt: skip
+    one.add_argument(
+        "--reference", metavar="AXIS",
+        help="write a record with where the microscope saw this axis (x, y, thx, thy) as its "
+        "reference, for 'rotemina gap diagnose'",
+    )  # fmt: skip
     one.set_defaults(run=export)
 
 
@@ -104,6 +109,8 @@ def export(options: argparse.Namespace) -> int:
         raise InputError(
             f"--from {options.begin:g} --to {options.end:g}: must be 0 or more, and in order"
         )
+    if options.trajectory and options.reference is not None:
+        raise InputError("--trajectory and --reference: choose one of them")
     if not options.period > 0.0:
         raise InputError(f"--period {options.period:g}: must be more than 0 s")
     if options.output.exists() and options.output.samefile(options.recording):
@@ -114,6 +121,12 @@ def export(options: argparse.Namespace) -> int:
         commands = exporting.trajectory(recording, begin_s, end_s, options.period).commands
         write_record(commands, options.output)
         rows = len(commands.time_s)
+    elif options.reference is not None:
+        from rotemina.app.microscope.recorded_reference import recorded_reference
+
+        referenced = recorded_reference(recording, options.reference, begin_s, end_s)
+        write_record(referenced, options.output)
+        rows = len(referenced.time_s)
     else:
         rows = exporting.export(recording, options.output, begin_s, end_s)
     print(f"{options.output}: {rows} rows")

@@ -3,7 +3,7 @@
 import threading
 from abc import ABC, abstractmethod
 from collections import deque
-from collections.abc import Container, Sequence
+from collections.abc import Container, Mapping, Sequence
 from typing import Any
 
 from rotemina.app.motion.device_session import DeviceSession
@@ -262,6 +262,10 @@ class DeviceRequests(DeviceSession, ABC):
         """Return where the axes may be."""
 
     @abstractmethod
+    def _check_seen(self, targets: Mapping[str, float]) -> None:
+        """Refuse targets beyond what the inverse of their axis saw."""
+
+    @abstractmethod
     def _note_rest(self) -> None:
         """Keep where the machine rests before it begins to move."""
 
@@ -283,6 +287,8 @@ class DeviceRequests(DeviceSession, ABC):
             places = [at + extreme for extreme in segment.extremes()]
             low, high = min(low, *places), max(high, *places)
             at += segment.length
+        for end in (low, high):
+            self._check_seen({profile.axis: end})
         fastest = max(segment.greatest_speed() for segment in profile.segments)
         self._guard.profile(
             self._place(), profile.axis, (low, high), fastest, thrust=self.has_reserved(owner)

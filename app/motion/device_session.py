@@ -15,6 +15,7 @@ from rotemina.app.motion.mailbox import (
     SetEffects,
     Wish,
 )
+from rotemina.app.motion.sensor_corrections import SensorCorrections
 from rotemina.app.motion.state import (
     Callback,
     Connection,
@@ -256,6 +257,11 @@ class DeviceSession:
             raise RefusedError(state.locked or "not connected")
         if state.fault is not None:
             self._mailbox.post(ClearFault())
+
+    @property
+    def corrections(self) -> SensorCorrections:
+        """The calibrations that are applied to the axes' readings; any thread."""
+        return self._worker.corrections
 
     @property
     def effects(self) -> tuple[AxisEffect, ...] | None:

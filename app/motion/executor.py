@@ -9,6 +9,7 @@ from rotemina.app.motion.mailbox import (
     Ask,
     ClearFault,
     Command,
+    Compensate,
     Drive,
     Home,
     LoadProfile,
@@ -20,7 +21,9 @@ from rotemina.app.motion.mailbox import (
     SetVoltage,
 )
 from rotemina.app.motion.recorder import PlaybackRecorder
+from rotemina.app.motion.sensor_corrections import SensorCorrections
 from rotemina.drivers.abilities import (
+    Compensator,
     EffectCarrier,
     Homer,
     ProfileRunner,
@@ -45,13 +48,16 @@ class Executor:
     under way before it is not gone on with, and stopped again if it slipped through.
     """
 
-    def __init__(self, driver: Driver, mailbox: Mailbox, clock: Clock) -> None:
+    def __init__(
+        self, driver: Driver, mailbox: Mailbox, clock: Clock, corrections: SensorCorrections
+    ) -> None:
         self.targets = _NOWHERE
         self.drives: Mapping[str, Drive] = _NO_DRIVES
         self.recorder: PlaybackRecorder | None = None
         self._driver = driver
         self._mailbox = mailbox
         self._clock = clock
+        self._corrections = corrections
         self._route: deque[Leg] = deque()  # what is left of a move
         self._generation = 0
 
@@ -127,14 +133,24 @@ class Executor:
             assert isinstance(driver, Homer), "the session refuses on any other"
             driver.home(command.axes)
             self.forget()
-        elif isinstance(command, SetEffects):
-            assert isinstance(driver, EffectCarrier), "the session refuses on any other"
-            driver.set_effects(command.effects)
+        elif isinstance(command, SetEffects | Compensate):
+            self._change(command)
         elif isinstance(command, ClearFault):
             driver.clear_fault()
             self.forget()
         elif isinstance(command, Ask):
             command.action(driver)
+
+    def _change(self, command: SetEffects | Compensate) -> None:
+        """Change what stands between commands and motion."""
+        driver = self._driver
+        if isinstance(command, SetEffects):
+            assert isinstance(driver, EffectCarrier), "the session refuses on any other"
+            driver.set_effects(command.effects)
+            return
+        assert isinstance(driver, Compensator), "the session refuses on any other"
+        driver.compensate(command.axis, command.model)
+        self.forget()  # its command is another now
 
     def _shortly(self, command: LoadProfile | RunProfile | SetVoltage) -> None:
         """Carry out what an axis does by itself, beside moves."""
@@ -172,7 +188,14 @@ class Executor:
     def _play(self, command: Play) -> None:
         driver = self._driver
         assert isinstance(driver, TrajectoryPlayer), "the session refuses to play on any other"
-        recorder = PlaybackRecorder(command.trajectory, driver.name)
-        driver.play(command.trajectory)
+        names = self._corrections.names
+        recorder = PlaybackRecorder(
+            command.trajectory,
+            driver.name,
+            calibrations=names,
+            compensations=command.compensations,
+            rowwise=command.sent is not None,
+        )
+        driver.play(command.sent or command.trajectory)
         self.forget()
         self.recorder = recorder

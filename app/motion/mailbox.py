@@ -3,12 +3,13 @@
 import threading
 from collections import deque
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from rotemina.app.motion.guard import Leg
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.profile import Profile
+from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.errors import InputError
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.trajectory.checked import CheckedTrajectory
@@ -62,9 +63,11 @@ class Ask:
 
 @dataclass(frozen=True, slots=True)
 class Play:
-    """Play a trajectory."""
+    """Play a trajectory; ``sent`` is what the device is given in its place, where that differs."""
 
     trajectory: CheckedTrajectory
+    sent: CheckedTrajectory | None = None
+    compensations: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,6 +94,14 @@ class SetVoltage:
 
 
 @dataclass(frozen=True, slots=True)
+class Compensate:
+    """Send set-points of an axis through an inverse, or, for None, as they are."""
+
+    axis: str
+    model: InverseModel | None
+
+
+@dataclass(frozen=True, slots=True)
 class ClearFault:
     """Acknowledge the device's fault."""
 
@@ -112,6 +123,7 @@ Command = (
     | SetVoltage
     | ClearFault
     | SetEffects
+    | Compensate
     | Ask
 )
 

@@ -11,6 +11,7 @@ from datetime import datetime
 from pathlib import Path
 from types import MappingProxyType
 
+from rotemina.app.calibration.store import CalibrationStore
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
@@ -83,6 +84,9 @@ class Operation:
         self._penetration_file = folder / PENETRATION
         #: What is wrong with files of the user's, told at the start.
         self.problems: list[str] = []
+        #: Calibrations of sensors: those that are on correct readings from the start.
+        self.calibrations = CalibrationStore(folder, session.robot)
+        self.problems += self.calibrations.apply(session.corrections)
         #: The pad on the screen and its keys: a device like any other.
         self.pad = Pad("pad", buttons=PAD_BUTTONS, lease_s=PAD_LEASE_S, clock=clock)
         own = {

@@ -2,12 +2,14 @@
 
 from collections.abc import Callable, Mapping
 
+from rotemina.app.motion.compensation import NamedInverse, sent_for
 from rotemina.app.motion.recorder import PlaybackRecorder
-from rotemina.drivers.abilities import TrajectoryPlayer
+from rotemina.drivers.abilities import Compensator, TrajectoryPlayer
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.errors import DriverError
 from rotemina.drivers.registry import driver_named
 from rotemina.drivers.samples import DeviceState
+from rotemina.sim.compensate.trajectory import on_ticks
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
@@ -24,17 +26,22 @@ def play_offline(
     driver: str = "simulator",
     settings: Mapping[str, object] | None = None,
     progress: Callable[[float], None] | None = None,
+    laser: bool = False,
+    inverse: NamedInverse | None = None,
 ) -> Record:
     """Play a trajectory and return its record, without waiting for real time.
 
-    ``progress`` is called with 0 to 1 as the playback goes on. With the same seed the record is
+    ``progress`` is called with 0 to 1 as the playback goes on. With ``laser`` the record has
+    ``ref`` too, where the device has a reference. With ``inverse`` every set-point of its axis goes
+    through it, those of the way to the first row too. With the same seed the record is
     that of a live playback, up to what is left of the vibration of the way to the first row.
 
     Raises
     ------
     InputError
         If there is no such driver, it cannot run faster than real time, a setting is wrong, or
-        the trajectory exceeds a limit (:class:`rotemina.drivers.errors.LimitError`).
+        the trajectory exceeds a limit (:class:`rotemina.drivers.errors.LimitError`), or what the
+        inverse saw.
     DriverError
         If the device fails on the way.
     """
@@ -42,10 +49,17 @@ def play_offline(
     make = _virtual_player(driver)
     device = make(robot, {**(settings or {}), "seed": seed}, clock=clock)
     checked = device.accept(trajectory)
-    recorder = PlaybackRecorder(checked, device.name)
+    names = {}
+    if inverse is not None:
+        period_s, used = device.setpoint_period_s, {inverse.model.axis: inverse}
+        sent_for(robot, on_ticks(checked.commands, period_s), used, period_s, preview=False)
+        names = {inverse.model.axis: inverse.name}
+    recorder = PlaybackRecorder(checked, device.name, laser=laser, compensations=names)
     device.open()
     try:
         device.read()
+        if inverse is not None:
+            _compensator(device).compensate(inverse.model.axis, inverse.model)
         device.play(checked)
         while device.status().state is DeviceState.PLAYING:
             clock.advance(_STEP_S)
@@ -59,6 +73,12 @@ def play_offline(
     if record is None or not recorder.complete:
         raise DriverError(f"{device.name}: playback ended early: {status.fault or status.state}")
     return record
+
+
+def _compensator(device: TrajectoryPlayer) -> Compensator:
+    if not isinstance(device, Compensator):
+        raise InputError(f"driver {device.name!r} cannot compensate; use the simulator")
+    return device
 
 
 def _virtual_player(name: str) -> type[TrajectoryPlayer]:

@@ -1,13 +1,15 @@
 """Cutting the record of a playback out of the samples that a device delivers."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from types import MappingProxyType
 
 import numpy as np
 
 from rotemina.drivers.samples import Samples
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.records.record import Channel, Record, RecordError, Tap
-from rotemina.sim.robot.model import Robot, StepperAxis
+from rotemina.sim.robot.model import PiezoAxis, Robot, StepperAxis
 from rotemina.sim.trajectory.checked import CheckedTrajectory
 from rotemina.sim.trajectory.dry_run import mode_of
 
@@ -27,14 +29,32 @@ class PlaybackRecorder:
     ``meas``. Its metadata say mode, robot, driver, and which trajectory was asked for: name (its
     ``# trajectory:`` or ``# name:``), rows, duration, digest, and the times of a short one.
 
+    With ``laser`` it has ``ref`` too, where the device's samples have a reference. ``calibrations``
+    names those that were applied to ``meas``, by axis; ``compensations`` the inverses that stood
+    between commands and actuators. ``cmd`` is always what the trajectory wanted. ``rowwise`` says
+    that the device was given other commands in its place: then ``cmd`` is that of the latest row,
+    and ``u`` of a piezo what its command asks of the amplifier, where the device does not tell it.
+
     A sample takes 8 bytes a column: 128 with six axes of which three tell a voltage, 460 MB an
     hour at 1 kHz. :meth:`finish` lets go of what it has copied, so the record is not held twice.
     """
 
-    def __init__(self, trajectory: CheckedTrajectory, driver: str) -> None:
+    def __init__(
+        self,
+        trajectory: CheckedTrajectory,
+        driver: str,
+        *,
+        laser: bool = False,
+        calibrations: Mapping[str, str] = MappingProxyType({}),
+        compensations: Mapping[str, str] = MappingProxyType({}),
+        rowwise: bool = False,
+    ) -> None:
         self._trajectory = trajectory
         self._metadata = _metadata(trajectory, driver)
-        self._channels = tuple(_channels(trajectory.robot, trajectory.commands.axes))
+        self._metadata |= {f"calibration {axis}": name for axis, name in calibrations.items()}
+        self._metadata |= {f"compensation {axis}": name for axis, name in compensations.items()}
+        self._rowwise = rowwise
+        self._channels = tuple(_channels(trajectory.robot, trajectory.commands.axes, laser=laser))
         self._told = np.ones(len(self._channels), dtype=np.bool_)
         self._samples = _Samples(1 + len(self._channels))
         self._rows = 0  # samples up to the latest row that began
@@ -54,6 +74,7 @@ class PlaybackRecorder:
             If the device names rows that do not follow one another.
         """
         began = np.flatnonzero(samples.playback_row >= 0)
+        before = self._row
         if self.complete and not len(began):
             return
         self._check_rows(samples, began)
@@ -63,7 +84,7 @@ class PlaybackRecorder:
         if len(began):
             self._rows = len(self._samples) + int(began[-1]) + 1 - first
             self._row = int(samples.playback_row[began[-1]])
-        self._samples.append(self._table(samples, first))
+        self._samples.append(self._table(samples, first, before))
 
     def finish(self) -> Record | None:
         """Return the record of what was played, once; None if that never began."""
@@ -86,16 +107,33 @@ class PlaybackRecorder:
                 f"trajectory whose rows are 0 to {last}"
             )
 
-    def _table(self, samples: Samples, first: int) -> FloatArray:
-        """Return time and channels (n, 1 + c) from one sample on."""
+    def _table(self, samples: Samples, first: int, before: int) -> FloatArray:
+        """Return time and channels (n, 1 + c) from one sample on; before it acts row ``before``."""
         order = tuple(self._trajectory.robot.axes)
+        if self._rowwise:
+            samples = self._as_wanted(samples, before)
         taps = {Tap.CMD: samples.command, Tap.U: samples.inputs, Tap.MEAS: samples.measured}
+        unseen = np.full_like(samples.measured, np.nan)
+        taps[Tap.REF] = samples.reference if samples.reference is not None else unseen
         table = np.empty((len(samples) - first, 1 + len(self._channels)))
         table[:, 0] = samples.device_time_s[first:]
         for column, (axis, tap) in enumerate(self._channels):
             table[:, 1 + column] = taps[tap][first:, order.index(axis)]
         self._told &= np.isfinite(table[:, 1:]).all(axis=0)
         return table
+
+    def _as_wanted(self, samples: Samples, before: int) -> Samples:
+        """Return samples with the trajectory's own commands, and voltages of those that acted."""
+        robot, commands = self._trajectory.robot, self._trajectory.commands
+        order = tuple(robot.axes)
+        row = np.maximum(np.maximum.accumulate(np.maximum(samples.playback_row, before)), 0)
+        wanted, inputs = samples.command.copy(), samples.inputs.copy()
+        for name in commands.axes:
+            column, axis = order.index(name), robot.axes[name]
+            if isinstance(axis, PiezoAxis) and np.isnan(inputs[:, column]).all():
+                inputs[:, column] = samples.command[:, column] / axis.gain
+            wanted[:, column] = commands.signal(name, Tap.CMD)[row]
+        return replace(samples, command=wanted, inputs=inputs)
 
 
 class _Samples:
@@ -133,11 +171,13 @@ class _Samples:
         return time_s, values
 
 
-def _channels(robot: Robot, axes: tuple[str, ...]) -> Iterator[Channel]:
+def _channels(robot: Robot, axes: tuple[str, ...], *, laser: bool) -> Iterator[Channel]:
     for axis in axes:
         yield Channel(axis, Tap.CMD)
         if not isinstance(robot.axes[axis], StepperAxis):
             yield Channel(axis, Tap.U)
+        if laser:
+            yield Channel(axis, Tap.REF)
         yield Channel(axis, Tap.MEAS)
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from rotemina.app.motion.device_requests import DeviceRequests
+from rotemina.app.motion.compensation import CompensatedRequests, NamedInverse
 from rotemina.app.motion.guard import Leg, Place
 from rotemina.app.motion.mailbox import (
     Drive,
@@ -17,6 +17,7 @@ from rotemina.app.motion.mailbox import (
     RefusedError,
 )
 from rotemina.app.motion.ownership import HOMING, OPERATOR, PLAYBACK
+from rotemina.app.motion.safe_way import safe_way
 from rotemina.app.motion.state import (
     SessionState,
 )
@@ -36,7 +37,7 @@ from rotemina.sim.trajectory.limits import OutOfLimitsError, check_target
 LEASE_S = 0.15  # of a speed that nobody renews
 
 
-class MotionSession(DeviceRequests):
+class MotionSession(CompensatedRequests):
     """Every motion passes through here: ranges, the tip's bounds and owners hold on every path.
 
     A request is checked on the caller's thread and refused at once with the reason
@@ -133,23 +134,62 @@ class MotionSession(DeviceRequests):
         """
         with self._lock:
             self._refuse_if_locked()
-            if self._worker.state.activity is not DeviceState.IDLE or len(self._mailbox):
-                raise RefusedError("the machine is still moving; stop it or wait before going back")
-            place = self._place()
-            legs: list[Leg] = []
-            ways = self._undo.back(dict(self._worker.state.command))
-            for targets in ways:
-                legs += self._guard.move(place, targets)
-                place = self._guard.place({}, {**self._worker.state.command, **targets})
-            axes = {axis for leg in legs for axis in leg.targets}
-            with self._worker.ownership.claimed(axes, OPERATOR):
-                self._mailbox.post(Move(tuple(legs)))
+            self._refuse_in_motion("going back")
+            legs = self._legs(self._undo.back(dict(self._worker.state.command)))
+            with self._worker.ownership.claimed(_axes(legs), OPERATOR):
+                self._mailbox.post(Move(legs))
+
+    def go_safely(
+        self, goal: Mapping[str, float], speeds: Mapping[str, float] = MappingProxyType({})
+    ) -> None:
+        """Send axes to a place by a safe way: up, across, down; ``speeds`` as in :meth:`go_to`.
+
+        Raises
+        ------
+        OutOfLimitsError, RefusedError
+            As :meth:`go_to`, or if the machine is not at rest; then no axis moves.
+        """
+        with self._lock:
+            self._refuse_if_locked()
+            self._refuse_in_motion("going there")
+            for axis, position in goal.items():
+                check_target(self.robot, axis, position)
+            self._check_seen(goal)
+            ways = safe_way(self.robot, dict(self._worker.state.command), goal)
+            legs = tuple(leg.no_faster(speeds) for leg in self._legs(ways))
+            with self._worker.ownership.claimed(_axes(legs), OPERATOR):
+                self._note_rest()
+                self._mailbox.post(Move(legs))
 
     @property
     def undoable(self) -> bool:
         """Whether there is a move to take back."""
         with self._lock:
             return self._undo.leads_from(dict(self._worker.state.command))
+
+    def compensate(self, inverse: NamedInverse) -> None:
+        """Put an inverse on its axis, which stays where it is; no way leads back from there.
+
+        Raises
+        ------
+        CompensationError, RefusedError
+            As :meth:`CompensatedRequests.compensate`.
+        """
+        super().compensate(inverse)
+        with self._lock:
+            self._undo.forget()
+
+    def uncompensate(self, axis: str) -> None:
+        """Take the inverse off an axis; it stays where it is, and no way leads back from there.
+
+        Raises
+        ------
+        RefusedError
+            As :meth:`CompensatedRequests.uncompensate`.
+        """
+        super().uncompensate(axis)
+        with self._lock:
+            self._undo.forget()
 
     def use(self, driver: Driver) -> None:
         """Stop, let go of the device, and connect to another one; no way leads back to the first.
@@ -167,8 +207,16 @@ class MotionSession(DeviceRequests):
         """Make axes an owner's that another one drives; they go on until told otherwise."""
         self._worker.ownership.take_over(axes, owner)
 
-    def jog(self, axis: str, distance: float, owner: str = OPERATOR) -> None:
+    def jog(
+        self,
+        axis: str,
+        distance: float,
+        owner: str = OPERATOR,
+        speeds: Mapping[str, float] = MappingProxyType({}),
+    ) -> None:
         """Move one axis by a distance (m or rad) from where it was last sent.
+
+        ``speeds`` as in :meth:`go_to`.
 
         Raises
         ------
@@ -179,7 +227,7 @@ class MotionSession(DeviceRequests):
             check_target(self.robot, axis, 0.0)
         with self._lock:
             self._refuse_if_locked()
-            self._post_move({axis: self._target_of(axis) + distance}, owner)
+            self._post_move({axis: self._target_of(axis) + distance}, owner, speeds)
 
     def play(self, trajectory: Record | CheckedTrajectory) -> None:
         """Play a trajectory; events tell how it ends, with the record.
@@ -197,14 +245,17 @@ class MotionSession(DeviceRequests):
         if not isinstance(self.driver, TrajectoryPlayer):
             raise RefusedError(f"driver {self.driver.name!r} cannot play trajectories")
         checked = accepted(self.robot, trajectory, self.setpoint_period_s)
+        sent, compensations = self._sent(checked)
         with self._lock:
             self._refuse_if_locked()
             if self._worker.state.activity is not DeviceState.IDLE or len(self._mailbox):
                 raise RefusedError("the machine is still moving; stop it or wait before playing")
             self._guard.play(self._place(), checked)
+            if sent is not None:
+                self._guard.play(self._place(), sent)
             with self._worker.ownership.claimed(self.driver.axes, PLAYBACK):
                 self._note_rest()
-                self._mailbox.post(Play(checked))
+                self._mailbox.post(Play(checked, sent, compensations))
 
     # --- bounds and parameters --------------------------------------------------------------------
 
@@ -248,6 +299,7 @@ class MotionSession(DeviceRequests):
         speeds: Mapping[str, float] = MappingProxyType({}),
     ) -> None:
         self._refuse_if_locked()
+        self._check_seen(targets)
         legs = tuple(leg.no_faster(speeds) for leg in self._guard.move(self._place(), targets))
         with self._worker.ownership.claimed(targets, owner):
             self._note_rest()
@@ -267,6 +319,20 @@ class MotionSession(DeviceRequests):
             if axis in command:
                 ends.append({axis: command[axis] + way})
         return self._guard.place(worker.state.measured, *ends)
+
+    def _legs(self, ways: Sequence[Mapping[str, float]]) -> tuple[Leg, ...]:
+        """Return how places are gone to, one after the other, from where the machine rests."""
+        place, reached = self._place(), dict(self._worker.state.command)
+        legs: list[Leg] = []
+        for targets in ways:
+            legs += self._guard.move(place, targets)
+            reached |= targets
+            place = self._guard.place({}, reached)
+        return tuple(legs)
+
+    def _refuse_in_motion(self, before: str) -> None:
+        if self._worker.state.activity is not DeviceState.IDLE or len(self._mailbox):
+            raise RefusedError(f"the machine is still moving; stop it or wait before {before}")
 
     def _note_rest(self) -> None:
         """Keep where the machine rests, to come back to, before it begins to move."""
@@ -297,3 +363,7 @@ class MotionSession(DeviceRequests):
             raise RefusedError("the machine looks for its switches; wait, or stop it first")
         if state.activity is DeviceState.PLAYING or self._mailbox.holds_play():
             raise RefusedError("a trajectory is playing and owns every axis; stop it first")
+
+
+def _axes(legs: Sequence[Leg]) -> set[str]:
+    return {axis for leg in legs for axis in leg.targets}

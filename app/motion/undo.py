@@ -4,11 +4,10 @@ from collections import deque
 from collections.abc import Mapping
 
 from rotemina.app.motion.mailbox import RefusedError
+from rotemina.app.motion.safe_way import safe_way
 from rotemina.sim.robot.model import Robot
 
-_CLEARANCE = 1e-3  # m above both ends, where the range allows
 _KEPT = 50
-_LIFT = "z"
 
 
 class Undo:
@@ -51,11 +50,4 @@ class Undo:
         if not self._places:
             raise RefusedError("there is no move to take back")
         goal = self._places.pop()
-        if _LIFT not in self._robot.axes or _LIFT not in now:
-            return (goal,)
-        highest = self._robot.axes[_LIFT].range[1]
-        above = min(max(now[_LIFT], goal[_LIFT]) + _CLEARANCE, highest)
-        across = {axis: at for axis, at in goal.items() if axis != _LIFT}
-        if all(abs(now.get(axis, at) - at) == 0.0 for axis, at in across.items()):
-            return ({_LIFT: goal[_LIFT]},)
-        return ({_LIFT: above}, across, {_LIFT: goal[_LIFT]})
+        return safe_way(self._robot, now, goal)

@@ -14,6 +14,7 @@ from rotemina.app.motion.history import LiveHistory
 from rotemina.app.motion.live_model import LiveModel
 from rotemina.app.motion.mailbox import ClearFault, Drive, Mailbox
 from rotemina.app.motion.ownership import Ownership
+from rotemina.app.motion.sensor_corrections import SensorCorrections
 from rotemina.app.motion.state import (
     CommandRefused,
     Connection,
@@ -55,6 +56,8 @@ class Worker:
         emit: Callable[[Event], None],
         tell: Tap = lambda _, __: None,
     ) -> None:
+        #: What puts readings right, before anybody sees them.
+        self.corrections = SensorCorrections(driver.axes)
         self.state = SessionState(locked=_NOT_CONNECTED)
         self.ownership = Ownership()
         self.latency = StopLatency()
@@ -65,7 +68,7 @@ class Worker:
         self._emit = emit
         self._tell = tell
         self._model = LiveModel(driver.robot)
-        self._executor = Executor(driver, mailbox, clock)
+        self._executor = Executor(driver, mailbox, clock, self.corrections)
         self._next = self.state
         self._unread: list[Samples] = []
         self._worked_up_s = float("-inf")
@@ -126,7 +129,7 @@ class Worker:
     def _use(self, driver: Driver) -> None:
         if driver is not self._driver:
             self._driver = driver
-            self._executor = Executor(driver, self._mailbox, self._clock)
+            self._executor = Executor(driver, self._mailbox, self._clock, self.corrections)
             self._distrust = None  # another device vouches for itself
 
     def _cycle(self) -> None:
@@ -154,6 +157,7 @@ class Worker:
         self._stop_failure = None
         self._executor.forget()
         self._unread.clear()
+        self.corrections.restart()
         self._model.prepare()
         self._driver.open()
         self._worked_up_s = float("-inf")
@@ -176,7 +180,7 @@ class Worker:
             self._emit(CommandRefused(str(error)))
 
     def _take_samples(self) -> None:
-        samples = self._driver.read()
+        samples = self.corrections.corrected(self._driver.read())
         now_s = self._clock()
         if len(samples):
             self._unread.append(samples)

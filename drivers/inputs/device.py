@@ -13,6 +13,7 @@ from typing import ClassVar
 
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import DriverError
+from rotemina.sim.plugin_points import API_VERSIONS
 
 
 class InputLostError(DriverError, ConnectionError):
@@ -109,7 +110,8 @@ class InputSource(ABC):
         this alone.
     """
 
-    api_version: ClassVar[int] = 1
+    #: The version of this interface that the class was written for.
+    api_version: ClassVar[int] = API_VERSIONS["rotemina.inputs"]
     #: How screens call this kind of device.
     name: ClassVar[str] = "input"
 

@@ -7,10 +7,13 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.drivers.samples import Samples
+from rotemina.drivers.simulator.compensating import Compensating
 from rotemina.drivers.simulator.homing import Homing
 from rotemina.drivers.simulator.profile_motion import ProfileMotion
 from rotemina.drivers.simulator.setpoints import SetpointGenerator, SetpointLimits
 from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.sim.compensate.inverse import Beyond
+from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.plant.chance import Chance
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.takeover import taken_over
@@ -18,6 +21,7 @@ from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import AxisEffect, Robot, StepperAxis
 from rotemina.sim.trajectory.schedule import Schedule
 
+_LASER = 7  # the stream of its noise
 _CHUNK = 8192  # samples simulated at once: bounds memory, not the result
 
 
@@ -82,11 +86,18 @@ class SimulatedDevice:
         axes = robot.axes.values()
         self._has_voltage = np.array([not isinstance(axis, StepperAxis) for axis in axes])
         self._setpoints = SetpointGenerator(SetpointLimits.of(robot), tick_s, position)
+        self._compensating = Compensating(SetpointLimits.of(robot), tick_s)
         self._command = np.array(position, dtype=np.float64)
+        self._sent = self._command
         self._tick_s = tick_s
         self._seed = seed
         self._settle_ticks = round(settle_s / tick_s)
         self._chance = Chance(np.random.default_rng(seed))
+        self._laser = np.random.default_rng([seed, _LASER])  # apart: it changes no sensor's noise
+        noise = robot.reference.noise_rms
+        self._laser_rms = np.array(
+            [(noise.angular if axis.unit == "rad" else noise.linear) or 0.0 for axis in axes]
+        )
         self._phase = _Phase.HOLD
         self._schedule: Schedule | None = None
         self._instant = 0
@@ -107,8 +118,18 @@ class SimulatedDevice:
 
     @property
     def command(self) -> FloatArray:
-        """The latest set-points (axes,) applied, m or rad, also while a trajectory plays."""
+        """The latest set-points (axes,) wanted, m or rad, also while a trajectory plays."""
         return self._command.copy()
+
+    @property
+    def sent(self) -> FloatArray:
+        """What the actuators (axes,) were told last, m or rad."""
+        return self._sent.copy()
+
+    @property
+    def compensated(self) -> dict[int, Beyond]:
+        """In what each axis, by its number, has gone beyond its inverse; of those that have one."""
+        return self._compensating.beyond
 
     @property
     def true_position(self) -> FloatArray:
@@ -143,6 +164,19 @@ class SimulatedDevice:
         self._state = taken_over(plant, self._plant, self._state)
         self._plant = plant
 
+    def compensate(self, index: int, model: InverseModel | None) -> None:
+        """Send an axis, by its number, through an inverse, or as it is told; it is at rest.
+
+        Raises
+        ------
+        CompensationError
+            If the inverse does not reach where the axis stands.
+        """
+        wanted = self._compensating.change(index, model, float(self._sent[index]))
+        self._setpoints.bound(index, *self._compensating.bounds(index))
+        self._command[index] = wanted
+        self._setpoints.take_over(self._command, np.zeros(len(self._command)))
+
     def move_to(self, index: int, target: float, most_speed: float | None = None) -> None:
         """Send an axis, by its number, to a target, no faster than this."""
         self._setpoints.retarget({index: target}, most_speed)
@@ -154,10 +188,9 @@ class SimulatedDevice:
     def play(self, trajectory: Record) -> None:
         """Approach the first row, settle, then play."""
         self._profile = None
-        under_control = any(self._plant.loops)
-        self._schedule = Schedule(
-            trajectory, self._plant.axes, self._tick_s, on_ticks=under_control
-        )
+        # Loops and inverses live at the ticks.
+        on_ticks = any(self._plant.loops) or bool(self._compensating.beyond)
+        self._schedule = Schedule(trajectory, self._plant.axes, self._tick_s, on_ticks=on_ticks)
         self._instant, self._settled = 0, 0
         self._setpoints.retarget(self._schedule.first)
         self._phase = _Phase.APPROACH
@@ -284,10 +317,11 @@ class SimulatedDevice:
         self._phase = _Phase.HOLD
 
     def _sample(self, chunk: _Chunk) -> Samples:
-        motion, state = self._plant.advance(
-            self._state, chunk.elapsed_s, chunk.command, chance=self._chance
-        )
+        sent = self._compensating.sent(chunk.command)
+        motion, state = self._plant.advance(self._state, chunk.elapsed_s, sent, chance=self._chance)
         self._state = replace(state, time_s=state.time_s - state.time_s[-1])
-        self._command = chunk.command[-1].copy()
+        self._command, self._sent = chunk.command[-1].copy(), sent[-1].copy()
         inputs = np.where(self._has_voltage, motion.inputs, np.nan)
-        return Samples(chunk.time_s, chunk.command, motion.reading, inputs, chunk.row)
+        noise = self._laser_rms * self._laser.standard_normal(motion.position.shape)
+        seen = motion.position + noise
+        return Samples(chunk.time_s, chunk.command, motion.reading, inputs, chunk.row, seen)

@@ -11,6 +11,7 @@ import numpy as np
 
 from rotemina.drivers.abilities import (
     Capturer,
+    Compensator,
     EffectCarrier,
     Homer,
     ProfileRunner,
@@ -33,6 +34,8 @@ from rotemina.drivers.simulator.setpoints import SetpointLimits
 from rotemina.drivers.simulator.tool import SimulatedTool
 from rotemina.drivers.simulator.true_positions import TruePositions
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.compensate.inverse import Beyond
+from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.errors import InputError
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.records.record import Record
@@ -56,6 +59,7 @@ class Simulator(
     SimulatedTool,
     TruePositions,
     EffectCarrier,
+    Compensator,
 ):
     """A machine that behaves as its robot file says.
 
@@ -142,6 +146,25 @@ class Simulator(
         self._running.set_effects(effects)
         self._effects = effects
 
+    @property
+    def compensated(self) -> Mapping[str, Beyond]:
+        """The axes whose set-points go through an inverse, and in what each has gone beyond it."""
+        device = self._device
+        found = {} if device is None else device.compensated
+        return {self.axes[index]: said for index, said in found.items()}
+
+    def _compensate(self, axis: str, model: InverseModel | None) -> None:
+        described = self.robot.axes[axis]
+        if not isinstance(described, PiezoAxis) or described.controller is not None:
+            raise LimitError(
+                f"{self.name}: axis {axis} is no piezo in open loop; an inverse is for one that is"
+            )
+        self._catch_up()
+        try:
+            self._running.compensate(self.axes.index(axis), model)
+        except InputError as error:
+            raise LimitError(str(error)) from error
+
     def _number(self, name: str, least: float, greatest: float) -> float:
         value = self.settings[name]
         if isinstance(value, str) or not least <= value <= greatest:
@@ -179,7 +202,7 @@ class Simulator(
     def _close(self) -> None:
         self._catch_up()
         self._homing.give_up()
-        self._position = self._running.command
+        self._position = self._running.sent
         self._stops_s.clear()
         self._unread.clear()
         self._device = None
@@ -222,6 +245,11 @@ class Simulator(
         if not isinstance(model, PiezoAxis) or model.controller is not None:
             raise LimitError(
                 f"{self.name}: axis {axis} runs under a controller, which alone sets its voltage"
+            )
+        if axis in self.compensated:
+            raise LimitError(
+                f"{self.name}: axis {axis} is compensated, which sets its voltage; switch the "
+                "compensation off first"
             )
         try:
             check_target(self.robot, axis, voltage * model.gain)
@@ -285,7 +313,7 @@ class Simulator(
         device = self._running
         self._stops_s.clear()
         self._leases_s.clear()
-        self._device = self._made(device.command, self.clock() - self._opened_at_s)
+        self._device = self._made(device.sent, self.clock() - self._opened_at_s)
         self._fault = None
 
     def _read(self) -> Samples:

@@ -107,6 +107,10 @@ class SetpointGenerator:
             end = self._limits.high if velocity > 0.0 else self._limits.low
             self.retarget({index: float(end[index])}, abs(velocity))
 
+    def bound(self, index: int, low: float, high: float) -> None:
+        """Keep an axis, by its number, between these from now on; it lies there."""
+        self._limits.low[index], self._limits.high[index] = low, high
+
     def search(self, axes: tuple[int, ...], share: float) -> None:
         """Send axes, by their number, to their low ends at this share of their greatest speed."""
         for index in axes:

@@ -78,6 +78,7 @@ class SessionRecorder:
         self._seen: SessionState | None = None
         self._stop_asked_s = session.stop_asked_s
         self._intent = Intent(0.0)
+        self._calibrations = session.corrections.names
         self._lock = threading.Lock()
         self._log = _LogLines(self)
         self._ends: tuple[Callable[[], None], ...] = ()
@@ -144,6 +145,7 @@ class SessionRecorder:
         """Take a portion; on the session's thread."""
         state = self._session.snapshot()
         self._note_stop(state)
+        self._note_calibrations()
         received_s = state.sample_host_time_s
         self.writer.add(samples, model, self._clock() if received_s is None else received_s)
 
@@ -173,6 +175,13 @@ class SessionRecorder:
             self.writer.event("playback_begin", "")
         self._note_stop(state)
         self.writer.event("state", state.phase, _told(state))
+
+    def _note_calibrations(self) -> None:
+        names = self._session.corrections.names
+        if names != self._calibrations:
+            self._calibrations = names
+            text = ", ".join(f"{axis}: {name}" for axis, name in names.items())
+            self.writer.event("calibration", text or "none", names)
 
     def _note_stop(self, state: SessionState) -> None:
         asked_s = self._session.stop_asked_s
@@ -209,6 +218,7 @@ def _metadata(session: DeviceSession, settings: Mapping[str, object], began: str
         "robot_sha256": hashlib.sha256(robot_file.encode()).hexdigest(),
         "driver": session.driver.name,
         "driver_settings": json.dumps(dict(session.driver.settings), default=str),
+        "calibrations": json.dumps(session.corrections.names, sort_keys=True),
         "settings": settings_json,
         "settings_sha256": hashlib.sha256(settings_json.encode()).hexdigest(),
     }

@@ -60,7 +60,9 @@ def test_list_has_a_line_for_each_effect(command, capsys):
 
 def test_list_says_what_cannot_be_loaded_and_why(wrong, capsys):
     assert main(["effect", "list"]) == 0
-    assert "left out: effect 'lost' (no_such_module:LOST)" in capsys.readouterr().out
+    assert (
+        "left out: effect 'lost': no_such_module:LOST cannot be imported" in capsys.readouterr().out
+    )
 
 
 def test_show_has_equations_sources_and_figures_on_the_axes_of_a_robot(capsys):

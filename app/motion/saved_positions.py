@@ -1,0 +1,138 @@
+"""Positions of one robot that an operator has named, to be gone to again."""
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from types import MappingProxyType
+from typing import Annotated
+
+from pydantic import Field
+from pydantic.dataclasses import dataclass
+
+from rotemina.app.motion.teleoperation.tables import STRICT, Format, Text
+from rotemina.sim.errors import InputError
+from rotemina.sim.robot.model import Robot
+from rotemina.sim.trajectory.limits import OutOfLimitsError, check_target
+
+FOLDER = "positions"
+MOST, LONGEST_NAME = 200, 40
+
+Name = Annotated[str, Field(strict=True, min_length=1, max_length=LONGEST_NAME)]
+Place = Mapping[Text, Annotated[float, Field(strict=True, allow_inf_nan=False)]]
+
+
+class SavedPositionError(InputError):
+    """A position that cannot be kept, or a file of positions that cannot be used."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
+class PositionsFile:
+    """The positions of one robot; m or rad, by name and axis."""
+
+    robot: Text
+    positions: Annotated[dict[Name, Place], Field(max_length=MOST)] = Field(default_factory=dict)
+
+
+_FORMAT = Format(PositionsFile, {}, SavedPositionError)
+
+
+class SavedPositions:
+    """Named places of one robot, each with all of its axes, in a file of the user's folder.
+
+    A file that cannot be used is left alone: nothing is gone to and nothing is written until
+    somebody has mended it or put it away.
+
+    Parameters
+    ----------
+    folder : Path
+        The user's.
+    robot : Robot
+    """
+
+    def __init__(self, folder: Path, robot: Robot) -> None:
+        self._robot = robot
+        plain = re.sub(r"[^\w.+-]+", "-", robot.name).strip("-") or "_"
+        self.path = folder / FOLDER / f"{plain}.toml"
+        self._kept: dict[str, Mapping[str, float]] = {}
+
+    @property
+    def kept(self) -> Mapping[str, Mapping[str, float]]:
+        """The places by name, as they were read or written last."""
+        return MappingProxyType(self._kept)
+
+    def read(self) -> None:
+        """Read the file, all of it or nothing; none is a robot without positions.
+
+        Raises
+        ------
+        SavedPositionError
+            With file, name, axis, value and bound.
+        """
+        self._kept = {}
+        if not self.path.exists():
+            return
+        found = _FORMAT.load(self.path)
+        if found.robot != self._robot.name:
+            raise SavedPositionError(
+                f"{self.path}: positions of robot {found.robot!r}, not of {self._robot.name!r}; "
+                "put the file away"
+            )
+        for name, place in found.positions.items():
+            self._check(name, place, f"{self.path}: ")
+        self._kept = {name: MappingProxyType(dict(at)) for name, at in found.positions.items()}
+
+    def keep(self, name: str, place: Mapping[str, float]) -> None:
+        """Keep a place under a name; a name that is there is given the new place.
+
+        Raises
+        ------
+        SavedPositionError
+            If the name or the place will not do, or the file on the disk cannot be used.
+        FileWriteError
+            If it cannot be written; then all is as before.
+        """
+        self._check(name, place, "")
+        self.read()
+        if name not in self._kept and len(self._kept) >= MOST:
+            raise SavedPositionError(f"there are {MOST} positions, no more are kept; delete some")
+        self._write({**self._kept, name: MappingProxyType(dict(place))})
+
+    def delete(self, name: str) -> None:
+        """Forget a place.
+
+        Raises
+        ------
+        SavedPositionError
+            If there is none of that name, or the file on the disk cannot be used.
+        FileWriteError
+            If it cannot be written; then all is as before.
+        """
+        self.read()
+        if name not in self._kept:
+            raise SavedPositionError(f"there is no position {name!r}")
+        self._write({other: place for other, place in self._kept.items() if other != name})
+
+    def _write(self, kept: dict[str, Mapping[str, float]]) -> None:
+        plain: dict[str, Mapping[str, float]] = {name: dict(at) for name, at in kept.items()}
+        _FORMAT.save(self.path, PositionsFile(robot=self._robot.name, positions=plain))
+        self._kept = kept
+
+    def _check(self, name: str, place: Mapping[str, float], where: str) -> None:
+        """Refuse a name nobody could read, and a place that is not one of this robot."""
+        if not 0 < len(name) <= LONGEST_NAME or not name.isprintable() or name != name.strip():
+            raise SavedPositionError(
+                f"{where}{name!r} is no name for a position; use 1 to {LONGEST_NAME} letters "
+                "without blanks at the ends"
+            )
+        axes = set(self._robot.axes)
+        if set(place) != axes:
+            missing, other = sorted(axes - set(place)), sorted(set(place) - axes)
+            what = f"axis {missing[0]} is missing" if missing else f"there is no axis {other[0]!r}"
+            raise SavedPositionError(
+                f"{where}position {name!r}: {what}; it needs {', '.join(self._robot.axes)}"
+            )
+        for axis, at in place.items():
+            try:
+                check_target(self._robot, axis, at)
+            except OutOfLimitsError as error:
+                raise SavedPositionError(f"{where}position {name!r}: {error}") from error
