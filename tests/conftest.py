@@ -1,5 +1,6 @@
 """What every test may use: an offscreen Qt and the folder of shared material."""
 
+import gc
 import os
 from dataclasses import replace
 from pathlib import Path
@@ -17,6 +18,12 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 USUAL = ("control", "plots", "trajectory", "comparison")
 
 BESIDE_REPOSITORY = Path(__file__).parents[2] / "shared"
+
+
+def pytest_collection_finish():
+    """Spare the garbage collector what stays anyway: 0.4 s for which every thread waits."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.fixture(scope="session")
@@ -70,7 +77,6 @@ def make_robot_window(qtbot, settings, tmp_path, panels_made):
 
     With a driver of its own, made of the robot, nobody waits until the window can move anything.
     """
-    import gc
     import threading
 
     from PySide6.QtCore import QCoreApplication, QEvent

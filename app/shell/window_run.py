@@ -1,5 +1,6 @@
 """The window on a display, until its user closes it."""
 
+import gc
 import signal
 from importlib import resources
 from pathlib import Path
@@ -60,6 +61,10 @@ def run(session: MotionSession, settings: Settings) -> int:
         window.show()
         if not settings.get("window.state", ""):  # a first start shows what is needed to begin
             window.arrangement.arrange(OPERATE)
+    # A look through all that was imported takes tenths of a second, for which every thread waits:
+    # longer than the boards' set-points last. What is here stays as long as the program.
+    gc.collect()
+    gc.freeze()
     window.workbench.start()
     # Only asked for here: a handler may interrupt anything, a lock that closing needs as well.
     signal.signal(signal.SIGINT, lambda *_: QTimer.singleShot(0, window.close))

@@ -90,7 +90,7 @@ def test_excess_pauses_and_says_so(qtbot, window, panel):
     qtbot.waitUntil(lambda: len(notices(window)) > 0, timeout=LONG_MS)
     assert "Playback paused: axis zn is" in notices(window)[0]
     assert "at most 8 µm" in notices(window)[0]
-    assert phase(panel) is PlaybackPhase.PAUSED
+    qtbot.waitUntil(lambda: phase(panel) is PlaybackPhase.PAUSED, timeout=LONG_MS)
 
 
 def test_a_bound_may_be_changed_or_taken_away(window, panel):

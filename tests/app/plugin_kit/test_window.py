@@ -20,7 +20,7 @@ PANELS = {
 
         class Any(Panel):
             title = "Paints badly"
-            area = Area.LEFT  # beside the controls: it is seen at once
+            area = Area.LEFT
 
             def paintEvent(self, event):
                 self.painter = QPainter(self)
@@ -72,7 +72,7 @@ def look():
     named = {name for name in ("paints", "ticks") if name in window.panels}
     tries += 1
     if named and tries < 400:
-        window.panels.get("paints") and window.panels["paints"].update()
+        "paints" in window.panels and window.bring_up("paints")  # its tab is behind the controls
         QTimer.singleShot(50, look)
         return
     answer = {"panels": list(window.panels), "told": told, "visible": window.isVisible()}
