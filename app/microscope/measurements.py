@@ -18,7 +18,7 @@ from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.kinematics.chain import JOINTS, Chain
 from rotemina.sim.kinematics.forward import tip_from_pivot
-from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records.record import REFERENCE_NOISE, Record, Tap
 from rotemina.sim.vision.tracking import TipTrack
 
 CHANNEL = "tip"
@@ -170,6 +170,7 @@ def with_reference(
     facts: Mapping[str, str] = {
         **record.metadata,
         "history": "unknown",
+        f"{REFERENCE_NOISE} {axis}": f"{noise_rms:.6g}",
         "reference": f"microscope: {axis}, {noise_rms:.3g} rms, {len(times)} frames",
     }
     return Record.from_signals(record.time_s[rows], kept, record.units, facts)

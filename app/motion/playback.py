@@ -99,7 +99,10 @@ class Playback:
             piece_, whole = self._piece, self._whole
             gaps = watch.gaps if watch is not None else state.gaps
         if state.phase is PlaybackPhase.PLAYING and piece_ is not None and whole is not None:
-            elapsed_s = self._session.snapshot().progress * piece_.trajectory.duration_s
+            now = self._session.snapshot()
+            # Until the device begins, its progress is that of what it played before.
+            share = now.progress if now.activity is DeviceState.PLAYING else 0.0
+            elapsed_s = share * piece_.trajectory.duration_s
             state = self._at(state, whole, piece_.path_time(elapsed_s))
         return replace(state, gaps=MappingProxyType(gaps))
 

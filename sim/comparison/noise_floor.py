@@ -40,6 +40,9 @@ def noise_floor(robot: Robot, record: Record, axis: str, tap: Tap) -> NoiseFloor
 
 def _declared(robot: Robot, record: Record, axis: str, tap: Tap) -> float | None:
     if tap is Tap.REF:
+        own = record.reference_noise(axis)
+        if own is not None:
+            return own
         noise = robot.reference.noise_rms
         return noise.angular if record.units[axis] == "rad" else noise.linear
     sensor = robot.axes[axis].sensor

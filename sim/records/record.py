@@ -1,5 +1,6 @@
 """A record: commands and measurements of a machine's axes over time, in SI units."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
@@ -29,6 +30,7 @@ class Tap(StrEnum):
     MEAS = "meas"
 
 
+REFERENCE_NOISE = "reference_noise"  # with the axis behind it: a key of the metadata
 VOLTAGE_TAPS = frozenset({Tap.ADD, Tap.U})
 
 
@@ -122,6 +124,28 @@ class Record:
     def history(self) -> str:
         """What came before the first row: ``"rest"``, ``"unknown"`` or ``"periodic"``."""
         return self.metadata.get("history", "rest")
+
+    def reference_noise(self, axis: str) -> float | None:
+        """Return the rms doubt, m or rad, that the record gives for an axis' ``ref``, or None.
+
+        Raises
+        ------
+        RecordError
+            If it is no number above 0.
+        """
+        key = f"{REFERENCE_NOISE} {axis}"
+        text = self.metadata.get(key)
+        if text is None:
+            return None
+        try:
+            noise = float(text)
+        except ValueError:
+            noise = math.nan
+        if not 0.0 < noise < math.inf:
+            raise RecordError(
+                f"record: {key} = {text!r}: must be a number above 0, in m or rad (rms)"
+            )
+        return noise
 
     @property
     def period_samples(self) -> int | None:

@@ -68,6 +68,15 @@ def test_a_playback_ends_at_its_last_row(stepped, playback):
     )
 
 
+def test_a_second_playback_begins_at_its_own_beginning(stepped, playback):
+    playback.play(swing(stepped.session.robot))
+    stepped.until_idle()
+    playback.play(swing(stepped.session.robot))
+    assert playback.state.path_s == 0.0  # not the end of the one before
+    stepped.until_idle()
+    assert playback.state.row == ROWS - 1
+
+
 @pytest.mark.parametrize("speed", [0.5, 2.0])
 def test_a_pace(stepped, playback, speed):
     playback.play(swing(stepped.session.robot), speed=speed)

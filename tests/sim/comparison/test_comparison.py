@@ -42,6 +42,21 @@ def test_a_perfect_machine_leaves_nothing():
     assert tap.rms_refitted is None
 
 
+def test_a_reference_s_own_noise_counts_before_the_robot_s_usual_one():
+    plain = only(compare(ROBOT, record_of(lambda answer: answer, tap=Tap.REF)))
+    assert plain.noise_floor == ROBOT.reference.noise_rms.angular
+    entry = {"reference_noise thx": "3e-6", "reference_noise zn": "1"}
+    own = only(compare(ROBOT, record_of(lambda answer: answer, tap=Tap.REF, **entry)))
+    assert (own.noise_floor, own.noise_floor_source) == (3e-6, "declared")
+
+
+@pytest.mark.parametrize("text", ["0", "-1e-6", "inf", "nan", "30 nm", ""])
+def test_a_reference_s_noise_that_is_none_is_refused(text):
+    record = record_of(lambda answer: answer, tap=Tap.REF, **{"reference_noise thx": text})
+    with pytest.raises(InputError, match="reference_noise thx = .*above 0, in m or rad"):
+        compare(ROBOT, record)
+
+
 def test_figures_of_a_shifted_reading_are_exact():
     tap = only(compare(ROBOT, record_of(lambda answer: answer + 1e-5)))
     assert tap.rms == pytest.approx(1e-5)
