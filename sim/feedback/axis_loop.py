@@ -149,16 +149,23 @@ class AxisLoop:
         if rng is not None:
             axes, random = len(self.plant.axes), self.plant.assembly.random
             drawn = Chance(rng).draw(len(reference), axes, random)
-        output = np.empty(len(reference))
-        loop = loop_kernel.Loop(self._column, self._per_asked, self.robot_axis.offset, self._late)
+        output = np.empty((len(reference), 1))
+        loops = loop_kernel.Loops(
+            np.array([self._column], dtype=np.int64),
+            np.array([self._per_asked]),
+            np.array([self.robot_axis.offset]),
+            np.array([self._late], dtype=np.int64),
+            numbers[None],
+            memory[None],
+        )
         limited = loop_kernel.follow(
-            self._machine, self._steps, moving, rows, drawn, loop, numbers, memory,
-            np.ascontiguousarray(reference), np.ascontiguousarray(feed), output,
+            self._machine, self._steps, moving, rows, rows.inputs[1:], drawn, loops,
+            np.ascontiguousarray(reference)[:, None], np.ascontiguousarray(feed)[:, None], output,
         )  # fmt: skip
         return Traces(
             np.asarray(self.interval_s * np.arange(len(reference)), dtype=np.float64),
             reference,
-            output,
+            output[:, 0].copy(),
             rows.position[1:, self._column].copy(),
             np.asarray(rows.reading[1:, self._column] - self.robot_axis.offset),
             int(limited),
@@ -170,12 +177,10 @@ class AxisLoop:
 
     def _rows(self, state: PlantState, samples: int) -> loop_kernel.Rows:
         """Make room for a run; its first row is the rest before it."""
-        shape = (samples + 1, len(self.plant.axes))
-        filled = [np.zeros(shape) for _ in range(4)]
-        first = (state.inputs, state.position, state.velocity, state.reading)
-        for whole, row in zip(filled, first, strict=True):
-            whole[0] = row[-1]
-        return loop_kernel.Rows(self.interval_s * np.arange(samples + 1.0), *filled)
+        time_s = self.interval_s * np.arange(samples + 1.0)
+        axes = len(self.plant.axes)
+        inputs = np.tile(state.inputs[-1], (samples + 1, 1))
+        return rows_after(state, time_s, inputs, np.zeros((0, axes)))
 
     @cached_property
     def _machine(self) -> Machine:
@@ -219,6 +224,16 @@ class AxisLoop:
         command = np.array([sum(one.range) / 2.0 for one in self.plant.robot.axes.values()])
         command[self._column] = self._gain * asked
         return self.plant.at_rest(0.0, command)
+
+
+def rows_after(
+    state: PlantState, time_s: FloatArray, inputs: FloatArray, effort: FloatArray
+) -> loop_kernel.Rows:
+    """Make room for a run at ``time_s`` (n + 1,) whose first row is where a plant stands."""
+    filled = [np.zeros(inputs.shape) for _ in range(3)]
+    for whole, row in zip(filled, (state.position, state.velocity, state.reading), strict=True):
+        whole[0] = row[-1]
+    return loop_kernel.Rows(time_s, inputs, effort, *filled)
 
 
 def _check(robot: Robot, axis: str, rate_hz: float, delay: int) -> None:

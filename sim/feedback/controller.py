@@ -91,9 +91,11 @@ def numbers_of(gains: Gains, interval_s: float, limits: OutputLimits) -> FloatAr
     numbers = np.zeros(kernel.NUMBERS)
     numbers[kernel.P] = gains.proportional
     numbers[kernel.I_STEP] = gains.integral * interval_s
+    numbers[kernel.J_STEP] = gains.double_integral * interval_s**2
     numbers[kernel.D_STEP] = gains.derivative * (1.0 - pole) / interval_s
     numbers[kernel.D_POLE] = pole
-    numbers[kernel.BACK] = min(interval_s / gains.tracking_s, 1.0) if gains.integral else 0.0
+    integrates = gains.integral > 0.0 or gains.double_integral > 0.0
+    numbers[kernel.BACK] = min(interval_s / gains.tracking_s, 1.0) if integrates else 0.0
     numbers[kernel.CONDITIONAL] = gains.anti_windup is AntiWindup.CONDITIONAL
     numbers[kernel.LOW], numbers[kernel.HIGH] = limits.low, limits.high
     numbers[kernel.MOST] = limits.rate * interval_s
@@ -117,7 +119,8 @@ def response(gains: Gains, interval_s: float, z: ComplexArray) -> ComplexArray:
     """Return the frequency response (…,) from error to output at points of the unit circle."""
     first, second = _filters(gains, interval_s)
     pole, back = _pole(gains, interval_s), 1.0 / z
-    own = gains.proportional + gains.integral * interval_s / (1.0 - back)
+    summed = gains.integral * interval_s + gains.double_integral * interval_s**2 / (1.0 - back)
+    own = gains.proportional + summed / (1.0 - back)
     own = own + gains.derivative * (1.0 - pole) / interval_s * (1.0 - back) / (1.0 - pole * back)
     return np.asarray(first.response(z) * second.response(z) * own)
 

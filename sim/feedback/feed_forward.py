@@ -67,8 +67,12 @@ class FeedForward:
     def run(self, reference: FloatArray) -> FloatArray:
         """Return what to ask for at every sample (n,), begun at rest at the first."""
         self.start(float(reference[0]))
+        return self.go_on(reference)
+
+    def go_on(self, reference: FloatArray) -> FloatArray:
+        """Return what to ask for at the next n samples (n,), the same numbers as by :meth:`step`."""
         rows, history = len(reference), len(self._before)
-        led = np.concatenate([np.repeat(reference[:1], history), reference])
+        led = np.concatenate([self._before[::-1], reference])
         wanted = self._taps[0] * led[history:]
         for late, tap in enumerate(self._taps[1:], start=1):
             wanted = wanted + tap * led[history - late : history - late + rows]

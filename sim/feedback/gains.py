@@ -13,6 +13,7 @@ from pydantic import ConfigDict
 from rotemina.sim.feedback.errors import FeedbackError
 
 _STRICT = ConfigDict(extra="forbid")  # where a file is read
+_AMOUNTS = ("proportional", "integral", "double_integral", "derivative", "derivative_filter_s")
 
 
 class AntiWindup(StrEnum):
@@ -53,7 +54,7 @@ class Notch:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Gains:
-    """Of ``u = feed-forward + P e + I ∫e dt + D ė``, with e behind notch and low-pass.
+    """Of ``u = feed-forward + P e + I ∫e dt + J ∫∫e dt² + D ė``, e behind notch and low-pass.
 
     Attributes
     ----------
@@ -61,6 +62,9 @@ class Gains:
         P.
     integral : float
         I, 1/s.
+    double_integral : float
+        J, 1/s²: leaves nothing of a disturbance that grows evenly, as creep and the flanks of a
+        hysteresis do under a ramp.
     derivative : float
         D, s.
     derivative_filter_s : float
@@ -76,6 +80,7 @@ class Gains:
     __pydantic_config__ = _STRICT
     proportional: float = 0.0
     integral: float = 0.0
+    double_integral: float = 0.0
     derivative: float = 0.0
     derivative_filter_s: float = 0.0
     low_pass_hz: float | None = None
@@ -85,7 +90,7 @@ class Gains:
 
     def __post_init__(self) -> None:
         for field in fields(self):
-            if field.name in ("proportional", "integral", "derivative", "derivative_filter_s"):
+            if field.name in _AMOUNTS:
                 _check(field.name, getattr(self, field.name), 0.0, inf, "")
         _check("tracking_s", self.tracking_s, 0.0, inf, "s", open_below=True)
         if self.low_pass_hz is not None:

@@ -1,30 +1,42 @@
-"""The loop around one axis, compiled: the plant's own step and the controller in turn."""
+"""Loops around axes, compiled: the plant's own step and the controllers in turn."""
 
 from typing import NamedTuple
 
 import numba
 import numpy as np
 
-from rotemina.sim.arrays import FloatArray
+from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.feedback.kernel import ASKED, OUTPUT, control
 from rotemina.sim.plant.kernel import Given, State, Steps, Taken, run
 from rotemina.sim.plant.machine import Machine
 
 
-class Loop(NamedTuple):
-    """Where the loop sits: ``per_asked`` is the input for a position that is asked for."""
+class Loops(NamedTuple):
+    """Where l loops sit, (l,) each, and their controllers.
 
-    column: int
-    per_asked: float
-    offset: float
-    delay: int
+    ``column`` of the axis; ``per_asked`` is the input for a position that is asked for, ``offset``
+    the sensor's, ``delay`` by how many rows an output acts late. ``numbers`` (l, NUMBERS) and
+    ``memory`` (l, MEMORY) are the controllers'; the memory goes on.
+    """
+
+    column: IntArray
+    per_asked: FloatArray
+    offset: FloatArray
+    delay: IntArray
+    numbers: FloatArray
+    memory: FloatArray
 
 
 class Rows(NamedTuple):
-    """What a run fills in: all (n + 1, axes), row 0 being the rest before it."""
+    """What a run fills in: all (n + 1, axes), row 0 being what was before it.
+
+    ``inputs`` of axes without a loop are given, and ``effort``, what the amplifiers make of them,
+    may have no rows.
+    """
 
     time_s: FloatArray
     inputs: FloatArray
+    effort: FloatArray
     position: FloatArray
     velocity: FloatArray
     reading: FloatArray
@@ -32,38 +44,47 @@ class Rows(NamedTuple):
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def follow(
-    machine: Machine, steps: Steps, moving: State, rows: Rows, variates: FloatArray, loop: Loop,
-    numbers: FloatArray, memory: FloatArray, reference: FloatArray, feed: FloatArray,
+    machine: Machine, steps: Steps, moving: State, rows: Rows, command: FloatArray,
+    variates: FloatArray, loops: Loops, reference: FloatArray, feed: FloatArray,
     output: FloatArray,
 ) -> int:  # fmt: skip
-    """Follow a reference (n,) and return how many samples a limit cut off.
+    """Let axes follow references (n, l) and return how many samples a limit cut off.
 
-    ``output`` (n,) is filled with what the controller asks for. ``steps`` go from a row to the
-    next, so the plant is stepped as a live one is. An output acts ``delay`` rows late.
+    ``output`` (n, l) is filled with what the controllers ask for; ``command`` (n, axes) is of the
+    robot's own controllers. ``steps`` go from a row to the next, so the plant is stepped as a live
+    one is. A reading or reference that is not finite leaves a controller as it was.
     """
-    axes = rows.inputs.shape[1]
-    none, command = np.zeros((0, axes)), np.zeros((1, axes))
-    no_kick, column, limited = np.zeros((0, 0)), loop.column, 0
-    at_rest = rows.inputs[0, column]
+    axes, count = rows.inputs.shape[1], loops.column.shape[0]
+    none, no_kick, limited = np.zeros((0, axes)), np.zeros((0, 0)), 0
+    at_rest = np.empty(count)
+    for i in range(count):
+        at_rest[i] = rows.inputs[0, loops.column[i]]
     for k in range(reference.shape[0]):
-        rows.inputs[k + 1] = rows.inputs[k]
-        if loop.delay > 0:
-            since = k - 1 - loop.delay
-            rows.inputs[k, column] = output[since] * loop.per_asked if since >= 0 else at_rest
+        for i in range(count):
+            column = loops.column[i]
             rows.inputs[k + 1, column] = rows.inputs[k, column]
+            if loops.delay[i] > 0:
+                since = k - 1 - loops.delay[i]
+                late = output[since, i] * loops.per_asked[i] if since >= 0 else at_rest[i]
+                rows.inputs[k, column] = rows.inputs[k + 1, column] = late
         window = slice(k, k + 2)
         given = Given(
-            1, rows.time_s[window], command, none, none, no_kick,
+            1, rows.time_s[window], command[k : k + 1], none, none, no_kick,
             variates[k : k + 1] if variates.shape[0] > 0 else variates,
         )  # fmt: skip
         taken = Taken(
-            rows.inputs[window], none, rows.position[window], rows.velocity[window],
-            rows.reading[window],
+            rows.inputs[window], rows.effort[window] if rows.effort.shape[0] > 0 else rows.effort,
+            rows.position[window], rows.velocity[window], rows.reading[window],
         )  # fmt: skip
         run(machine, steps, given, taken, moving, rows.time_s[k])
-        error = reference[k] - (rows.reading[k + 1, column] - loop.offset)
-        output[k] = control(numbers, memory, error, feed[k])
-        limited += memory[OUTPUT] != memory[ASKED]
-        if loop.delay == 0:
-            rows.inputs[k + 1, column] = output[k] * loop.per_asked
+        for i in range(count):
+            column, memory = loops.column[i], loops.memory[i]
+            error = reference[k, i] - (rows.reading[k + 1, column] - loops.offset[i])
+            if np.isfinite(error) and np.isfinite(feed[k, i]):
+                output[k, i] = control(loops.numbers[i], memory, error, feed[k, i])
+                limited += memory[OUTPUT] != memory[ASKED]
+            else:
+                output[k, i] = memory[OUTPUT]
+            if loops.delay[i] == 0:
+                rows.inputs[k + 1, column] = output[k, i] * loops.per_asked[i]
     return limited

@@ -174,7 +174,8 @@ def controller_matrices(
         columns[:, column] = memory[:size]
     # An integral that nothing is added to would stand as a pole at 1.
     kept = np.ones(size, dtype=np.bool_)
-    kept[kernel.INTEGRAL] = gains.integral > 0.0
+    kept[kernel.INTEGRAL] = gains.integral > 0.0 or gains.double_integral > 0.0
+    kept[kernel.DRIFT] = gains.double_integral > 0.0
     matrix = columns[np.ix_(kept, np.append(kept, False))]
     return matrix, columns[kept, size], outputs[:size][kept], float(outputs[size])
 
