@@ -8,8 +8,6 @@ from math import isfinite, sqrt
 from typing import NamedTuple
 
 import numpy as np
-from scipy.stats import chi2
-from scipy.stats import t as student
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.calibration.approaches import found_holds
@@ -137,6 +135,8 @@ def _mean(name: str, values: FloatArray, unit: str) -> list[Figure]:
     """Return the mean of two values or more, with Student's interval."""
     if len(values) < 2:
         return []
+    from scipy.stats import t as student  # only here: it takes a third of a second
+
     quantile = float(student.ppf(0.5 + PROBABILITY / 2.0, len(values) - 1))
     half = quantile * float(values.std(ddof=1)) / sqrt(len(values))
     return [Figure(name, float(values.mean()), half, unit)]
@@ -148,6 +148,8 @@ def _repeated(ends: dict[tuple[float, bool], list[float]], unit: str) -> list[Fi
     freedom = sum(len(values) - 1 for values in often)
     if freedom < 2:
         return []
+    from scipy.stats import chi2  # as above
+
     spread = sqrt(sum(float(((values - values.mean()) ** 2).sum()) for values in often) / freedom)
     highest = spread * sqrt(freedom / float(chi2.ppf(0.5 - PROBABILITY / 2.0, freedom)))
     return [Figure("repeatability", spread, highest - spread, unit)]

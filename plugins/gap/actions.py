@@ -1,6 +1,6 @@
 """What comes of an answer: a twin, a report, a document; each is a file that is asked for."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Qt, QUrl, Signal
@@ -11,9 +11,10 @@ from rotemina.app.files import json_text, write_text
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.gap.answer import Answer
 from rotemina.sim.errors import InputError
+from rotemina.sim.gap.diagnosis import Diagnosis
 from rotemina.sim.gap.document import as_json
-from rotemina.sim.gap.report.page import write_report
 from rotemina.sim.gap.twin import twin_text
+from rotemina.sim.records.record import Record
 
 
 class Actions(QObject):
@@ -147,3 +148,12 @@ class Actions(QObject):
             self._workbench.session.set_effects((*diagnosis.robot.effects, *diagnosis.fitted))
         except InputError as error:
             self._workbench.notify(Level.ERROR, str(error))
+
+
+def write_report(
+    diagnosis: Diagnosis, records: Sequence[Record], path: Path, names: Sequence[str]
+) -> None:
+    """Write the page of a diagnosis to a file."""
+    from rotemina.sim.gap.report import page  # drawing takes its time to import
+
+    page.write_report(diagnosis, records, path, names)

@@ -3,7 +3,6 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy.signal import welch
 
 from rotemina.sim.arrays import FloatArray
 
@@ -34,6 +33,8 @@ def spectrum(time_s: FloatArray, signals: FloatArray) -> Spectrum | None:
     signals = signals[first:]
     if len(signals) < _LEAST:
         return None
+    from scipy.signal import welch  # only here: it takes half a second
+
     length = min(SEGMENT, len(signals))
     with np.errstate(invalid="ignore"):
         frequency, power = welch(signals, 1.0 / period_s, nperseg=length, axis=0)

@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import correlate
 
 from rotemina.app.motion.history import LiveWindow
 from rotemina.sim.arrays import FloatArray
@@ -127,6 +126,8 @@ def alignment(window: LiveWindow, other: OtherRun) -> float | None:
 
 def _best_start(long: FloatArray, short: FloatArray) -> int:
     """Return the row of ``long`` (n, a) at which ``short`` (m, a) fits best by least squares."""
+    from scipy.signal import correlate  # only here: it takes half a second
+
     count = len(short)
     cost = np.zeros(len(long) - count + 1)
     for column in range(short.shape[1]):

@@ -6,7 +6,6 @@ round, ``q = (x − o − bend(q) − Σ w E(q))/(1 + e)``, by a few rounds.
 """
 
 import numpy as np
-from scipy.signal import lfilter
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.calibration.lag import Lag
@@ -30,6 +29,10 @@ class Correction:
     """
 
     def __init__(self, model: SensorModel, travel: tuple[float, float]) -> None:
+        # Half a second, which a program without corrections is spared; and not amid the readings.
+        from scipy.signal import lfilter
+
+        self._filter = lfilter
         self._model = model
         self._travel = travel
         self._radii = np.array(model.radii)
@@ -81,6 +84,6 @@ class Correction:
             (elapsed > 0.0) & ~paused, steps / np.where(elapsed > 0.0, elapsed, 1.0), 0.0
         )
         kept = float(np.exp(-interval_s / max(_SMOOTHED_S, self._model.lag_s)))
-        speeds, _ = lfilter([1.0 - kept], [1.0, -kept], raw, zi=[kept * self._speed])
+        speeds, _ = self._filter([1.0 - kept], [1.0, -kept], raw, zi=[kept * self._speed])
         self._speed = float(speeds[-1])
         return np.asarray(speeds)

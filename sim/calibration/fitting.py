@@ -13,7 +13,6 @@ from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
-from scipy.stats import t as student
 
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.calibration.design import Choice, Gram, Run, columns, indices, model_of
@@ -38,6 +37,8 @@ class Fitted(NamedTuple):
     @property
     def quantile(self) -> float:
         """Half width of a 95 % interval over a standard deviation."""
+        from scipy.stats import t as student  # only here: it takes a third of a second
+
         freedom = max(self.blocks - len(self.covariance), 2)
         return float(student.ppf(0.5 + PROBABILITY / 2.0, freedom))
 

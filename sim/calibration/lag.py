@@ -3,7 +3,6 @@
 from enum import StrEnum
 
 import numpy as np
-from scipy.signal import lfilter
 
 from rotemina.sim.arrays import FloatArray
 
@@ -35,6 +34,8 @@ def lagged(signal: FloatArray, kind: Lag, lag_s: float, step_s: float) -> FloatA
     share = -float(np.expm1(-pace)) / pace
     weights = [1.0 - share, share - kept]
     start = signal[0]
+    from scipy.signal import lfilter  # only here: it takes half a second
+
     output, _ = lfilter(weights, [1.0, -kept], signal - start, zi=[0.0])
     return np.asarray(start + output)
 

@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.signal import detrend
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.evidence import Evidence
@@ -71,6 +70,8 @@ def strongest_frequency(
     evidence: Evidence, residual: FloatArray, bounds: tuple[float, float]
 ) -> float | None:
     """Return the frequency over time, within bounds, of the strongest line; None without one."""
+    from scipy.signal import detrend  # only here: it takes half a second
+
     best: tuple[float, float] | None = None
     for part in evidence.parts:
         time_s = evidence.observations[part.record].record.time_s
@@ -92,6 +93,8 @@ def _over_position(
     bins = np.floor((place - place.min()) / width).astype(np.int64)
     visits = np.bincount(bins)
     mean = np.bincount(bins, gap) / np.maximum(visits, 1)
+    from scipy.signal import detrend  # as above
+
     # Each place counts once, however long the axis held there; slow trends are no lines.
     seen = visits > 0
     mean[seen] = detrend(mean[seen])
