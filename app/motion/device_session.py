@@ -189,6 +189,7 @@ class DeviceSession:
         Queued commands are dropped. The device is told from this very thread.
         """
         asked_s = self._clock()
+        self._stop_asked_s = asked_s  # first: whoever sends speeds looks at it before each
         self._mailbox.clear()
         failure = None
         try:
@@ -199,7 +200,6 @@ class DeviceSession:
         self._worker.stopped(asked_s, failure)
         with self._lock:
             self._stop_latency_s = latency_s
-            self._stop_asked_s = asked_s
 
     def emergency_stop(self, reason: str = "emergency stop") -> None:
         """Stop, and let nothing move until :meth:`release`; any thread, never waits or raises."""

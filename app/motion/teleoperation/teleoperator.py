@@ -29,6 +29,7 @@ _RENEW_S = 0.04  # a speed that does not change is said again this often
 _NEARLY, _STEPS_S = 0.02, 10.0  # of a speed, and resolutions a second: changes that can wait
 _LONGEST_STEP_S = 0.05  # a loop that was late does not make up for it
 _NOISE_FLOORS = 3.0  # of a deviation, that are no contact
+_STOPPED = "the machine is being stopped"
 DIRECT = "direct"  # axes that a control drives by their own name
 
 
@@ -67,6 +68,7 @@ class Teleoperator:
         self._preset = 1.0
         self._arms: dict[str, _Arm] = {}
         self._before_s: float | None = None
+        self._stop_seen_s = session.stop_asked_s
         self._refused: str | None = None
         self._reason: str | None = None
         self._intent = Intent(0.0)
@@ -137,6 +139,10 @@ class Teleoperator:
         self._take_requests(intent)
         state = self._session.snapshot()
         self._reason = stopped or self._why_not(state, intent)
+        # A stop may come and be over between two looks, or find everything at rest.
+        if self._stopped_meanwhile:
+            self._stop_seen_s = self._session.stop_asked_s
+            self._reason = self._reason or _STOPPED
         if self._reason is not None:
             self._let_go(None)
         else:
@@ -162,7 +168,11 @@ class Teleoperator:
         else:
             return None
         self._refused = intent.lost
-        return "the machine is being stopped"
+        return _STOPPED
+
+    @property
+    def _stopped_meanwhile(self) -> bool:
+        return self._session.stop_asked_s != self._stop_seen_s
 
     def _take_requests(self, intent: Intent) -> None:
         with self._lock:
@@ -183,7 +193,7 @@ class Teleoperator:
         if state.locked is not None:
             return state.locked
         if state.stopping:
-            return "the machine is being stopped"
+            return _STOPPED
         if state.activity in (DeviceState.PLAYING, DeviceState.HOMING):
             return f"the machine is {state.activity}"
         if not isinstance(self._session.driver, VelocityMover):
@@ -232,6 +242,9 @@ class Teleoperator:
         lost = arm.following.lost(speeds, state)
         if lost is not None:
             self._let_go(f"axis {lost} does not follow the stick")
+            return
+        if self._stopped_meanwhile:
+            self._let_go(None)
             return
         try:
             used = self._session.move_velocity(speeds, LEASE_S, JOYSTICK)

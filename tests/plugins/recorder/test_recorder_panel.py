@@ -43,7 +43,15 @@ def record_a_move(qtbot, window):
     qtbot.waitUntil(lambda: session.snapshot().command["x"] > start + 2e-5, timeout=LONG_MS)
     hand.stop()
     operation.pad.release_all()
-    qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
+    stands = [start, 0.0]  # the latest command, and since when
+
+    def rests():
+        now = session.snapshot()
+        if now.command["x"] != stands[0] or now.activity is not DeviceState.IDLE:
+            stands[:] = now.command["x"], now.device_time_s
+        return now.device_time_s > stands[1] + 0.2  # no lease of a speed lasts so long
+
+    qtbot.waitUntil(rests, timeout=LONG_MS)
     section.note.setText("moved by hand")
     qtbot.keyClick(section.note, Qt.Key.Key_Return)
     assert section.note.text() == ""

@@ -215,6 +215,16 @@ def test_stop_and_emergency_stop_by_button(desk):
     assert desk.run(0.3, {**CENTRE, "x": 1.0}).command["x"] > begin
 
 
+def test_after_a_stop_that_found_all_at_rest_a_held_stick_counts_no_more(desk):
+    desk.run(0.1)
+    desk.run(0.1, {**CENTRE, "x": 1.0}, held={Action.CLUTCH})  # held, and the machine stands
+    desk.session.stop()
+    begin = desk.run(0.3, {**CENTRE, "x": 1.0}).command["x"]
+    assert desk.run(0.3, {**CENTRE, "x": 1.0}).command["x"] == begin
+    desk.run(0.1)
+    assert desk.run(0.3, {**CENTRE, "x": 1.0}).command["x"] > begin
+
+
 def test_it_does_not_fight_with_what_else_moves_an_axis(desk):
     start = desk.run(0.1).command["x"]
     desk.session.go_to({"x": start + 2e-3})
