@@ -216,13 +216,17 @@ def test_stop_and_emergency_stop_by_button(desk):
 
 
 def test_after_a_stop_that_found_all_at_rest_a_held_stick_counts_no_more(desk):
-    desk.run(0.1)
-    desk.run(0.1, {**CENTRE, "x": 1.0}, held={Action.CLUTCH})  # held, and the machine stands
+    high = desk.session.robot.axes["x"].range[1]
+    desk.session.go_to({"x": high})
+    desk.run(8.0)
+    desk.run(0.3, {**CENTRE, "x": 1.0})
+    assert not desk.teleoperator.state.driving  # it is at its end already
     desk.session.stop()
-    begin = desk.run(0.3, {**CENTRE, "x": 1.0}).command["x"]
-    assert desk.run(0.3, {**CENTRE, "x": 1.0}).command["x"] == begin
+    desk.run(0.3, {**CENTRE, "x": 1.0})
+    waiting = {view.name: view.waiting for view in desk.teleoperator.state.coordinates}
+    assert waiting["x"]
     desk.run(0.1)
-    assert desk.run(0.3, {**CENTRE, "x": 1.0}).command["x"] > begin
+    assert desk.run(0.3, {**CENTRE, "x": -1.0}).command["x"] < high
 
 
 def test_it_does_not_fight_with_what_else_moves_an_axis(desk):
