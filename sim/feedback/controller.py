@@ -43,9 +43,10 @@ class Controller:
         limits: OutputLimits = NO_LIMITS,
         feed_forward: FeedForward | None = None,
     ) -> None:
-        self._numbers = numbers_of(gains, interval_s, limits)
-        self._feed_forward = feed_forward or FeedForward()
-        self._state = np.zeros(kernel.MEMORY)
+        #: Of the recurrence, and what it remembers, which it moves on.
+        self.numbers = numbers_of(gains, interval_s, limits)
+        self.memory = np.zeros(kernel.MEMORY)
+        self.feed_forward = feed_forward or FeedForward()
 
     def start(self, reference: float, output: float | None = None) -> None:
         """Rest at a reference, with an output that holds the axis there.
@@ -53,8 +54,8 @@ class Controller:
         Without ``output`` it is what the feed-forward asks for. The controller takes over without
         a jump: the integral begins with the difference.
         """
-        feed = self._feed_forward.start(reference)
-        self._state = rested(self._numbers, feed, feed if output is None else output)
+        feed = self.feed_forward.start(reference)
+        self.memory[:] = rested(self.numbers, feed, feed if output is None else output)
 
     def step(self, reference: float, measured: float) -> float:
         """Return the output of this sample, m or rad, held until the next.
@@ -69,18 +70,33 @@ class Controller:
                 f"controller: reference {reference:g}, measured {measured:g}: both must be finite; "
                 "hold the last output until the sensor answers again"
             )
-        feed = self._feed_forward.step(reference)
-        return float(kernel.control(self._numbers, self._state, reference - measured, feed))
+        return self.answer(reference, measured)
+
+    def answer(self, reference: float, measured: float) -> float:
+        """Return the output of this sample; where a number is not finite, the last one again.
+
+        The feed-forward goes on all the same, as a machine's does, which cannot wait.
+        """
+        feed = self.feed_forward.step(reference)
+        error = reference - measured
+        if not (isfinite(error) and isfinite(feed)):
+            return self.output
+        return float(kernel.control(self.numbers, self.memory, error, feed))
+
+    @property
+    def output(self) -> float:
+        """The last output, m or rad."""
+        return float(self.memory[kernel.OUTPUT])
 
     @property
     def limited(self) -> bool:
         """Whether a limit cut the last output off."""
-        return bool(self._state[kernel.OUTPUT] != self._state[kernel.ASKED])
+        return bool(self.memory[kernel.OUTPUT] != self.memory[kernel.ASKED])
 
     @property
     def integral(self) -> float:
         """What the integral adds to the output, m or rad."""
-        return float(self._state[kernel.INTEGRAL])
+        return float(self.memory[kernel.INTEGRAL])
 
 
 def numbers_of(gains: Gains, interval_s: float, limits: OutputLimits) -> FloatArray:

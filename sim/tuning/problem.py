@@ -18,22 +18,30 @@ from rotemina.sim.feedback.axis_loop import AxisLoop, Traces
 from rotemina.sim.feedback.feed_forward import FeedForward, SampledInverse
 from rotemina.sim.feedback.gains import Gains, Notch
 from rotemina.sim.feedback.lead import lead_taps
+from rotemina.sim.feedback.spread import SPREAD, loops_of
 from rotemina.sim.feedback.stability import (
     LoopAnalysis,
     check_stability,
     sensitivity_peak,
 )
-from rotemina.sim.robot.model import AxisEffect, Robot
+from rotemina.sim.robot.model import Robot
 from rotemina.sim.tuning.errors import TuningError
 from rotemina.sim.tuning.figures import UNUSABLE, Figures, figures_of, worst
 from rotemina.sim.tuning.objectives import Constraints
 from rotemina.sim.tuning.scenario import Scenario, step_of, triangle_of
 
-SPREAD = 0.05
-VARIABLES = ("integral", "proportional", "derivative", "low_pass_hz", "notch_damping")
+VARIABLES = (
+    "integral",
+    "proportional",
+    "derivative",
+    "low_pass_hz",
+    "notch_damping",
+    "double_integral",
+)
 _SEED = 20_101  # of the noise that every individual meets
-# Bounds, in the axis' own pace: I over ω, P, D ω, low-pass over the resonance, ζ of the notch.
-_INTEGRAL, _PROPORTIONAL, _DERIVATIVE = (0.02, 2.0), 1.0, 0.5
+# Bounds, in the axis' own pace: I over ω, P, D ω, low-pass over the resonance, ζ of the notch, J
+# over I ω.
+_INTEGRAL, _PROPORTIONAL, _DERIVATIVE, _DOUBLE = (0.02, 2.0), 1.0, 0.5, 0.3
 _LOW_PASS, _HIGHEST_SHARE, _NOTCH = 0.5, 0.45, (0.1, 2.0)
 _DERIVATIVE_FILTER = 0.1  # of 1/ω
 _SHALLOWEST, _DEEPEST = 0.5, 0.01  # of the notch
@@ -86,18 +94,12 @@ class TuningProblem:
     ) -> None:
         self.robot, self.axis, self.rate_hz, self.delay = robot, axis, rate_hz, delay
         self.constraints, self.spread = constraints or Constraints(), spread
-        self.loop = AxisLoop(robot, axis, rate_hz, delay=delay)
+        self._variants = loops_of(robot, axis, rate_hz, delay=delay, spread=spread)
+        self.loop = self._variants[0]
         own = self.loop.robot_axis
         self._facts = Facts.of(own)
         self._resonates = self._facts.frequency_hz > 0.0
         self._check_pace()
-        self._variants = [
-            self.loop,
-            *(
-                AxisLoop(_detuned(robot, axis, off), axis, rate_hz, delay=delay, gain=1.0 + gain)
-                for gain, off in _corners(spread, resonates=self._resonates)
-            ),
-        ]
         self._analyses = [LoopAnalysis(one.sampled) for one in self._variants]
         # The liveliest and the slowest stand in the middle of the corners.
         self._simulated = (
@@ -108,7 +110,7 @@ class TuningProblem:
         self._given = [(one, feed_forward.run(one.reference)) for one in scenarios]
 
     def gains_of(self, shares: Sequence[float] | FloatArray) -> Gains:
-        """Return the gains for shares (5,) between 0 and 1, in the order of ``VARIABLES``."""
+        """Return the gains for shares (6,) between 0 and 1, in the order of ``VARIABLES``."""
         rate = 2.0 * pi * self._facts.pace_hz
         integral = rate * _between(_INTEGRAL, shares[0])
         lowest = min(_LOW_PASS * self._facts.pace_hz, 0.5 * _HIGHEST_SHARE * self.rate_hz)
@@ -120,6 +122,7 @@ class TuningProblem:
         return Gains(
             proportional=_PROPORTIONAL * float(shares[1]),
             integral=integral,
+            double_integral=_DOUBLE * rate * integral * float(shares[5]) ** 2,
             derivative=_DERIVATIVE / rate * float(shares[2]),
             derivative_filter_s=_DERIVATIVE_FILTER / rate,
             low_pass_hz=_between((lowest, _HIGHEST_SHARE * self.rate_hz), shares[3]),
@@ -186,19 +189,3 @@ def _between(bounds: tuple[float, float], share: float) -> float:
     """Return what lies a share of the way between two bounds, by its logarithm."""
     low, high = bounds
     return float(low * np.exp(share * log(high / low)))
-
-
-def _corners(spread: float, *, resonates: bool) -> list[tuple[float, float]]:
-    """Return the errors of gain and resonance that are tried beside none."""
-    if spread == 0.0:
-        return []
-    if not resonates:
-        return [(spread, 0.0), (-spread, 0.0)]
-    return [(spread, spread), (spread, -spread), (-spread, spread), (-spread, -spread)]
-
-
-def _detuned(robot: Robot, axis: str, off: float) -> Robot:
-    if off == 0.0:
-        return robot
-    effect = AxisEffect(axis=axis, id="resonance_mismatch", parameters={"frequency_error": off})
-    return replace(robot, effects=(*robot.effects, effect))

@@ -30,7 +30,7 @@ ROBOT = replace(load_robot("rotemina"), effects=(HYSTERESIS, CREEP))
 
 def test_a_search_and_what_it_recommends() -> None:
     problem = TuningProblem(ROBOT, "zn", RATE_HZ)
-    problem.evaluate(problem.gains_of([0.5, 0.05, 0.1, 0.9, 0.8]))  # loads what is compiled
+    problem.evaluate(problem.gains_of([0.5, 0.05, 0.1, 0.9, 0.8, 0.5]))  # loads what is compiled
     settings = SearchSettings()
     begin_s, busy_s = time.perf_counter(), time.process_time()
     with ThreadPoolExecutor(CORES) as pool:
@@ -78,7 +78,7 @@ def positioning(problem: TuningProblem, gains: object) -> float:
 
 def test_the_time_of_a_sample() -> None:
     problem = TuningProblem(ROBOT, "zn", RATE_HZ, spread=0.0)
-    gains = problem.gains_of([0.5, 0.05, 0.1, 0.9, 0.8])
+    gains = problem.gains_of([0.5, 0.05, 0.1, 0.9, 0.8, 0.5])
     reference = np.full(50_000, 30e-6)
     problem.loop.follow(gains, reference)
     begin_s = time.perf_counter()

@@ -16,6 +16,7 @@ from rotemina.sim.feedback.axis_loop import AxisLoop
 from rotemina.sim.feedback.feed_forward import FeedForward
 from rotemina.sim.feedback.gains import Gains, Notch
 from rotemina.sim.feedback.lead import lead_taps
+from rotemina.sim.feedback.regulation import Regulation
 from rotemina.sim.feedback.stability import check_stability
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -26,12 +27,14 @@ RATE_HZ, H = 5000.0, 2e-4
 ROBOT = load_robot("rotemina")
 AXIS = ROBOT.axes["zn"]
 GAINS = Gains(
-    proportional=0.15,
-    integral=920.0,
-    derivative=8e-5,
+    proportional=0.07,
+    integral=1100.0,
+    double_integral=300e3,
+    derivative=1.7e-4,
     derivative_filter_s=4e-5,
-    low_pass_hz=930.0,
-    notch=Notch(420.0, 1.1, 0.0225),
+    low_pass_hz=2000.0,
+    notch=Notch(420.0, 0.8, 0.03),
+    tracking_s=2e-3,
 )
 STEP, SEEDS, WINDOW = 50e-6, 20, 100  # 20 ms
 CREEP = AxisEffect(axis="zn", id="creep", parameters={"rate": 0.02})
@@ -72,7 +75,7 @@ def check_ends(loop, distance, inverse=None, bound=10e-9):
 @pytest.mark.parametrize("form", FORMS)
 def test_a_move_of_50_um_ends_within_10_nm_of_the_true_place_in_100_ms(form, distance):
     loop = AxisLoop(worn(form), "zn", RATE_HZ)
-    check_stability(loop.sampled, GAINS)
+    assert Regulation(ROBOT, "zn", GAINS, RATE_HZ).stability.peak_sensitivity < 1.7
     check_ends(loop, distance)
 
 
@@ -134,17 +137,14 @@ def test_unseen_references_to_10_hz_are_tracked_within_a_thousandth(form, name, 
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("form", "bound"), [*zip(FORMS, (2.5e-3, 1e-3), strict=True)])
-def test_corners_of_a_triangle_of_10_hz_cost_no_more_than_said(form, bound, trained):
-    assert tracking_rms(form, trained, triangle_of(AXIS, RATE_HZ).reference) < bound
+@pytest.mark.parametrize("form", FORMS)
+def test_so_is_a_triangle_of_10_hz(form, trained):
+    assert tracking_rms(form, trained, triangle_of(AXIS, RATE_HZ).reference) < 1e-3
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("distance", [STEP, -STEP])
-@pytest.mark.parametrize(("form", "bound"), [*zip(FORMS, (13e-9, 5e-9), strict=True)])
-def test_an_inverse_brings_it_nearer_where_it_fits_and_hardly_harms_elsewhere(
-    form, bound, distance, trained
-):
-    # What the inverse takes for creep of the foreign plant goes on after the move.
+@pytest.mark.parametrize("form", FORMS)
+def test_so_it_does_with_an_inverse_also_of_a_foreign_plant(form, distance, trained):
     inverse = Inverse(trained[form], H, preview=True)
-    check_ends(AxisLoop(worn(form), "zn", RATE_HZ), distance, inverse, bound)
+    check_ends(AxisLoop(worn(form), "zn", RATE_HZ), distance, inverse)

@@ -13,17 +13,18 @@ from rotemina.sim.robot.file import load_robot
 from rotemina.sim.tuning.errors import TuningError
 from rotemina.sim.tuning.problem import VARIABLES, TuningProblem
 
-GOOD = [0.5, 0.05, 0.1, 0.9, 0.8]
+GOOD = [0.5, 0.05, 0.1, 0.9, 0.8, 0.0]
 
 
 def test_gains_lie_between_their_bounds_and_rise_with_their_shares(problem):
-    low, high = problem.gains_of(np.zeros(5)), problem.gains_of(np.ones(5))
+    low, high = problem.gains_of(np.zeros(6)), problem.gains_of(np.ones(6))
     assert low.proportional == low.derivative == 0.0
     assert 0.0 < low.integral < high.integral
+    assert 0.0 == low.double_integral < high.double_integral
     assert high.low_pass_hz < 0.5 * problem.rate_hz
     assert high.notch.frequency_hz == pytest.approx(420.0, rel=1e-3)
     assert low.notch.damping < high.notch.damping
-    assert len(VARIABLES) == 5
+    assert len(VARIABLES) == 6
 
 
 def test_good_gains_have_figures_that_come_again(problem):
@@ -88,11 +89,11 @@ def test_an_inverse_takes_part_in_the_feed_forward(worn):
 
 def test_other_kinds_of_axes_can_be_tuned_too():
     static = TuningProblem(load_robot("picma"), "p", 1000.0)
-    gains = static.gains_of([0.3, 0.1, 0.0, 0.9, 0.5])
+    gains = static.gains_of([0.3, 0.1, 0.0, 0.9, 0.5, 0.0])
     assert gains.notch is None
     assert static.evaluate(gains).peak_sensitivity < 1.7
     table = TuningProblem(load_robot("rotemina"), "x", 2000.0, spread=0.0)
-    assert np.isfinite(table.evaluate(table.gains_of([0.3, 0.0, 0.0, 0.9, 0.8])).tracking_rms)
+    assert np.isfinite(table.evaluate(table.gains_of([0.3, 0.0, 0.0, 0.9, 0.8, 0.0])).tracking_rms)
 
 
 def test_a_loop_slower_than_the_resonance_is_refused():

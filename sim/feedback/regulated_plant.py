@@ -1,0 +1,166 @@
+"""A plant of which some axes are under controllers, stepped as a live machine is."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.feedback import loop_kernel
+from rotemina.sim.feedback.axis_loop import rows_after
+from rotemina.sim.feedback.controller import Controller
+from rotemina.sim.plant import kernel
+from rotemina.sim.plant.chance import Chance
+from rotemina.sim.plant.errors import PlantError
+from rotemina.sim.plant.group import asked_position
+from rotemina.sim.plant.machine import Machine
+from rotemina.sim.plant.plant import Plant
+from rotemina.sim.plant.state import Behind, Motion, PlantState
+
+Controllers = Mapping[int, Controller]
+
+
+def advance(
+    plant: Plant,
+    state: PlantState,
+    interval_s: float,
+    command: FloatArray,
+    reference: FloatArray,
+    controllers: Controllers,
+    chance: Chance | None = None,
+) -> tuple[Motion, PlantState, FloatArray]:
+    """Sample a plant n times, its controllers answering each sample.
+
+    Parameters
+    ----------
+    plant : Plant
+    state : PlantState
+    interval_s : float
+        From sample to sample, and from the state to the first.
+    command : (n, axes)
+        What axes without a controller here are told, m or rad.
+    reference : (n, axes)
+        Where those with one shall be, m or rad.
+    controllers : mapping int -> Controller
+        By the number of the axis; they go on.
+    chance : Chance, optional
+
+    Returns
+    -------
+    motion : Motion
+        ``inputs`` of axes under a controller are what that asks for.
+    state : PlantState
+    asked : (n, axes)
+        What every axis was told, m or rad.
+
+    Raises
+    ------
+    PlantError
+        If the response leaves what a number can hold.
+    """
+    late = plant.assembly.delays_s.any() or any(one and one.delay_s for one in plant.loops)
+    run = _by_sample if late or plant.assembly.skews else _compiled
+    return run(plant, state, interval_s, command, reference, controllers, chance)
+
+
+def _compiled(
+    plant: Plant,
+    state: PlantState,
+    interval_s: float,
+    command: FloatArray,
+    reference: FloatArray,
+    controllers: Controllers,
+    chance: Chance | None,
+) -> tuple[Motion, PlantState, FloatArray]:
+    """Do it in one compiled loop: inputs act at their samples."""
+    rows, axes = command.shape
+    electronics = plant.assembly.electronics
+    inputs = np.concatenate([state.inputs[-1:], plant.open_loop_inputs(command)])
+    effort = np.zeros((rows + 1 if electronics.any() else 0, axes))
+    time_s = state.elapsed_s + interval_s * np.arange(rows + 1.0)
+    filled = rows_after(state, time_s, inputs, effort)
+    moving = kernel.State(state.x.copy(), state.memory.copy(), state.seen.copy())
+    drawn = np.zeros((0, axes))
+    if chance is not None:
+        drawn = chance.draw(rows, axes, plant.assembly.random)
+    output = np.empty((rows, len(controllers)))
+    feed = [one.feed_forward.go_on(reference[:, index]) for index, one in controllers.items()]
+    loops = _loops(plant, controllers)
+    loop_kernel.follow(
+        *_prepared(plant, interval_s), moving, filled, np.ascontiguousarray(command), drawn, loops,
+        np.ascontiguousarray(reference[:, list(controllers)]), np.stack(feed, axis=1), output,
+    )  # fmt: skip
+    for memory, one in zip(loops.memory, controllers.values(), strict=True):
+        one.memory[:] = memory
+    _check(plant, filled.position)
+    asked = command.copy()
+    asked[:, list(controllers)] = output
+    told = filled.inputs[1:].copy()
+    if len(effort):
+        amplified = electronics.copy()
+        amplified[list(controllers)] = False
+        told[:, amplified] = effort[1:, amplified]
+    motion = Motion(filled.position[1:], filled.velocity[1:], told, filled.reading[1:])
+    last = [one[-1:].copy() for one in (inputs, *filled[3:])]
+    after = PlantState(
+        state.time_s[-1:] + rows * interval_s, *last, float(time_s[-1]), state.perturbation, *moving
+    )
+    return motion, after, asked
+
+
+def _by_sample(
+    plant: Plant,
+    state: PlantState,
+    interval_s: float,
+    command: FloatArray,
+    reference: FloatArray,
+    controllers: Controllers,
+    chance: Chance | None,
+) -> tuple[Motion, PlantState, FloatArray]:
+    """Do it sample by sample, which serves every plant: inputs may act late."""
+    asked, parts = command.copy(), []
+    columns, offsets = list(controllers), [axis.offset for axis in plant.robot.axes.values()]
+    for k in range(len(command)):
+        told = asked[k : k + 1]
+        told[0, columns] = [controllers[index].output for index in columns]
+        time_s = state.time_s[-1:] + interval_s
+        motion, state = plant.advance(state, time_s, told, chance=chance)
+        for index in columns:
+            one = controllers[index]
+            told[0, index] = one.answer(
+                float(reference[k, index]), float(motion.reading[0, index]) - offsets[index]
+            )
+        inputs = state.inputs.copy()
+        inputs[-1, columns] = motion.inputs[0, columns] = plant.open_loop_inputs(told)[0, columns]
+        state = replace(state, inputs=inputs)
+        parts.append(motion)
+    return Motion(*(np.concatenate(one) for one in zip(*parts, strict=True))), state, asked
+
+
+def _loops(plant: Plant, controllers: Controllers) -> loop_kernel.Loops:
+    axes = list(plant.robot.axes.values())
+    own = [axes[index] for index in controllers]
+    return loop_kernel.Loops(
+        np.array(list(controllers), dtype=np.int64),
+        np.array([1.0 / asked_position(axis) for axis in own]),
+        np.array([axis.offset for axis in own], dtype=np.float64),
+        np.zeros(len(own), dtype=np.int64),
+        np.stack([one.numbers for one in controllers.values()]),
+        np.stack([one.memory for one in controllers.values()]),
+    )
+
+
+@lru_cache(maxsize=8)
+def _prepared(plant: Plant, interval_s: float) -> tuple[Machine, kernel.Steps]:
+    behind = Behind.COMMAND
+    return plant.machine(behind), plant.steps(np.array([0.0, interval_s]), 1, behind)
+
+
+def _check(plant: Plant, position: FloatArray) -> None:
+    finite = np.isfinite(position).all(axis=0)
+    if not finite.all():
+        raise PlantError(
+            f"axis {plant.axes[int(np.argmax(~finite))]}: the response under a loop grows beyond "
+            "what a number can hold; lower the gains"
+        )
