@@ -113,7 +113,7 @@ $(VENV)/.%: pyproject.toml $(VENV)/.python
 	@touch $@
 
 # mypy cannot follow an editable install: it reads the folders under their import names.
-$(VENV)/src: $(VENV)/.python
+$(VENV)/src: $(VENV)/.python Makefile
 	@rm -rf $@ && mkdir -p $@/rotemina
-	@for layer in app drivers plugins resources sim; do \
+	@for layer in app docs drivers plugins resources sim; do \
 	ln -s ../../../$$layer $@/rotemina/$$layer; done

@@ -37,6 +37,10 @@ class Panel(QWidget):
     area : Area
     order : int
         Panels of one area stand in this order.
+    help_page : str
+        What its "?" opens: a page of the documentation, as ``safety.md`` or ``plate.md#the-panel``,
+        or one that the plugin's own package carries, as ``glass_stage:help.md``. Without one there
+        is no "?".
     api_version : int
         The version of this interface that the panel was written for.
     """
@@ -44,6 +48,7 @@ class Panel(QWidget):
     title: ClassVar[str] = ""
     area: ClassVar[Area] = Area.RIGHT
     order: ClassVar[int] = 100
+    help_page: ClassVar[str] = ""
     api_version: ClassVar[int] = API_VERSION
 
     def __init__(self, workbench: Workbench) -> None:

@@ -17,6 +17,7 @@ ROOT = Path(__file__).parents[1]
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
 PROJECT = PYPROJECT["project"]
 SETUPTOOLS = PYPROJECT["tool"]["setuptools"]
+HELP = "rotemina.docs"
 ENTRY_POINTS = {
     "console_scripts": PROJECT["scripts"],
     **PROJECT["entry-points"],
@@ -27,6 +28,8 @@ def shipped_files() -> list[tuple[str, Path]]:
     """Package name and path of every file in the layers' folders."""
     files = []
     for layer, folder in SETUPTOOLS["package-dir"].items():
+        if layer == HELP:
+            continue  # what the program carries of it is chosen
         for path in sorted((ROOT / folder).rglob("*")):
             inside = path.relative_to(ROOT / folder)
             if path.is_dir() or any(part.startswith((".", "__py")) for part in inside.parts):
@@ -36,7 +39,8 @@ def shipped_files() -> list[tuple[str, Path]]:
 
 
 def test_packages_are_the_folders_that_hold_files():
-    assert sorted(SETUPTOOLS["packages"]) == sorted({package for package, _ in shipped_files()})
+    folders = {package for package, _ in shipped_files()}
+    assert sorted(SETUPTOOLS["packages"]) == sorted({*folders, HELP})
 
 
 def test_packages_import_by_their_own_init():

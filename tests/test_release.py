@@ -10,6 +10,7 @@ import sysconfig
 import tarfile
 import tomllib
 import venv
+import zipfile
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -67,6 +68,18 @@ def test_the_source_archive_holds_what_a_wheel_is_made_of(archives):
     with tarfile.open(archive) as file:
         names = {name.partition("/")[2] for name in file.getnames()}
     assert {"pyproject.toml", "README.md", "LICENSE", "resources/robots/rotemina.toml"} <= names
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(find_spec("build") is None, reason="build comes with the extra 'test'")
+def test_the_wheel_carries_every_page_and_the_pictures_in_them(archives):
+    (wheel,) = archives.glob("*.whl")
+    carried = {name.removeprefix("rotemina/docs/") for name in zipfile.ZipFile(wheel).namelist()}
+    pages = sorted((ROOT / "docs").glob("*.md")) + sorted((ROOT / "docs" / "decisions").glob("*"))
+    assert {str(page.relative_to(ROOT / "docs")) for page in pages} <= carried
+    shown = {name for page in pages for name in re.findall(r"!\[[^]]*]\(([^)]*)", page.read_text())}
+    assert shown <= carried
+    assert len(shown) > 2
 
 
 @pytest.mark.slow

@@ -128,7 +128,9 @@ def _view(window: "MainWindow") -> list[Command]:
 def _help(window: "MainWindow") -> list[Command]:
     return [
         Command("&Help", "&Find a command …", "Ctrl+Shift+P", window.toggle_palette, "By letters"),
-        Command("&Help", "&Keys", "F1", window.show_keys, "All shortcuts"),
+        Command("&Help", "Help on this &panel", "F1", window.help_here, "The one with the focus"),
+        Command("&Help", "&All pages", "", window.show_help, "They need no network"),
+        Command("&Help", "&Keys", "Shift+F1", window.show_keys, "All shortcuts"),
         Command("&Help", "&Log", "Ctrl+L", window.show_log, "All that the program told"),
         Command(
             "&Help",

@@ -25,6 +25,8 @@ from rotemina.app.shell import commands, key_help, layout_menu, layouts
 from rotemina.app.shell.arrangement import Arrangement
 from rotemina.app.shell.column_mapping import ask_columns
 from rotemina.app.shell.entries import Entry, command_entries, panel_entries
+from rotemina.app.shell.help_button import DockHelp, TabHelp, page_at
+from rotemina.app.shell.help_page import HelpPage
 from rotemina.app.shell.host import make_panels
 from rotemina.app.shell.log_page import LogPage
 from rotemina.app.shell.message_log import MessageLog
@@ -60,6 +62,8 @@ class MainWindow(QMainWindow):
         self._menus: dict[str, QMenu] = {}
         self._leaving = False
         self._support: SupportPage | None = None
+        self.help_page = HelpPage(self)
+        workbench.theme_changed.connect(lambda _: self.help_page.restyle())
         self.log = MessageLog()
         logging.getLogger().addHandler(self.log)
         workbench.closing.connect(lambda: logging.getLogger().removeHandler(self.log))
@@ -120,8 +124,8 @@ class MainWindow(QMainWindow):
         if len(central) == 1:
             return central[0]
         tabs = self.central_tabs = QTabWidget()
-        for panel in central:
-            tabs.addTab(panel, panel.title)
+        pages = {tabs.addTab(panel, panel.title): panel.help_page for panel in central}
+        TabHelp(tabs, pages, self.help_page.open_page)
         return tabs
 
     def _dock(self, name: str, panel: Panel) -> QDockWidget:
@@ -131,6 +135,8 @@ class MainWindow(QMainWindow):
         panel.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         dock.setWidget(panel)
         self.addDockWidget(layouts.DOCK_AREAS[panel.area], dock)
+        if panel.help_page:
+            DockHelp(dock, lambda: self.help_page.open_page(panel.help_page))
         return dock
 
     def _make_menus(self) -> None:
@@ -252,6 +258,14 @@ class MainWindow(QMainWindow):
         for name in self.arrangement.kept.names():
             yield Entry("Layout", name, "", None, lambda name=name: use(name))
         yield from panel_entries(self.panels, self.docks, self.bring_up)
+
+    def help_here(self) -> None:
+        """Show the page of the panel that has the focus, else that of the window."""
+        self.help_page.open_page(page_at(QApplication.focusWidget()) or "window.md")
+
+    def show_help(self) -> None:
+        """Show the first page, from which all others are reached."""
+        self.help_page.open_page("index.md")
 
     def show_keys(self) -> None:
         """List all shortcuts."""

@@ -177,6 +177,8 @@ def _palette(theme: Theme) -> QPalette:
         role.ToolTipText: theme.text,
         role.PlaceholderText: theme.quiet,
         role.Highlight: theme.accent,
+        role.Link: theme.accent,
+        role.LinkVisited: theme.accent,
         role.HighlightedText: theme.on_accent,
         role.Mid: theme.line,
     }

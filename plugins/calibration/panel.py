@@ -45,6 +45,7 @@ class CalibrationPanel(Panel):
     title = "Sensor calibration"
     area = Area.BOTTOM
     order = 32
+    help_page = "calibration.md#for-operators-the-panel-sensor-calibration"
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)

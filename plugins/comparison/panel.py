@@ -38,6 +38,7 @@ class ComparisonPanel(Panel):
     title = "Comparison of model and real"
     area = Area.BOTTOM
     order = 20
+    help_page = "comparison.md"
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)

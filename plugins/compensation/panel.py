@@ -59,6 +59,7 @@ class CompensationPanel(Panel):
     title = "Compensation"
     area = Area.BOTTOM
     order = 33
+    help_page = "compensation.md#the-panel"
     _happened = Signal(object)
 
     def __init__(self, workbench: Workbench) -> None:

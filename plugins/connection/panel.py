@@ -20,6 +20,7 @@ class ConnectionPanel(Panel):
     title = "Connection"
     area = Area.RIGHT
     order = 20
+    help_page = "connection.md"
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)

@@ -37,6 +37,7 @@ class ControlPanel(Panel):
     title = "Control"
     area = Area.LEFT
     order = 10
+    help_page = "control.md"
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)

@@ -48,6 +48,7 @@ class EffectsPanel(Panel):
     title = "Effects"
     area = Area.BOTTOM
     order = 40
+    help_page = "effects.md#in-the-window"
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)

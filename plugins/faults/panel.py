@@ -33,6 +33,7 @@ class FaultsPanel(Panel):
     title = "Faults"
     area = Area.BOTTOM
     order = 60
+    help_page = "faults.md"
 
     _happened = Signal(object, object)
 

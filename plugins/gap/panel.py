@@ -64,6 +64,7 @@ class GapPanel(Panel):
     title = "Gap diagnosis"
     area = Area.BOTTOM
     order = 50
+    help_page = "gap-diagnosis.md#in-the-window"
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)

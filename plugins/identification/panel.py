@@ -54,6 +54,7 @@ class IdentificationPanel(Panel):
     title = "Identification"
     area = Area.BOTTOM
     order = 30
+    help_page = "identification.md#in-the-window"
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)

@@ -50,6 +50,7 @@ class InputsPanel(Panel):
     title = "Input devices"
     area = Area.RIGHT
     order = 25
+    help_page = "input-mapping.md#in-the-window"
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)

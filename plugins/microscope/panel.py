@@ -41,6 +41,7 @@ class MicroscopePanel(Panel):
     title = "Microscope"
     area = Area.CENTRE
     order = 15
+    help_page = "microscope.md#in-the-window"
     _came = Signal()
 
     def __init__(self, workbench: Workbench) -> None:

@@ -41,6 +41,7 @@ class PenetrationPanel(Panel):
     title = "Penetration"
     area = Area.BOTTOM
     order = 35
+    help_page = "penetration.md#in-the-window"
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)

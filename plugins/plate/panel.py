@@ -48,6 +48,7 @@ class PlatePanel(Panel):
     title = "Holding plate"
     area = Area.BOTTOM
     order = 90
+    help_page = "plate.md#the-panel"
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)

@@ -51,6 +51,7 @@ class PlotsPanel(Panel):
     title = "Plots"
     area = Area.CENTRE
     order = 10
+    help_page = "plots.md"
 
     def __init__(self, workbench: Workbench, clock: Clock = time.monotonic) -> None:
         super().__init__(workbench)

@@ -33,6 +33,7 @@ class RecorderPanel(Panel):
     title = "Recorder"
     area = Area.BOTTOM
     order = 70
+    help_page = "recording.md#in-the-window"
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)

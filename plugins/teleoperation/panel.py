@@ -20,6 +20,7 @@ class TeleoperationPanel(Panel):
     title = "Teleoperation"
     area = Area.RIGHT
     order = 22
+    help_page = "teleoperation.md#in-the-window"
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)

@@ -42,6 +42,7 @@ class TrajectoryPanel(Panel):
     title = "Trajectory"
     area = Area.BOTTOM
     order = 10
+    help_page = "trajectory.md"
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)

@@ -36,6 +36,7 @@ class View3dPanel(Panel):
     title = "3-D view"
     area = Area.BOTTOM
     order = 80
+    help_page = "view3d.md#for-operators"
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)

@@ -1,0 +1,1 @@
+"""The pages of the documentation, which the program carries as its help."""
