@@ -25,6 +25,7 @@ from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
 if TYPE_CHECKING:  # a board's commands need none of it
     from rotemina.sim.compensate.inverse import Beyond
     from rotemina.sim.compensate.model import InverseModel
+    from rotemina.sim.feedback.regulation import Regulation
 
 LONGEST_LEASE_S = 1.0
 DISPLAY_ROWS, DISPLAY_COLUMNS = 2, 20
@@ -457,3 +458,56 @@ class Compensator(Driver, ABC):
     @abstractmethod
     def _compensate(self, axis: str, model: "InverseModel | None") -> None:
         """Change it; raise :class:`LimitError` where the inverse does not reach."""
+
+
+class Regulator(Driver, ABC):
+    """A device that closes a loop around an axis, from its own sensor to its actuator.
+
+    Commands in its samples are where the axis shall be; ``inputs`` show what the loop asks for. It
+    ends with :meth:`Driver.close` and a cleared fault; a stop halts the axis under its loop.
+    """
+
+    @property
+    @abstractmethod
+    def regulated(self) -> "Mapping[str, Regulation]":
+        """The loops that are closed, by axis; any thread may ask."""
+
+    @property
+    @abstractmethod
+    def regulation_limited(self) -> tuple[str, ...]:
+        """The axes whose loop asks for more than a limit allows just now; any thread may ask."""
+
+    @final
+    def regulate(self, axis: str, regulation: "Regulation | None") -> None:
+        """Close a loop around an axis, or, for None, open it.
+
+        The axis stays where it is: its command becomes where the sensor says that it is, and with
+        None what was sent to it last. A :class:`Regulation` was found stable when it was made.
+
+        Raises
+        ------
+        LimitError
+            If there is no such axis, the loop is another's or of another robot, or does not fit.
+        StateError
+            If the device is closed, faulty or not at rest.
+        """
+        state = self._require_sound("change a loop")
+        if state is not DeviceState.IDLE:
+            raise StateError(
+                f"{self.name}: cannot change a loop while it is {state}; stop it or wait"
+            )
+        if axis not in self.robot.axes:
+            raise LimitError(f"{self.name}: no such axis {axis!r}; it has {', '.join(self.axes)}")
+        if regulation is not None:
+            if regulation.axis != axis:
+                raise LimitError(f"{self.name}: a loop of axis {regulation.axis} is none of {axis}")
+            if regulation.robot.axes[axis] != self.robot.axes[axis]:
+                raise LimitError(
+                    f"{self.name}: axis {axis}: the loop was found stable on robot "
+                    f"{regulation.robot.name!r} with another such axis; check it on this one"
+                )
+        self._regulate(axis, regulation)
+
+    @abstractmethod
+    def _regulate(self, axis: str, regulation: "Regulation | None") -> None:
+        """Change it; raise :class:`LimitError` where it does not fit."""

@@ -2,12 +2,17 @@
 
 from rotemina.drivers.simulator.setpoints import SetpointLimits
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Beyond, Inverse, resting_at
 from rotemina.sim.compensate.model import InverseModel
+
+_SLACK = 1e-3  # share of the span by which an axis may stand beyond what its inverse saw
 
 
 class Compensating:
     """The inverses in use, by the number of their axis; each is asked once a tick.
+
+    That of an axis under a loop is part of the loop's feed-forward: here it only bounds the axis.
 
     Parameters
     ----------
@@ -19,9 +24,14 @@ class Compensating:
     def __init__(self, limits: SetpointLimits, tick_s: float) -> None:
         self._limits = limits
         self._tick_s = tick_s
+        self._models: dict[int, InverseModel] = {}
         self._inverses: dict[int, Inverse] = {}
         #: In what each axis that has an inverse has gone beyond it; replaced as a whole.
         self.beyond: dict[int, Beyond] = {}
+
+    def model(self, index: int) -> InverseModel | None:
+        """Return the inverse in use of an axis; None where there is none."""
+        return self._models.get(index)
 
     def change(self, index: int, model: InverseModel | None, sent: float) -> float:
         """Use another inverse, or none, of an axis that was sent to ``sent``; return its command.
@@ -31,21 +41,47 @@ class Compensating:
         CompensationError
             If the inverse asks for ``sent`` nowhere.
         """
-        others = {key: one for key, one in self._inverses.items() if key != index}
-        wanted = sent
+        inverse, wanted = None, sent
         if model is not None:
-            others[index], wanted = resting_at(model, self._tick_s, sent)
-        self._inverses = others
-        self.beyond = {key: self.beyond.get(key, Beyond(0)) for key in others if key != index}
-        if model is not None:
-            self.beyond = {**self.beyond, index: Beyond(0)}
+            inverse, wanted = resting_at(model, self._tick_s, sent)
+        self._use(index, model)
+        if inverse is not None:
+            self._inverses[index] = inverse
         return wanted
+
+    def lend(self, index: int, model: InverseModel | None, at: float) -> float:
+        """Let a loop have the inverse of an axis that stands at ``at``; return its command there.
+
+        Raises
+        ------
+        CompensationError
+            If the axis stands beyond what the inverse saw.
+        """
+        low, high = float(self._limits.low[index]), float(self._limits.high[index])
+        if model is not None:
+            low, high = max(low, model.desired_range[0]), min(high, model.desired_range[1])
+            slack = _SLACK * model.span
+            if not low - slack <= at <= high + slack:
+                raise CompensationError(
+                    f"inverse of axis {model.axis}: the axis stands at {at:.6g} {model.unit}; the "
+                    f"inverse saw {low:.6g} to {high:.6g}: move the axis there first"
+                )
+        self._use(index, model)
+        return min(max(at, low), high)
+
+    def retime(self, tick_s: float) -> None:
+        """Go on at other ticks; the axes are at rest."""
+        self._tick_s = tick_s
+        for index, before in self._inverses.items():
+            after = Inverse(before.model, tick_s)
+            after.state = before.state
+            self._inverses[index] = after
 
     def bounds(self, index: int) -> tuple[float, float]:
         """Return between which commands an axis may be: no farther than its inverse saw."""
         low, high = float(self._limits.low[index]), float(self._limits.high[index])
-        if index in self._inverses:
-            seen = self._inverses[index].model.desired_range
+        if index in self._models:
+            seen = self._models[index].desired_range
             return max(low, seen[0]), min(high, seen[1])
         return low, high
 
@@ -56,7 +92,20 @@ class Compensating:
         sent = command.copy()
         for index, inverse in self._inverses.items():
             sent[:, index] = inverse.run(command[:, index])
-            said = self.beyond[index] | inverse.beyond
-            if said != self.beyond[index]:
-                self.beyond = {**self.beyond, index: said}
+        self.note({index: inverse.beyond for index, inverse in self._inverses.items()})
         return sent
+
+    def note(self, beyond: dict[int, Beyond]) -> None:
+        """Remember in what axes went beyond their inverses."""
+        if any(self.beyond[index] | said != self.beyond[index] for index, said in beyond.items()):
+            said = {index: self.beyond[index] | one for index, one in beyond.items()}
+            self.beyond = {**self.beyond, **said}
+
+    def _use(self, index: int, model: InverseModel | None) -> None:
+        for one in (self._models, self._inverses):
+            one.pop(index, None)
+        left = {key: self.beyond[key] for key in self._models}
+        if model is not None:
+            self._models[index] = model
+            left[index] = Beyond(0)
+        self.beyond = left

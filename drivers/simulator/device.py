@@ -10,10 +10,14 @@ from rotemina.drivers.samples import Samples
 from rotemina.drivers.simulator.compensating import Compensating
 from rotemina.drivers.simulator.homing import Homing
 from rotemina.drivers.simulator.profile_motion import ProfileMotion
+from rotemina.drivers.simulator.regulating import Regulating
 from rotemina.drivers.simulator.setpoints import SetpointGenerator, SetpointLimits
-from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.drivers.simulator.smooth_rows import SmoothRows
+from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
+from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Beyond
 from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.feedback.regulation import Regulation
 from rotemina.sim.plant.chance import Chance
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.takeover import taken_over
@@ -36,13 +40,15 @@ class _Phase(Enum):
 class _Chunk(NamedTuple):
     """Sampling instants (n,) of the device, commands (n, axes) and rows of a trajectory (n,).
 
-    ``elapsed_s`` (n,) is the time since the latest sample before: small, and so exact.
+    ``elapsed_s`` (n,) is the time since the latest sample before: small, and so exact. ``told``
+    (n,) says which of them are samples: not all ticks of a loop are.
     """
 
     time_s: FloatArray
     elapsed_s: FloatArray
     command: FloatArray
     row: IntArray
+    told: BoolArray
 
 
 class SimulatedDevice:
@@ -52,7 +58,8 @@ class SimulatedDevice:
     ----------
     robot : Robot
     tick_s : float
-        Interval between samples, and between set-points of single moves.
+        Interval between samples, and between set-points of single moves. While an axis is under a
+        loop, set-points come at the loop's ticks, and so fine a trajectory is followed.
     seed : int
         Of noise and random effects. Each playback starts a sequence of its own, so that it does not
         depend on how long the device idled before.
@@ -87,11 +94,14 @@ class SimulatedDevice:
         self._has_voltage = np.array([not isinstance(axis, StepperAxis) for axis in axes])
         self._setpoints = SetpointGenerator(SetpointLimits.of(robot), tick_s, position)
         self._compensating = Compensating(SetpointLimits.of(robot), tick_s)
+        self._regulating = Regulating(tick_s)
+        self._smooth: SmoothRows | None = None
         self._command = np.array(position, dtype=np.float64)
         self._sent = self._command
         self._tick_s = tick_s
         self._seed = seed
-        self._settle_ticks = round(settle_s / tick_s)
+        self._sample_s = tick_s
+        self._settle_s = settle_s
         self._chance = Chance(np.random.default_rng(seed))
         self._laser = np.random.default_rng([seed, _LASER])  # apart: it changes no sensor's noise
         noise = robot.reference.noise_rms
@@ -130,6 +140,21 @@ class SimulatedDevice:
     def compensated(self) -> dict[int, Beyond]:
         """In what each axis, by its number, has gone beyond its inverse; of those that have one."""
         return self._compensating.beyond
+
+    @property
+    def regulated(self) -> dict[int, Regulation]:
+        """The loops that are closed, by the number of their axis; any thread may ask."""
+        return dict(self._regulating.regulations)
+
+    @property
+    def limited(self) -> tuple[int, ...]:
+        """The axes, by their number, whose loop a limit cuts off just now."""
+        return tuple(index for index in self.regulated if self._regulating.limited(index))
+
+    @property
+    def tick_s(self) -> float:
+        """Interval between set-points just now."""
+        return self._tick_s
 
     @property
     def true_position(self) -> FloatArray:
@@ -172,10 +197,57 @@ class SimulatedDevice:
         CompensationError
             If the inverse does not reach where the axis stands.
         """
-        wanted = self._compensating.change(index, model, float(self._sent[index]))
+        sent = float(self._sent[index])
+        loop = self._regulating.regulations.get(index)
+        if loop is None:
+            wanted = self._compensating.change(index, model, sent)
+        else:
+            wanted = self._compensating.lend(index, model, float(self._command[index]))
+            self._regulating.put(index, loop, model, wanted, sent)
+        self._rest_at(index, wanted)
+
+    def regulate(self, index: int, regulation: Regulation | None) -> None:
+        """Close a loop around an axis, by its number, or open it; the machine is at rest.
+
+        Nothing jumps: a loop begins where the sensor says that the axis is, with the output that
+        it was sent; where it ends, that output stays. An inverse in use goes over into the loop's
+        feed-forward and back; one that does not reach that output is taken off with the loop.
+
+        Raises
+        ------
+        FeedbackError, CompensationError
+            If its rate does not fit, or the axis stands beyond what its inverse saw.
+        """
+        sent, model = float(self._sent[index]), self._compensating.model(index)
+        if regulation is not None:
+            self._regulating.check(index, regulation, alone=not any(self._plant.loops))
+            offset = list(self._robot.axes.values())[index].offset
+            wanted = float(self._state.reading[-1, index]) - offset
+            wanted = self._compensating.lend(index, model, wanted)
+            self._regulating.put(index, regulation, model, wanted, sent)
+            self._retime()
+        else:
+            self._regulating.remove(index)
+            self._retime()
+            try:
+                wanted = self._compensating.change(index, model, sent)
+            except CompensationError:
+                wanted = self._compensating.change(index, None, sent)
+        self._rest_at(index, wanted)
+
+    def _rest_at(self, index: int, wanted: float) -> None:
+        """Take ``wanted`` for where an axis at rest is commanded to be."""
         self._setpoints.bound(index, *self._compensating.bounds(index))
         self._command[index] = wanted
         self._setpoints.take_over(self._command, np.zeros(len(self._command)))
+
+    def _retime(self) -> None:
+        """Go over to the ticks that the loops ask for."""
+        tick_s = self._regulating.tick_s
+        if tick_s != self._tick_s:
+            self._anchor_s, self._ticks, self._tick_s = self.time_s, 0, tick_s
+            self._setpoints.retime(tick_s)
+            self._compensating.retime(tick_s)
 
     def move_to(self, index: int, target: float, most_speed: float | None = None) -> None:
         """Send an axis, by its number, to a target, no faster than this."""
@@ -189,7 +261,10 @@ class SimulatedDevice:
         """Approach the first row, settle, then play."""
         self._profile = None
         # Loops and inverses live at the ticks.
-        on_ticks = any(self._plant.loops) or bool(self._compensating.beyond)
+        on_ticks = any(self._plant.loops) or bool(self._compensating.beyond or self._regulating)
+        self._smooth = None
+        if self._regulating:
+            self._smooth = SmoothRows(trajectory, self._plant.axes, self._sample_s)
         self._schedule = Schedule(trajectory, self._plant.axes, self._tick_s, on_ticks=on_ticks)
         self._instant, self._settled = 0, 0
         self._setpoints.retarget(self._schedule.first)
@@ -210,8 +285,7 @@ class SimulatedDevice:
         if self._phase is _Phase.PROFILE and self._profile is not None:
             self._end_profile(self._profile)
         if self._phase is _Phase.ROWS and self._schedule is not None and self._instant:
-            velocity = self._schedule.velocity(self._instant - 1, len(self._plant.axes))
-            self._end_rows(self._command, velocity)
+            self._end_rows(self._command, self._row_velocity(self._schedule))
         self._setpoints.stop()
         self._phase = _Phase.HOLD
 
@@ -228,7 +302,8 @@ class SimulatedDevice:
             chunk = self._next_chunk(until_s)
             if not len(chunk.time_s):
                 return parts
-            parts.append(self._sample(chunk))
+            if len(samples := self._sample(chunk)):
+                parts.append(samples)
 
     def _next_chunk(self, until_s: float) -> _Chunk:
         if self._phase is _Phase.ROWS and self._schedule is not None:
@@ -275,6 +350,10 @@ class SimulatedDevice:
             self._begin_rows()
         return chunk
 
+    @property
+    def _settle_ticks(self) -> int:
+        return round(self._settle_s / self._tick_s)
+
     def _on_ticks(self, command: FloatArray) -> _Chunk:
         """Count the ticks of commands (n, axes) and say when they are."""
         number = np.arange(self._ticks + 1, self._ticks + 1 + len(command), dtype=np.int64)
@@ -285,6 +364,7 @@ class SimulatedDevice:
             (since * self._tick_s).astype(np.float64),
             command,
             np.full(len(command), -1, dtype=np.int64),
+            number % self._regulating.ticks == 0,
         )
 
     def _begin_rows(self) -> None:
@@ -300,15 +380,29 @@ class SimulatedDevice:
         count = int(np.searchsorted(instants.time_s, due_s, side="right"))
         time_s, row = instants.time_s[:count], instants.row[:count]
         command = schedule.commands(row, self._setpoints.position)
+        if self._smooth is not None:
+            command = self._smooth.commands(time_s, command)
         elapsed_s = schedule.elapsed(self._instant, time_s)
         if self._instant == 0:
             elapsed_s = elapsed_s + self._tick_s
+        on_row = instants.on_row[:count]
+        told = on_row | (
+            np.arange(self._instant, self._instant + count) % self._regulating.ticks == 0
+        )
         if count:
             self._instant += count
             if self._instant == schedule.count:
                 self._end_rows(command[-1], np.zeros(len(self._plant.axes)))
-        own = np.where(instants.on_row[:count], row, -1)
-        return _Chunk(self._begin_s + time_s, elapsed_s, command, own)
+        own = np.where(on_row, row, -1)
+        return _Chunk(self._begin_s + time_s, elapsed_s, command, own, told)
+
+    def _row_velocity(self, schedule: Schedule) -> FloatArray:
+        """Return the speed (axes,) of a trajectory at the latest instant."""
+        axes = len(self._plant.axes)
+        if self._smooth is None:
+            return schedule.velocity(self._instant - 1, axes)
+        now = schedule.instants(self._instant - 1, self._instant)
+        return self._smooth.velocity(float(now.time_s[0]), axes)
 
     def _end_rows(self, command: FloatArray, velocity: FloatArray) -> None:
         """Go over to holding, from the latest set-points (axes,) and their speed (axes,)."""
@@ -317,11 +411,20 @@ class SimulatedDevice:
         self._phase = _Phase.HOLD
 
     def _sample(self, chunk: _Chunk) -> Samples:
-        sent = self._compensating.sent(chunk.command)
-        motion, state = self._plant.advance(self._state, chunk.elapsed_s, sent, chance=self._chance)
+        motion, state, sent = self._regulating.advance(
+            self._plant,
+            self._state,
+            chunk.elapsed_s,
+            chunk.command,
+            self._compensating.sent(chunk.command),
+            self._chance,
+        )
+        self._compensating.note(self._regulating.beyond)
         self._state = replace(state, time_s=state.time_s - state.time_s[-1])
         self._command, self._sent = chunk.command[-1].copy(), sent[-1].copy()
         inputs = np.where(self._has_voltage, motion.inputs, np.nan)
         noise = self._laser_rms * self._laser.standard_normal(motion.position.shape)
         seen = motion.position + noise
-        return Samples(chunk.time_s, chunk.command, motion.reading, inputs, chunk.row, seen)
+        told = slice(None) if chunk.told.all() else chunk.told
+        whole = (chunk.time_s, chunk.command, motion.reading, inputs, chunk.row, seen)
+        return Samples(*(one[told] for one in whole))

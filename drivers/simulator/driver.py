@@ -15,6 +15,7 @@ from rotemina.drivers.abilities import (
     EffectCarrier,
     Homer,
     ProfileRunner,
+    Regulator,
     TrajectoryPlayer,
     VelocityMover,
     VoltageOutput,
@@ -37,6 +38,7 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.inverse import Beyond
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.errors import InputError
+from rotemina.sim.feedback.regulation import Regulation
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import AxisEffect, ForceAxis, PiezoAxis, Robot, StepperAxis
@@ -60,6 +62,7 @@ class Simulator(
     TruePositions,
     EffectCarrier,
     Compensator,
+    Regulator,
 ):
     """A machine that behaves as its robot file says.
 
@@ -153,17 +156,44 @@ class Simulator(
         found = {} if device is None else device.compensated
         return {self.axes[index]: said for index, said in found.items()}
 
+    @property
+    def regulated(self) -> Mapping[str, Regulation]:
+        """The loops that are closed, by axis."""
+        device = self._device
+        found = {} if device is None else device.regulated
+        return {self.axes[index]: one for index, one in found.items()}
+
+    @property
+    def regulation_limited(self) -> tuple[str, ...]:
+        """The axes whose loop asks for more than a limit allows just now."""
+        device = self._device
+        return () if device is None else tuple(self.axes[index] for index in device.limited)
+
     def _compensate(self, axis: str, model: InverseModel | None) -> None:
+        index = self._open_loop_piezo(axis, "an inverse")
+        self._catch_up()
+        try:
+            self._running.compensate(index, model)
+        except InputError as error:
+            raise LimitError(str(error)) from error
+
+    def _regulate(self, axis: str, regulation: Regulation | None) -> None:
+        index = self._open_loop_piezo(axis, "a loop")
+        self._catch_up()
+        self._profile = None  # it was made for the ticks before
+        try:
+            self._running.regulate(index, regulation)
+        except InputError as error:
+            raise LimitError(str(error)) from error
+
+    def _open_loop_piezo(self, axis: str, what: str) -> int:
+        """Return the number of an axis that may have an inverse, or a loop."""
         described = self.robot.axes[axis]
         if not isinstance(described, PiezoAxis) or described.controller is not None:
             raise LimitError(
-                f"{self.name}: axis {axis} is no piezo in open loop; an inverse is for one that is"
+                f"{self.name}: axis {axis} is no piezo in open loop; {what} is for one that is"
             )
-        self._catch_up()
-        try:
-            self._running.compensate(self.axes.index(axis), model)
-        except InputError as error:
-            raise LimitError(str(error)) from error
+        return self.axes.index(axis)
 
     def _number(self, name: str, least: float, greatest: float) -> float:
         value = self.settings[name]
@@ -251,6 +281,11 @@ class Simulator(
                 f"{self.name}: axis {axis} is compensated, which sets its voltage; switch the "
                 "compensation off first"
             )
+        if axis in self.regulated:
+            raise LimitError(
+                f"{self.name}: axis {axis} is under a loop, which sets its voltage; take it off "
+                "first"
+            )
         try:
             check_target(self.robot, axis, voltage * model.gain)
         except InputError as error:
@@ -273,7 +308,7 @@ class Simulator(
 
     def _upload(self, profile: Profile) -> None:
         index = self.axes.index(profile.axis)
-        self._profile = ProfileMotion(profile, index, self._commanded(profile.axis), self._tick_s)
+        self._profile = ProfileMotion(profile, index, self._commanded(profile.axis), self._running.tick_s)
 
     def _trigger(self) -> None:
         self._catch_up()

@@ -107,6 +107,10 @@ class SetpointGenerator:
             end = self._limits.high if velocity > 0.0 else self._limits.low
             self.retarget({index: float(end[index])}, abs(velocity))
 
+    def retime(self, tick_s: float) -> None:
+        """Go on at other ticks; all axes rest."""
+        self._tick_s = tick_s
+
     def bound(self, index: int, low: float, high: float) -> None:
         """Keep an axis, by its number, between these from now on; it lies there."""
         self._limits.low[index], self._limits.high[index] = low, high

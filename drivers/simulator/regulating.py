@@ -1,0 +1,137 @@
+"""Loops that the simulated machine closes around its axes, at ticks as fine as they ask for."""
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+import numpy as np
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.compensate.inverse import Beyond, Inverse
+from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.feedback import regulated_plant
+from rotemina.sim.feedback.controller import Controller
+from rotemina.sim.feedback.errors import FeedbackError
+from rotemina.sim.feedback.regulation import Regulation
+from rotemina.sim.plant.chance import Chance
+from rotemina.sim.plant.plant import Plant
+from rotemina.sim.plant.state import Motion, PlantState
+
+_WHOLE = 1e-6  # how near to a whole number a rate must be
+
+
+class Regulating:
+    """The loops that are closed, by the number of their axis.
+
+    Parameters
+    ----------
+    sample_s : float
+        Interval between the machine's samples.
+    """
+
+    def __init__(self, sample_s: float) -> None:
+        self._sample_s = sample_s
+        self._controllers: dict[int, Controller] = {}
+        self._inverses: dict[int, Inverse] = {}
+        #: Replaced as a whole, so that any thread may look.
+        self.regulations: Mapping[int, Regulation] = MappingProxyType({})
+
+    def __bool__(self) -> bool:
+        """Whether any axis is under one."""
+        return bool(self._controllers)
+
+    @property
+    def ticks(self) -> int:
+        """How many ticks of the loops there are to a sample."""
+        rates = [one.rate_hz for one in self.regulations.values()]
+        return round(rates[0] * self._sample_s) if rates else 1
+
+    @property
+    def tick_s(self) -> float:
+        """Interval between ticks: that of the loops, or the samples' where there are none."""
+        intervals = [one.interval_s for one in self.regulations.values()]
+        return intervals[0] if intervals else self._sample_s
+
+    @property
+    def beyond(self) -> dict[int, Beyond]:
+        """In what the inverses of the feed-forwards went beyond what they saw, just now."""
+        return {index: one.beyond for index, one in self._inverses.items()}
+
+    def check(self, index: int, regulation: Regulation, *, alone: bool) -> None:
+        """Refuse a loop whose rate does not fit; ``alone``: no others live at the ticks.
+
+        Raises
+        ------
+        FeedbackError
+            With both rates.
+        """
+        ticks = regulation.rate_hz * self._sample_s
+        where = f"axis {regulation.axis}: a loop at {regulation.rate_hz:g} Hz"
+        if ticks < 1.0 - _WHOLE or abs(ticks - round(ticks)) > _WHOLE * ticks:
+            raise FeedbackError(
+                f"{where}: the simulated machine samples at {1.0 / self._sample_s:g} Hz, and a "
+                "loop's rate must be a whole multiple of that; tune it for such a rate"
+            )
+        others = [one for key, one in self.regulations.items() if key != index]
+        if others and others[0].rate_hz != regulation.rate_hz:
+            raise FeedbackError(
+                f"{where}: that of axis {others[0].axis} runs at {others[0].rate_hz:g} Hz, and "
+                "all must run at one rate; take the other one off, or tune for its rate"
+            )
+        if not alone and round(ticks) != 1:
+            raise FeedbackError(
+                f"{where}: the robot's own controllers run at {1.0 / self._sample_s:g} Hz; tune "
+                "it for that rate, or set the simulator's sample_rate_hz to the loop's"
+            )
+
+    def put(
+        self,
+        index: int,
+        regulation: Regulation,
+        model: InverseModel | None,
+        reference: float,
+        output: float,
+    ) -> None:
+        """Close a loop that rests at a reference with an output that holds it there."""
+        inverse = None
+        if model is not None:
+            inverse = Inverse(model, regulation.interval_s, preview=True)
+        controller = regulation.controller(inverse)
+        controller.start(reference, output)
+        self._controllers[index] = controller
+        self._inverses.pop(index, None)
+        if inverse is not None:
+            self._inverses[index] = inverse
+        self.regulations = MappingProxyType({**self.regulations, index: regulation})
+
+    def remove(self, index: int) -> None:
+        """Open a loop."""
+        self._controllers.pop(index, None)
+        self._inverses.pop(index, None)
+        left = {key: one for key, one in self.regulations.items() if key != index}
+        self.regulations = MappingProxyType(left)
+
+    def limited(self, index: int) -> bool:
+        """Whether a limit cuts the output of an axis' loop off just now."""
+        return index in self._controllers and self._controllers[index].limited
+
+    def advance(
+        self,
+        plant: Plant,
+        state: PlantState,
+        elapsed_s: FloatArray,
+        wanted: FloatArray,
+        sent: FloatArray,
+        chance: Chance,
+    ) -> tuple[Motion, PlantState, FloatArray]:
+        """Sample the plant at n ticks; return motion, state and what actuators (n, axes) are told.
+
+        Raises
+        ------
+        PlantError
+            If the response leaves what a number can hold.
+        """
+        if not self._controllers:
+            return *plant.advance(state, elapsed_s, sent, chance=chance), sent
+        return regulated_plant.advance(
+            plant, state, self.tick_s, sent, np.asarray(wanted), self._controllers, chance
+        )
