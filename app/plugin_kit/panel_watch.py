@@ -12,7 +12,7 @@ A panel that never returns holds up the window, and nothing in its own process c
 import logging
 import sys
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, MutableMapping
 from contextlib import contextmanager
 from types import FrameType, TracebackType
 
@@ -37,20 +37,23 @@ class PanelWatch:
     Parameters
     ----------
     window : QMainWindow
-    panels : dict of str to Panel
+    panels : mapping of str to Panel
         The window's own: one that is left out is taken from it.
     docks : dict of str to QDockWidget
         Likewise.
     tell : callable
         Tells the operator something: a level and a text.
+    kinds : mapping of str to type, optional
+        The panels' classes, where some panels are not made yet.
     """
 
     def __init__(
         self,
         window: QMainWindow,
-        panels: dict[str, Panel],
+        panels: MutableMapping[str, Panel],
         docks: dict[str, QDockWidget],
         tell: Callable[[Level, str], object],
+        kinds: Mapping[str, type[Panel]] | None = None,
     ) -> None:
         self._window = window
         self._panels = panels
@@ -58,9 +61,11 @@ class PanelWatch:
         self._tell = tell
         # By module and the packages above it: whose code it is, also after a panel has gone.
         self._modules: dict[str, str] = {}
-        for name, panel in panels.items():
-            if not type(panel).__module__.startswith(_OWN):
-                for module in _upwards(type(panel).__module__):
+        if kinds is None:
+            kinds = {name: type(panel) for name, panel in panels.items()}
+        for name, kind in kinds.items():
+            if not kind.__module__.startswith(_OWN):
+                for module in _upwards(kind.__module__):
                     self._modules.setdefault(module, name)
         self._faults: Counter[str] = Counter()
         self._before: Hook = sys.excepthook

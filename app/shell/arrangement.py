@@ -37,7 +37,8 @@ class Arrangement(QObject):
     def arrange(self, layout: layouts.Layout) -> None:
         """Put the panels where a layout wants them; the others are closed."""
         window = self._window
-        docks = {name: (window.panels[name].area, dock) for name, dock in window.docks.items()}
+        kinds = window.panels.kinds
+        docks = {name: (kinds[name].area, dock) for name, dock in window.docks.items()}
         layouts.arrange(window, docks, layout, self.text_scale)
         for name in layout.places.get(Area.CENTRE, ()):
             window.bring_up(name)

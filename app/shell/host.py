@@ -1,7 +1,7 @@
-"""Panels found and made; one that fails is named and left out."""
+"""Panels found, and each made when it is first wanted; one that fails is named and left out."""
 
 import logging
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping, MutableMapping
 
 from rotemina.app.panel import Panel
 from rotemina.app.shell.workbench import Workbench
@@ -12,21 +12,100 @@ logger = logging.getLogger(__name__)
 GROUP = "rotemina.panels"
 
 
-def make_panels(workbench: Workbench) -> tuple[dict[str, Panel], Mapping[str, str]]:
-    """Make every panel of the entry-point group.
+class Panels(MutableMapping[str, Panel]):
+    """All panels by name, in the order in which they want to stand.
+
+    To look one up makes it, if that was not done before; its name alone, its class or the question
+    whether there is one of that name does not.
+
+    Parameters
+    ----------
+    workbench : Workbench
+    kinds : dict of str to type of Panel
+
+    Attributes
+    ----------
+    kinds : dict of str to type of Panel
+        Of all, whether they are made or not.
+    made : dict of str to Panel
+        Those that are made.
+    placed : callable
+        Is told name and panel when one is made.
+    failed : callable
+        Is told name and reason when one cannot be made; it is in no mapping any more then.
+    """
+
+    def __init__(self, workbench: Workbench, kinds: Mapping[str, type[Panel]]) -> None:
+        self._workbench = workbench
+        self.kinds = dict(kinds)
+        self.made: dict[str, Panel] = {}
+        self._under_way: set[str] = set()
+        self.placed: Callable[[str, Panel], object] = lambda name, panel: None
+        self.failed: Callable[[str, str], object] = lambda name, reason: None
+
+    def make(self, name: str) -> Panel | None:
+        """Return a panel, made if need be; None if there is none of that name, or it fails."""
+        if name in self.waiting:
+            self._under_way.add(name)
+            try:
+                panel = self.made[name] = self.kinds[name](self._workbench)
+            except (Exception, SystemExit) as error:  # whatever it raises, the window goes on
+                logger.exception("panel %s cannot be made", name)
+                del self.kinds[name]
+                self.failed(name, f"{type(error).__name__}: {error}")
+            else:
+                self.placed(name, panel)
+            finally:
+                self._under_way.discard(name)
+        return self.made.get(name)
+
+    def make_all(self) -> None:
+        """Make those that are not made yet."""
+        for name in tuple(self.kinds):
+            self.make(name)
+
+    @property
+    def waiting(self) -> tuple[str, ...]:
+        """Names of those that are not made yet."""
+        begun = self.made.keys() | self._under_way
+        return tuple(name for name in self.kinds if name not in begun)
+
+    @property
+    def making(self) -> bool:
+        """Whether one is just being made."""
+        return bool(self._under_way)
+
+    def __getitem__(self, name: str) -> Panel:
+        panel = self.make(name)
+        if panel is None:
+            raise KeyError(name)
+        return panel
+
+    def __setitem__(self, name: str, panel: Panel) -> None:
+        self.kinds[name], self.made[name] = type(panel), panel
+
+    def __delitem__(self, name: str) -> None:
+        del self.kinds[name]
+        self.made.pop(name, None)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.kinds
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(tuple(self.kinds))
+
+    def __len__(self) -> int:
+        return len(self.kinds)
+
+
+def find_panels(workbench: Workbench) -> tuple[Panels, Mapping[str, str]]:
+    """Find every panel of the entry-point group.
 
     Returns
     -------
-    panels : name -> panel, in the order in which they want to stand
+    panels : Panels
     broken : name -> why the panel was left out
     """
     found = discover(GROUP, Panel)
-    panels: dict[str, Panel] = {}
-    broken = dict(found.broken)
-    for name, kind in sorted(found.found.items(), key=lambda item: (item[1].order, item[0])):
-        try:
-            panels[name] = kind(workbench)
-        except (Exception, SystemExit) as error:  # whatever it raises, the window opens without it
-            logger.exception("panel %s cannot be made", name)
-            broken[name] = f"{type(error).__name__}: {error}"
-    return panels, broken
+    order = sorted(found.found.items(), key=lambda item: (item[1].order, item[0]))
+    return Panels(workbench, dict(order)), found.broken

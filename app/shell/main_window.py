@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QAction, QCloseEvent, QKeySequence
+from PySide6.QtGui import QAction, QCloseEvent, QKeySequence, QShowEvent
 from PySide6.QtWidgets import (
     QApplication,
     QDialog,
@@ -27,7 +27,8 @@ from rotemina.app.shell.column_mapping import ask_columns
 from rotemina.app.shell.entries import Entry, command_entries, panel_entries
 from rotemina.app.shell.help_button import DockHelp, TabHelp, page_at
 from rotemina.app.shell.help_page import HelpPage
-from rotemina.app.shell.host import make_panels
+from rotemina.app.shell.host import find_panels
+from rotemina.app.shell.late_panels import LatePanels
 from rotemina.app.shell.log_page import LogPage
 from rotemina.app.shell.message_log import MessageLog
 from rotemina.app.shell.motion_bar import MotionBar, StopWatch
@@ -57,7 +58,9 @@ class MainWindow(QMainWindow):
         self.setWindowTitle(f"RoTeMiNa – {workbench.robot.name}")
         self.notices = NoticeBar()
         self.replay_bar = ReplayBar(workbench)
-        self.panels, broken = make_panels(workbench)
+        self.panels, found_broken = find_panels(workbench)
+        broken = dict(found_broken)
+        self.panels.failed = broken.__setitem__  # until there is a place to tell it
         self.docks: dict[str, QDockWidget] = {}
         self._menus: dict[str, QMenu] = {}
         self._leaving = False
@@ -72,6 +75,8 @@ class MainWindow(QMainWindow):
         self.stop_button, self.emergency_button = self._bar.stop, self._bar.emergency
         self.addToolBar(self._bar)
         self._make_docks()
+        self.panels.placed = self._place
+        self.late_panels = LatePanels(self.panels, self.docks, workbench)
         self.arrangement = Arrangement(self)
         self._make_menus()
         self._make_status_bar()
@@ -89,8 +94,9 @@ class MainWindow(QMainWindow):
         workbench.plan_changed.connect(lambda _: self.bring_up("trajectory"))
         workbench.run_changed.connect(lambda _: self.bring_up("comparison"))
         workbench.ports_offered.connect(lambda ports: ports and self.bring_up("connection"))
+        self.panels.failed = self._leave_out
         for name, reason in broken.items():
-            workbench.notify(Level.ERROR, f"Panel {name!r} is left out: {reason}")
+            self._leave_out(name, reason)
 
     # --- parts ------------------------------------------------------------------------------------
 
@@ -107,19 +113,20 @@ class MainWindow(QMainWindow):
             self.setTabPosition(layouts.DOCK_AREAS[area], QTabWidget.TabPosition.North)
         self.setCorner(Qt.Corner.BottomLeftCorner, Qt.DockWidgetArea.LeftDockWidgetArea)
         first: dict[Area, QDockWidget] = {}
-        for name, panel in self.panels.items():
-            if panel.area is Area.CENTRE:
+        for name, kind in self.panels.kinds.items():
+            if kind.area is Area.CENTRE:
                 continue
-            dock = self.docks[name] = self._dock(name, panel)
-            if panel.area in TABBED and first.setdefault(panel.area, dock) is not dock:
-                self.tabifyDockWidget(first[panel.area], dock)
+            dock = self.docks[name] = self._dock(name, kind)
+            if kind.area in TABBED and first.setdefault(kind.area, dock) is not dock:
+                self.tabifyDockWidget(first[kind.area], dock)
         for dock in first.values():
             dock.raise_()
         if Area.BOTTOM in first:
             self.resizeDocks([first[Area.BOTTOM]], [260], Qt.Orientation.Vertical)
 
     def _central_panels(self) -> QWidget:
-        central = [panel for panel in self.panels.values() if panel.area is Area.CENTRE]
+        names = [name for name, kind in self.panels.kinds.items() if kind.area is Area.CENTRE]
+        central = [panel for panel in map(self.panels.make, names) if panel is not None]
         self.central_tabs: QTabWidget | None = None
         if len(central) == 1:
             return central[0]
@@ -128,16 +135,28 @@ class MainWindow(QMainWindow):
         TabHelp(tabs, pages, self.help_page.open_page)
         return tabs
 
-    def _dock(self, name: str, panel: Panel) -> QDockWidget:
-        dock = QDockWidget(panel.title)
+    def _dock(self, name: str, kind: type[Panel]) -> QDockWidget:
+        """Return a dock for a panel, which is not made yet."""
+        dock = QDockWidget(kind.title)
         dock.setObjectName(f"dock-{name}")
+        self.addDockWidget(layouts.DOCK_AREAS[kind.area], dock)
+        if kind.help_page:
+            DockHelp(dock, lambda: self.help_page.open_page(kind.help_page))
+        return dock
+
+    def _place(self, name: str, panel: Panel) -> None:
+        """Put a panel that has just been made into its dock."""
         panel.setObjectName("panel")
         panel.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
-        dock.setWidget(panel)
-        self.addDockWidget(layouts.DOCK_AREAS[panel.area], dock)
-        if panel.help_page:
-            DockHelp(dock, lambda: self.help_page.open_page(panel.help_page))
-        return dock
+        self.docks[name].setWidget(panel)
+
+    def _leave_out(self, name: str, reason: str) -> None:
+        """Tell that there is a panel less, and take its dock away."""
+        dock = self.docks.pop(name, None)
+        if dock is not None:
+            self.removeDockWidget(dock)
+            dock.deleteLater()
+        self.workbench.notify(Level.ERROR, f"Panel {name!r} is left out: {reason}")
 
     def _make_menus(self) -> None:
         for command in self.commands():
@@ -237,11 +256,14 @@ class MainWindow(QMainWindow):
 
     def bring_up(self, name: str) -> None:
         """Show a panel, in front of those beside it, whether its dock was closed or not."""
+        panel = self.panels.make(name)
+        if panel is None:
+            return
         if name in self.docks:
             self.docks[name].show()
             self.docks[name].raise_()
-        elif name in self.panels and self.central_tabs is not None:
-            self.central_tabs.setCurrentWidget(self.panels[name])
+        elif self.central_tabs is not None:
+            self.central_tabs.setCurrentWidget(panel)
 
     # --- help -------------------------------------------------------------------------------------
 
@@ -257,7 +279,8 @@ class MainWindow(QMainWindow):
         use = self.arrangement.use_kept
         for name in self.arrangement.kept.names():
             yield Entry("Layout", name, "", None, lambda name=name: use(name))
-        yield from panel_entries(self.panels, self.docks, self.bring_up)
+        self.panels.make_all()
+        yield from panel_entries(self.panels.made, self.docks, self.bring_up)
 
     def help_here(self) -> None:
         """Show the page of the panel that has the focus, else that of the window."""
@@ -288,6 +311,11 @@ class MainWindow(QMainWindow):
     def _refresh(self, state: SessionState) -> None:
         self._bar.refresh(state)
         self.progress_line.show_progress(self.workbench.progress)
+
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
+        """Begin to make what was not needed until now."""
+        super().showEvent(event)
+        self.late_panels.start()
 
     def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 (Qt's name)
         """Stop first; then ask where a record would be lost, and wait for what is being written.

@@ -52,7 +52,8 @@ def run(session: MotionSession, settings: Settings) -> int:
     """Show the window and run it; return the exit status."""
     application = make_application()
     window = make_window(session, settings)
-    watch = PanelWatch(window, window.panels, window.docks, window.workbench.notify)
+    panels = window.panels
+    watch = PanelWatch(window, panels, window.docks, window.workbench.notify, panels.kinds)
     watch.install()
     # Python's collector runs on whatever thread happens to allocate, and what it frees on the
     # session's thread may belong to Qt, which allows that on this one alone.
@@ -65,6 +66,7 @@ def run(session: MotionSession, settings: Settings) -> int:
     # longer than the boards' set-points last. What is here stays as long as the program.
     gc.collect()
     gc.freeze()
+    window.late_panels.done.connect(gc.freeze)  # no look before: the machine is connected by then
     window.workbench.start()
     # Only asked for here: a handler may interrupt anything, a lock that closing needs as well.
     signal.signal(signal.SIGINT, lambda *_: QTimer.singleShot(0, window.close))

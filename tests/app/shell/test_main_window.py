@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QFileDialog, QLabel, QMessageBox
 
 from rotemina.app.shell import main_window as module
 from rotemina.app.shell.host import GROUP
+from rotemina.app.shell.late_panels import LatePanels
 from rotemina.drivers import registry
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.errors import InputError
@@ -45,6 +46,30 @@ def test_all_built_in_panels_are_there_and_nothing_is_broken(window):
     assert notices(window) == []
     behind = {"microscope"}  # the second tab of the centre
     assert {name for name, one in window.panels.items() if not one.isVisibleTo(window)} == behind
+
+
+def test_panels_out_of_sight_are_made_by_and_by(qtbot, window):
+    with qtbot.waitSignal(window.workbench.busy_changed, timeout=LONG_MS):
+        window.workbench.work("any", "Reading …", lambda: None, lambda _: None)
+    assert window.panels.waiting == ()  # none is made so late that it misses what was read
+    for name, dock in window.docks.items():
+        assert dock.widget() is window.panels[name]
+
+
+@pytest.mark.every_panel
+def test_a_panel_is_made_when_its_dock_comes_into_sight(qtbot, make_robot_window, monkeypatch):
+    monkeypatch.setattr(LatePanels, "start", lambda _: None)
+    monkeypatch.setattr(LatePanels, "_before_work", lambda *_: None)
+    window = make_robot_window()
+    for name in ("gap", "plate", "plate"):
+        assert (name in window.panels.made) == (window.docks[name].widget() is not None)
+        window.docks[name].raise_()
+        qtbot.waitUntil(lambda name=name: name in window.panels.made, timeout=LONG_MS)
+    assert window.panels.waiting
+    assert "faults" not in window.panels.made
+    window.bring_up("faults")
+    assert window.docks["faults"].widget() is window.panels.made["faults"]
+    window.bring_up("nothing of that name")
 
 
 def test_stop_is_always_in_sight_and_stops_on_escape(qtbot, window):
@@ -303,7 +328,9 @@ def test_a_bad_panel_is_named_and_left_out(make_robot_window, monkeypatch):
     monkeypatch.setattr(EntryPoint, "load", _load_from_here(EntryPoint.load, here))
     monkeypatch.setattr(registry, "entry_points", lambda group: [*good, *bad])
     window = make_robot_window()
+    window.panels.make_all()
     assert list(window.panels) == BUILT_IN
+    assert "raising" not in window.docks
     said = " ".join(notices(window))
     for name in ("gone", "wrong", "raising"):
         assert f"'{name}' is left out" in said

@@ -1,0 +1,67 @@
+"""When panels are made: what is seen at once, the rest by and by, while nobody waits for it."""
+
+from collections.abc import Mapping
+
+from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtWidgets import QDockWidget
+
+from rotemina.app.shell.host import Panels
+from rotemina.app.shell.workbench import Workbench
+
+_BETWEEN_MS = 30  # for what the operator does meanwhile
+
+
+class LatePanels(QObject):
+    """Makes the panels of docks.
+
+    One whose dock comes into sight is made at once. The others follow one by one as soon as the
+    window stands, so that a start does not wait for them. They are made before anything is read or
+    compared in the background: none misses a trajectory or a record.
+
+    Signals
+    -------
+    done() : all are made.
+    """
+
+    done = Signal()
+
+    def __init__(
+        self, panels: Panels, docks: Mapping[str, QDockWidget], workbench: Workbench
+    ) -> None:
+        super().__init__(workbench)
+        self._panels, self._docks = panels, docks
+        self._look = QTimer(self, singleShot=True, interval=0)
+        self._look.timeout.connect(self.make_seen)
+        self._next = QTimer(self, interval=_BETWEEN_MS)
+        self._next.timeout.connect(self._make_next)
+        for dock in docks.values():
+            dock.visibilityChanged.connect(lambda seen: seen and self._look.start())
+        workbench.busy_changed.connect(self._before_work)
+        workbench.closing.connect(self._end)
+
+    def start(self) -> None:
+        """Begin to make those that are not seen."""
+        self._next.start()
+
+    def make_seen(self) -> None:
+        """Make those whose docks are in sight."""
+        for name in self._panels.waiting:
+            dock = self._docks.get(name)
+            if dock is not None and dock.isVisible() and not dock.visibleRegion().isEmpty():
+                self._panels.make(name)
+
+    def _make_next(self) -> None:
+        waiting = self._panels.waiting
+        if waiting:
+            self._panels.make(waiting[0])
+        else:
+            self._next.stop()
+            self.done.emit()
+
+    def _before_work(self, doing: str) -> None:
+        if doing and not self._panels.making:  # some read a file of their own when they are made
+            self._panels.make_all()
+
+    def _end(self) -> None:
+        self._look.stop()
+        self._next.stop()
