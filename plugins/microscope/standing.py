@@ -57,7 +57,9 @@ def standing(view: FeedView) -> Standing:
     if state is FeedState.LIVE and view.frame is None:
         return Standing("busy", "opened", "Waiting for the first picture")
     if state is FeedState.LIVE:
-        return Standing(tone, f"live · {view.rate_hz:.0f} Hz · {age(view.age_s)}")
+        # One picture has no rate yet.
+        parts = ["live", *([f"{view.rate_hz:.0f} Hz"] if view.rate_hz > 0.0 else [])]
+        return Standing(tone, " · ".join((*parts, age(view.age_s))))
     badge = f"{state.value} · {age(view.age_s)}" if view.frame is not None else state.value
     if state is FeedState.WAITING:
         title = "" if view.frame is not None else TITLES[state]

@@ -69,6 +69,7 @@ def test_every_state_of_the_camera_is_said_and_an_old_picture_is_veiled(
 
 def test_the_age_of_a_live_picture_is_told(sight):
     assert standing(sight.feed).badge == "live · 30 Hz · 12 ms old"
+    assert standing(feed(sight, rate_hz=0.0).feed).badge == "live · 12 ms old"  # the first one
     old = feed(sight, state=FeedState.STALLED, age_s=3.21)
     assert standing(old.feed).badge == "stalled · 3.2 s old"
 
