@@ -3,11 +3,13 @@
 import importlib
 import sys
 from collections.abc import Mapping, Sequence
-from typing import Any, Protocol, cast
+from typing import TYPE_CHECKING, Any, Protocol, cast
 
 from rotemina.drivers.errors import DriverError
 from rotemina.drivers.inputs.device import InputLostError
-from rotemina.drivers.inputs.hid.descriptor import ReportDescriptor
+
+if TYPE_CHECKING:
+    from rotemina.drivers.inputs.hid.descriptor import ReportDescriptor
 
 _DESCRIPTOR_BYTES = 4096
 _PERMISSION = (
@@ -79,7 +81,7 @@ def open_handle(library: Hidapi, path: bytes, who: str) -> Handle:
     return handle
 
 
-def read_descriptor(handle: Handle, who: str) -> ReportDescriptor:
+def read_descriptor(handle: Handle, who: str) -> "ReportDescriptor":
     """Ask an open device what its reports mean.
 
     Raises
@@ -87,6 +89,8 @@ def read_descriptor(handle: Handle, who: str) -> ReportDescriptor:
     DriverError
         If it does not tell, or tells nonsense.
     """
+    from rotemina.drivers.inputs.hid.descriptor import ReportDescriptor  # it takes its time
+
     try:
         raw = bytes(handle.get_report_descriptor(_DESCRIPTOR_BYTES))
     except (OSError, ValueError) as error:

@@ -5,13 +5,11 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import DriverError
 from rotemina.drivers.inputs.device import InputIdentity, InputLostError, InputSource
-from rotemina.drivers.inputs.hid.decoder import Decoder
-from rotemina.drivers.inputs.hid.device import HidDevice
 from rotemina.drivers.inputs.hid.hidapi import (
     Hidapi,
     load_hidapi,
@@ -19,7 +17,9 @@ from rotemina.drivers.inputs.hid.hidapi import (
     read_descriptor,
 )
 from rotemina.drivers.inputs.hid.items import DescriptorError
-from rotemina.drivers.inputs.hid.usages import APPLICATIONS
+
+if TYPE_CHECKING:
+    from rotemina.drivers.inputs.hid.device import HidDevice
 
 _LOG = logging.getLogger(__name__)
 _KERNEL = Path("/sys/class/hidraw")
@@ -125,8 +125,11 @@ class HidSource(InputSource):
         self._plugged = self._known(entries)
         return tuple(InputIdentity(key, one.name, "hid") for key, one in self._plugged.items())
 
-    def open(self, identity: InputIdentity) -> HidDevice:
+    def open(self, identity: InputIdentity) -> "HidDevice":
         """Open a joystick; see :class:`InputSource`."""
+        from rotemina.drivers.inputs.hid.decoder import Decoder
+        from rotemina.drivers.inputs.hid.device import HidDevice
+
         plugged = self._plugged.get(identity.key)
         if plugged is None:
             raise InputLostError(f"{identity.name} ({identity.key}): it is not plugged in")
@@ -143,6 +146,11 @@ class HidSource(InputSource):
 
     def _known(self, entries: Sequence[Mapping[str, Any]]) -> dict[str, _Plugged]:
         """Return the joysticks among what is plugged in, by key."""
+        if not entries:
+            return {}
+        # Only here, and in open(): hid-parser takes a fifth of a second, and most have no joystick.
+        from rotemina.drivers.inputs.hid.usages import APPLICATIONS
+
         found = {}
         for entry in entries:
             usage = int(entry.get("usage_page") or 0) << 16 | int(entry.get("usage") or 0)
