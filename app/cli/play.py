@@ -4,6 +4,7 @@ import argparse
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rotemina.app.cli.compensate_apply import named_inverse
 from rotemina.app.cli.options import add_columns, add_robot, robot_of
@@ -11,7 +12,11 @@ from rotemina.app.motion.player import play_offline
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.writing import write_record
+from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.dry_run import DryRun, dry_run
+
+if TYPE_CHECKING:
+    from rotemina.app.motion.regulation import NamedRegulation
 
 
 def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -38,6 +43,13 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         metavar="INVERSE",
         help="send every set-point through the inverse that this file recommends",
     )
+    parser.add_argument(
+        "--tuning",
+        type=Path,
+        metavar="FILE",
+        help="close the loop that this file of rotemina tune has chosen, fed forward through "
+        "--compensate if that is given",
+    )
     parser.add_argument("--seed", type=int, default=0, help="of the sensors' noise (default: 0)")
     parser.add_argument("--dry-run", action="store_true", help="only check it against the limits")
     parser.set_defaults(run=run)
@@ -54,13 +66,27 @@ def run(options: argparse.Namespace) -> int:
         print(f"{options.trajectory}: {checked.duration_s:.6g} s, {checked.rows} rows, in limits")
         return 0
     inverse = None if options.compensate is None else named_inverse(options.compensate, robot)
+    loop = None if options.tuning is None else _loop(options.tuning, robot)
     output = options.output or _free_name(options.trajectory)
     record = play_offline(
-        robot, checked.require(), seed=options.seed, progress=_progress(), inverse=inverse
+        robot,
+        checked.require(),
+        seed=options.seed,
+        progress=_progress(),
+        inverse=inverse,
+        loop=loop,
     )
     write_record(record, output)
     print(f"{output}: {len(record.time_s)} rows, {record.duration_s:.6g} s")
     return 0
+
+
+def _loop(path: Path, robot: Robot) -> "NamedRegulation":
+    """Return the loop that a file has chosen, if it is stable on this robot."""
+    from rotemina.app.motion.regulation import regulation_of
+    from rotemina.sim.tuning.result import load_tuning
+
+    return regulation_of(robot, load_tuning(path), path.name)
 
 
 def _more(checked: DryRun) -> str:

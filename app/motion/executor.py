@@ -16,6 +16,7 @@ from rotemina.app.motion.mailbox import (
     Mailbox,
     Move,
     Play,
+    Regulate,
     RunProfile,
     SetEffects,
     SetVoltage,
@@ -27,6 +28,7 @@ from rotemina.drivers.abilities import (
     EffectCarrier,
     Homer,
     ProfileRunner,
+    Regulator,
     TrajectoryPlayer,
     VelocityMover,
     VoltageOutput,
@@ -133,7 +135,7 @@ class Executor:
             assert isinstance(driver, Homer), "the session refuses on any other"
             driver.home(command.axes)
             self.forget()
-        elif isinstance(command, SetEffects | Compensate):
+        elif isinstance(command, SetEffects | Compensate | Regulate):
             self._change(command)
         elif isinstance(command, ClearFault):
             driver.clear_fault()
@@ -141,15 +143,19 @@ class Executor:
         elif isinstance(command, Ask):
             command.action(driver)
 
-    def _change(self, command: SetEffects | Compensate) -> None:
+    def _change(self, command: SetEffects | Compensate | Regulate) -> None:
         """Change what stands between commands and motion."""
         driver = self._driver
         if isinstance(command, SetEffects):
             assert isinstance(driver, EffectCarrier), "the session refuses on any other"
             driver.set_effects(command.effects)
             return
-        assert isinstance(driver, Compensator), "the session refuses on any other"
-        driver.compensate(command.axis, command.model)
+        if isinstance(command, Regulate):
+            assert isinstance(driver, Regulator), "the session refuses on any other"
+            driver.regulate(command.axis, command.regulation)
+        else:
+            assert isinstance(driver, Compensator), "the session refuses on any other"
+            driver.compensate(command.axis, command.model)
         self.forget()  # its command is another now
 
     def _shortly(self, command: LoadProfile | RunProfile | SetVoltage) -> None:
@@ -194,6 +200,7 @@ class Executor:
             driver.name,
             calibrations=names,
             compensations=command.compensations,
+            loops=command.loops,
             rowwise=command.sent is not None,
         )
         driver.play(command.sent or command.trajectory)

@@ -11,6 +11,7 @@ from rotemina.drivers.driver import Driver
 from rotemina.drivers.profile import Profile
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.errors import InputError
+from rotemina.sim.feedback.regulation import Regulation
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.trajectory.checked import CheckedTrajectory
 
@@ -68,6 +69,7 @@ class Play:
     trajectory: CheckedTrajectory
     sent: CheckedTrajectory | None = None
     compensations: Mapping[str, str] = field(default_factory=dict)
+    loops: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,6 +104,14 @@ class Compensate:
 
 
 @dataclass(frozen=True, slots=True)
+class Regulate:
+    """Close a loop around an axis, or, for None, open it."""
+
+    axis: str
+    regulation: Regulation | None
+
+
+@dataclass(frozen=True, slots=True)
 class ClearFault:
     """Acknowledge the device's fault."""
 
@@ -124,6 +134,7 @@ Command = (
     | ClearFault
     | SetEffects
     | Compensate
+    | Regulate
     | Ask
 )
 

@@ -4,7 +4,8 @@ from collections.abc import Callable, Mapping
 
 from rotemina.app.motion.compensation import NamedInverse, sent_for
 from rotemina.app.motion.recorder import PlaybackRecorder
-from rotemina.drivers.abilities import Compensator, TrajectoryPlayer
+from rotemina.app.motion.regulation import NamedRegulation
+from rotemina.drivers.abilities import Compensator, Regulator, TrajectoryPlayer
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.errors import DriverError
 from rotemina.drivers.registry import driver_named
@@ -28,13 +29,15 @@ def play_offline(
     progress: Callable[[float], None] | None = None,
     laser: bool = False,
     inverse: NamedInverse | None = None,
+    loop: NamedRegulation | None = None,
 ) -> Record:
     """Play a trajectory and return its record, without waiting for real time.
 
     ``progress`` is called with 0 to 1 as the playback goes on. With ``laser`` the record has
     ``ref`` too, where the device has a reference. With ``inverse`` every set-point of its axis goes
-    through it, those of the way to the first row too. With the same seed the record is
-    that of a live playback, up to what is left of the vibration of the way to the first row.
+    through it, those of the way to the first row too; with ``loop`` its axis is under that. With
+    the same seed the record is that of a live playback, up to what is left of the vibration of the
+    way to the first row.
 
     Raises
     ------
@@ -54,12 +57,15 @@ def play_offline(
         period_s, used = device.setpoint_period_s, {inverse.model.axis: inverse}
         sent_for(robot, on_ticks(checked.commands, period_s), used, period_s, preview=False)
         names = {inverse.model.axis: inverse.name}
-    recorder = PlaybackRecorder(checked, device.name, laser=laser, compensations=names)
+    loops = {} if loop is None else {loop.regulation.axis: loop.name}
+    recorder = PlaybackRecorder(checked, device.name, laser=laser, compensations=names, loops=loops)
     device.open()
     try:
         device.read()
         if inverse is not None:
             _compensator(device).compensate(inverse.model.axis, inverse.model)
+        if loop is not None:
+            _regulator(device).regulate(loop.regulation.axis, loop.regulation)
         device.play(checked)
         while device.status().state is DeviceState.PLAYING:
             clock.advance(_STEP_S)
@@ -78,6 +84,12 @@ def play_offline(
 def _compensator(device: TrajectoryPlayer) -> Compensator:
     if not isinstance(device, Compensator):
         raise InputError(f"driver {device.name!r} cannot compensate; use the simulator")
+    return device
+
+
+def _regulator(device: TrajectoryPlayer) -> Regulator:
+    if not isinstance(device, Regulator):
+        raise InputError(f"driver {device.name!r} closes no loop; use the simulator")
     return device
 
 

@@ -31,9 +31,10 @@ class PlaybackRecorder:
 
     With ``laser`` it has ``ref`` too, where the device's samples have a reference. ``calibrations``
     names those that were applied to ``meas``, by axis; ``compensations`` the inverses that stood
-    between commands and actuators. ``cmd`` is always what the trajectory wanted. ``rowwise`` says
-    that the device was given other commands in its place: then ``cmd`` is that of the latest row,
-    and ``u`` of a piezo what its command asks of the amplifier, where the device does not tell it.
+    between commands and actuators; ``loops`` the feedback that was closed. ``cmd`` is always what
+    the trajectory wanted. ``rowwise`` says that the device was given other commands in its place:
+    then ``cmd`` is that of the latest row, and ``u`` of a piezo what its command asks of the
+    amplifier, where the device does not tell it.
 
     A sample takes 8 bytes a column: 128 with six axes of which three tell a voltage, 460 MB an
     hour at 1 kHz. :meth:`finish` lets go of what it has copied, so the record is not held twice.
@@ -47,12 +48,14 @@ class PlaybackRecorder:
         laser: bool = False,
         calibrations: Mapping[str, str] = MappingProxyType({}),
         compensations: Mapping[str, str] = MappingProxyType({}),
+        loops: Mapping[str, str] = MappingProxyType({}),
         rowwise: bool = False,
     ) -> None:
         self._trajectory = trajectory
         self._metadata = _metadata(trajectory, driver)
         self._metadata |= {f"calibration {axis}": name for axis, name in calibrations.items()}
         self._metadata |= {f"compensation {axis}": name for axis, name in compensations.items()}
+        self._metadata |= {f"feedback {axis}": name for axis, name in loops.items()}
         self._rowwise = rowwise
         self._channels = tuple(_channels(trajectory.robot, trajectory.commands.axes, laser=laser))
         self._told = np.ones(len(self._channels), dtype=np.bool_)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from rotemina.app.motion.compensation import CompensatedRequests, NamedInverse
+from rotemina.app.motion.compensation import NamedInverse
 from rotemina.app.motion.guard import Leg, Place
 from rotemina.app.motion.mailbox import (
     Drive,
@@ -17,6 +17,7 @@ from rotemina.app.motion.mailbox import (
     RefusedError,
 )
 from rotemina.app.motion.ownership import HOMING, OPERATOR, PLAYBACK
+from rotemina.app.motion.regulation import NamedRegulation, RegulatedRequests
 from rotemina.app.motion.safe_way import safe_way
 from rotemina.app.motion.state import (
     SessionState,
@@ -37,7 +38,7 @@ from rotemina.sim.trajectory.limits import OutOfLimitsError, check_target
 LEASE_S = 0.15  # of a speed that nobody renews
 
 
-class MotionSession(CompensatedRequests):
+class MotionSession(RegulatedRequests):
     """Every motion passes through here: ranges, the tip's bounds and owners hold on every path.
 
     A request is checked on the caller's thread and refused at once with the reason
@@ -191,6 +192,30 @@ class MotionSession(CompensatedRequests):
         with self._lock:
             self._undo.forget()
 
+    def regulate(self, loop: NamedRegulation) -> None:
+        """Close a loop around its axis, which stays where it is; no way leads back from there.
+
+        Raises
+        ------
+        RefusedError
+            As :meth:`RegulatedRequests.regulate`.
+        """
+        super().regulate(loop)
+        with self._lock:
+            self._undo.forget()
+
+    def unregulate(self, axis: str) -> None:
+        """Open the loop of an axis, which stays where it is; no way leads back from there.
+
+        Raises
+        ------
+        RefusedError
+            As :meth:`RegulatedRequests.unregulate`.
+        """
+        super().unregulate(axis)
+        with self._lock:
+            self._undo.forget()
+
     def use(self, driver: Driver) -> None:
         """Stop, let go of the device, and connect to another one; no way leads back to the first.
 
@@ -255,7 +280,8 @@ class MotionSession(CompensatedRequests):
                 self._guard.play(self._place(), sent)
             with self._worker.ownership.claimed(self.driver.axes, PLAYBACK):
                 self._note_rest()
-                self._mailbox.post(Play(checked, sent, compensations))
+                loops = {axis: one.name for axis, one in self.regulated.items()}
+                self._mailbox.post(Play(checked, sent, compensations, loops))
 
     # --- bounds and parameters --------------------------------------------------------------------
 

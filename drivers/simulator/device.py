@@ -2,18 +2,17 @@
 
 from dataclasses import replace
 from enum import Enum, auto
-from typing import NamedTuple
 
 import numpy as np
 
 from rotemina.drivers.samples import Samples
 from rotemina.drivers.simulator.compensating import Compensating
 from rotemina.drivers.simulator.homing import Homing
+from rotemina.drivers.simulator.playing import Chunk, Playing, told
 from rotemina.drivers.simulator.profile_motion import ProfileMotion
 from rotemina.drivers.simulator.regulating import Regulating
 from rotemina.drivers.simulator.setpoints import SetpointGenerator, SetpointLimits
-from rotemina.drivers.simulator.smooth_rows import SmoothRows
-from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
+from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Beyond
 from rotemina.sim.compensate.model import InverseModel
@@ -23,7 +22,6 @@ from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.takeover import taken_over
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import AxisEffect, Robot, StepperAxis
-from rotemina.sim.trajectory.schedule import Schedule
 
 _LASER = 7  # the stream of its noise
 _CHUNK = 8192  # samples simulated at once: bounds memory, not the result
@@ -35,20 +33,6 @@ class _Phase(Enum):
     SETTLE = auto()  # waiting there for the vibration to die away
     ROWS = auto()  # playing
     PROFILE = auto()  # running a profile
-
-
-class _Chunk(NamedTuple):
-    """Sampling instants (n,) of the device, commands (n, axes) and rows of a trajectory (n,).
-
-    ``elapsed_s`` (n,) is the time since the latest sample before: small, and so exact. ``told``
-    (n,) says which of them are samples: not all ticks of a loop are.
-    """
-
-    time_s: FloatArray
-    elapsed_s: FloatArray
-    command: FloatArray
-    row: IntArray
-    told: BoolArray
 
 
 class SimulatedDevice:
@@ -95,7 +79,6 @@ class SimulatedDevice:
         self._setpoints = SetpointGenerator(SetpointLimits.of(robot), tick_s, position)
         self._compensating = Compensating(SetpointLimits.of(robot), tick_s)
         self._regulating = Regulating(tick_s)
-        self._smooth: SmoothRows | None = None
         self._command = np.array(position, dtype=np.float64)
         self._sent = self._command
         self._tick_s = tick_s
@@ -109,9 +92,7 @@ class SimulatedDevice:
             [(noise.angular if axis.unit == "rad" else noise.linear) or 0.0 for axis in axes]
         )
         self._phase = _Phase.HOLD
-        self._schedule: Schedule | None = None
-        self._instant = 0
-        self._begin_s = 0.0
+        self._playing: Playing | None = None
         self._settled = 0
         self._plays = 0
         # Ticks are counted from an anchor: adding intervals up would let rounding grow.
@@ -121,9 +102,8 @@ class SimulatedDevice:
     @property
     def time_s(self) -> float:
         """Device time of the latest sample; a tick before the first one at the very start."""
-        if self._phase is _Phase.ROWS and self._schedule is not None and self._instant:
-            since = self._schedule.instants(self._instant - 1, self._instant).time_s[0]
-            return float(self._begin_s + since)
+        if self._phase is _Phase.ROWS and self._playing is not None and self._playing.begun:
+            return self._playing.time_s
         return self._anchor_s + self._ticks * self._tick_s
 
     @property
@@ -181,7 +161,7 @@ class SimulatedDevice:
         """How much of the present or latest trajectory, or profile, has been played, 0 to 1."""
         if self._profile is not None:
             return self._profile.progress
-        return self._schedule.progress(self._instant) if self._schedule is not None else 0.0
+        return self._playing.progress if self._playing is not None else 0.0
 
     def set_effects(self, effects: tuple[AxisEffect, ...]) -> None:
         """Go on with other effects, from where the axes are and as fast as they are."""
@@ -262,12 +242,16 @@ class SimulatedDevice:
         self._profile = None
         # Loops and inverses live at the ticks.
         on_ticks = any(self._plant.loops) or bool(self._compensating.beyond or self._regulating)
-        self._smooth = None
-        if self._regulating:
-            self._smooth = SmoothRows(trajectory, self._plant.axes, self._sample_s)
-        self._schedule = Schedule(trajectory, self._plant.axes, self._tick_s, on_ticks=on_ticks)
-        self._instant, self._settled = 0, 0
-        self._setpoints.retarget(self._schedule.first)
+        self._playing = Playing(
+            trajectory,
+            self._plant.axes,
+            self._tick_s,
+            self._regulating.ticks,
+            on_ticks=on_ticks,
+            smooth=bool(self._regulating),
+        )
+        self._settled = 0
+        self._setpoints.retarget(self._playing.first)
         self._phase = _Phase.APPROACH
 
     def run(self, profile: ProfileMotion) -> None:
@@ -284,8 +268,8 @@ class SimulatedDevice:
         self._homing.give_up()
         if self._phase is _Phase.PROFILE and self._profile is not None:
             self._end_profile(self._profile)
-        if self._phase is _Phase.ROWS and self._schedule is not None and self._instant:
-            self._end_rows(self._command, self._row_velocity(self._schedule))
+        if self._phase is _Phase.ROWS and self._playing is not None and self._playing.begun:
+            self._end_rows(self._command, self._playing)
         self._setpoints.stop()
         self._phase = _Phase.HOLD
 
@@ -305,16 +289,16 @@ class SimulatedDevice:
             if len(samples := self._sample(chunk)):
                 parts.append(samples)
 
-    def _next_chunk(self, until_s: float) -> _Chunk:
-        if self._phase is _Phase.ROWS and self._schedule is not None:
-            return self._row_chunk(self._schedule, until_s)
+    def _next_chunk(self, until_s: float) -> Chunk:
+        if self._phase is _Phase.ROWS and self._playing is not None:
+            return self._row_chunk(self._playing, until_s)
         since = (until_s - self._anchor_s) / self._tick_s
         ticks = max(min(int(np.floor(since + 1e-6)) - self._ticks, _CHUNK), 0)
         if self._phase is _Phase.PROFILE and self._profile is not None:
             return self._profile_chunk(self._profile, ticks)
         return self._tick_chunk(ticks)
 
-    def _profile_chunk(self, profile: ProfileMotion, ticks: int) -> _Chunk:
+    def _profile_chunk(self, profile: ProfileMotion, ticks: int) -> Chunk:
         """Take at most ``ticks`` ticks of a profile, while the other axes hold."""
         way = profile.advance(ticks)
         command = np.tile(self._setpoints.position, (len(way), 1))
@@ -334,7 +318,7 @@ class SimulatedDevice:
         self._setpoints.take_over(self._command, velocity)
         self._phase = _Phase.HOLD
 
-    def _tick_chunk(self, ticks: int) -> _Chunk:
+    def _tick_chunk(self, ticks: int) -> Chunk:
         """Take at most ``ticks`` ticks; a chunk ends where a phase does."""
         if self._phase is _Phase.SETTLE:
             ticks = min(ticks, self._settle_ticks - self._settled)
@@ -347,19 +331,19 @@ class SimulatedDevice:
         elif self._phase is _Phase.SETTLE:
             self._settled += len(command)
         if self._phase is _Phase.SETTLE and self._settled >= self._settle_ticks:
-            self._begin_rows()
+            self._begin_rows(self._playing)
         return chunk
 
     @property
     def _settle_ticks(self) -> int:
         return round(self._settle_s / self._tick_s)
 
-    def _on_ticks(self, command: FloatArray) -> _Chunk:
+    def _on_ticks(self, command: FloatArray) -> Chunk:
         """Count the ticks of commands (n, axes) and say when they are."""
         number = np.arange(self._ticks + 1, self._ticks + 1 + len(command), dtype=np.int64)
         since = number - max(self._ticks, 0)
         self._ticks += len(command)
-        return _Chunk(
+        return Chunk(
             (self._anchor_s + number * self._tick_s).astype(np.float64),
             (since * self._tick_s).astype(np.float64),
             command,
@@ -367,50 +351,28 @@ class SimulatedDevice:
             number % self._regulating.ticks == 0,
         )
 
-    def _begin_rows(self) -> None:
-        self._begin_s = self._anchor_s + (self._ticks + 1) * self._tick_s
+    def _begin_rows(self, playing: Playing | None) -> None:
+        assert playing is not None, "a trajectory was approached"
+        playing.begin(self._anchor_s + (self._ticks + 1) * self._tick_s)
         self._phase = _Phase.ROWS
         self._plays += 1
 
-    def _row_chunk(self, schedule: Schedule, until_s: float) -> _Chunk:
-        if self._instant == 0:
+    def _row_chunk(self, playing: Playing, until_s: float) -> Chunk:
+        if not playing.begun:
             self._chance = Chance(np.random.default_rng([self._seed, self._plays]))
-        instants = schedule.instants(self._instant, self._instant + _CHUNK)
-        due_s = until_s - self._begin_s + 1e-6 * self._tick_s
-        count = int(np.searchsorted(instants.time_s, due_s, side="right"))
-        time_s, row = instants.time_s[:count], instants.row[:count]
-        command = schedule.commands(row, self._setpoints.position)
-        if self._smooth is not None:
-            command = self._smooth.commands(time_s, command)
-        elapsed_s = schedule.elapsed(self._instant, time_s)
-        if self._instant == 0:
-            elapsed_s = elapsed_s + self._tick_s
-        on_row = instants.on_row[:count]
-        told = on_row | (
-            np.arange(self._instant, self._instant + count) % self._regulating.ticks == 0
-        )
-        if count:
-            self._instant += count
-            if self._instant == schedule.count:
-                self._end_rows(command[-1], np.zeros(len(self._plant.axes)))
-        own = np.where(on_row, row, -1)
-        return _Chunk(self._begin_s + time_s, elapsed_s, command, own, told)
+        chunk = playing.take(until_s, self._setpoints.position, _CHUNK)
+        if playing.ended and len(chunk.time_s):
+            self._end_rows(chunk.command[-1], None)
+        return chunk
 
-    def _row_velocity(self, schedule: Schedule) -> FloatArray:
-        """Return the speed (axes,) of a trajectory at the latest instant."""
-        axes = len(self._plant.axes)
-        if self._smooth is None:
-            return schedule.velocity(self._instant - 1, axes)
-        now = schedule.instants(self._instant - 1, self._instant)
-        return self._smooth.velocity(float(now.time_s[0]), axes)
-
-    def _end_rows(self, command: FloatArray, velocity: FloatArray) -> None:
-        """Go over to holding, from the latest set-points (axes,) and their speed (axes,)."""
+    def _end_rows(self, command: FloatArray, playing: Playing | None) -> None:
+        """Hold from the latest set-points (axes,) on, which rest or have a playback's speed."""
+        velocity = np.zeros(len(command)) if playing is None else playing.velocity()
         self._anchor_s, self._ticks = self.time_s, 0
         self._setpoints.take_over(command, velocity)
         self._phase = _Phase.HOLD
 
-    def _sample(self, chunk: _Chunk) -> Samples:
+    def _sample(self, chunk: Chunk) -> Samples:
         motion, state, sent = self._regulating.advance(
             self._plant,
             self._state,
@@ -425,6 +387,5 @@ class SimulatedDevice:
         inputs = np.where(self._has_voltage, motion.inputs, np.nan)
         noise = self._laser_rms * self._laser.standard_normal(motion.position.shape)
         seen = motion.position + noise
-        told = slice(None) if chunk.told.all() else chunk.told
-        whole = (chunk.time_s, chunk.command, motion.reading, inputs, chunk.row, seen)
-        return Samples(*(one[told] for one in whole))
+        samples = Samples(chunk.time_s, chunk.command, motion.reading, inputs, chunk.row, seen)
+        return told(samples, chunk.told)

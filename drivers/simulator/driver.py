@@ -308,7 +308,9 @@ class Simulator(
 
     def _upload(self, profile: Profile) -> None:
         index = self.axes.index(profile.axis)
-        self._profile = ProfileMotion(profile, index, self._commanded(profile.axis), self._running.tick_s)
+        self._profile = ProfileMotion(
+            profile, index, self._commanded(profile.axis), self._running.tick_s
+        )
 
     def _trigger(self) -> None:
         self._catch_up()

@@ -102,9 +102,15 @@ def _compiled(
         amplified[list(controllers)] = False
         told[:, amplified] = effort[1:, amplified]
     motion = Motion(filled.position[1:], filled.velocity[1:], told, filled.reading[1:])
-    last = [one[-1:].copy() for one in (inputs, *filled[3:])]
     after = PlantState(
-        state.time_s[-1:] + rows * interval_s, *last, float(time_s[-1]), state.perturbation, *moving
+        state.time_s[-1:] + rows * interval_s,
+        inputs[-1:].copy(),
+        filled.position[-1:].copy(),
+        filled.velocity[-1:].copy(),
+        filled.reading[-1:].copy(),
+        float(time_s[-1]),
+        state.perturbation,
+        *moving,
     )
     return motion, after, asked
 
