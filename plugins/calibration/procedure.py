@@ -40,12 +40,15 @@ class Procedure(QWidget):
         self._robot = robot
         self.axis = QComboBox()
         self.axis.setAccessibleName("Axis")
+        self.axis.setToolTip("Axis whose sensor is calibrated")
         for name in robot.axes:
             self.axis.addItem(label(name), name)
         self.runs = _count("Runs", 3, 50, RUNS)
-        self.runs.setToolTip("Each run is held out of the fit once; ISO 230-2 asks for 5")
+        self.runs.setToolTip("3 to 50; each run is held out of the fit once; ISO 230-2 asks for 5")
         self.targets = _count("Targets", 5, 101, TARGETS)
-        self.targets.setToolTip("Positions that are approached from both sides (ISO 230-2)")
+        self.targets.setToolTip(
+            "5 to 101 positions that are approached from both sides (ISO 230-2)"
+        )
         self.absolute = QCheckBox("the laser's zero is the axis'")
         self.absolute.setChecked(True)
         self.absolute.setToolTip(

@@ -43,8 +43,10 @@ class ComparisonPanel(Panel):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
         self.open = QPushButton("Open record …")
+        self.open.setToolTip("Compare a record of the real machine with the model (Ctrl+O)")
         self.open.clicked.connect(lambda: self.main_window.ask_record())
         self.save = QPushButton("Save record …")
+        self.save.setToolTip("Write the record in hand to a file (Ctrl+S)")
         self.save.clicked.connect(lambda: self.main_window.ask_save())
         self.save.setEnabled(False)
         self.summary = QLabel(EMPTY)

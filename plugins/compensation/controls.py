@@ -25,6 +25,7 @@ class Controls(QWidget):
         super().__init__()
         self.axis = QComboBox()
         self.axis.setAccessibleName("Axis")
+        self.axis.setToolTip("Piezo axis in open loop that is compensated")
         for name, axis in robot.axes.items():
             if isinstance(axis, PiezoAxis) and axis.controller is None:
                 self.axis.addItem(label(name), name)
@@ -34,6 +35,7 @@ class Controls(QWidget):
         )
         self.kind = QComboBox()
         self.kind.setAccessibleName("Which inverse is put on")
+        self.kind.setToolTip("Which of the trained inverses is put on")
         self.switch, self.trial = QPushButton("Put on"), QPushButton("Try it")
         self.switch.setProperty("primary", True)
         self.before, self.after, self.beyond = _told(""), _told(""), _told("")
@@ -42,7 +44,7 @@ class Controls(QWidget):
         self.generations.setRange(1, 500)
         self.generations.setValue(50)
         self.generations.setAccessibleName("Generations of 60 individuals")
-        self.generations.setToolTip("Generations of 60 individuals each")
+        self.generations.setToolTip("1 to 500 generations of 60 individuals each")
         self.forward = QCheckBox("through the inverse")
         self.forward.setToolTip("Feed the reference forward through the inverse in hand")
         self.stop = QPushButton("Stop")

@@ -22,6 +22,7 @@ class DriverChoice(QComboBox):
     def __init__(self, found: dict[str, type[Driver]], broken: dict[str, str]) -> None:
         super().__init__()
         self.setAccessibleName("Driver")
+        self.setToolTip("What the program drives: the simulator, boards, or a device of a plugin")
         self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         for name, kind in found.items():
             self.addItem(name, kind)

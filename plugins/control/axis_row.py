@@ -194,7 +194,9 @@ class AxisRow(QFrame):
         how = "while it is held" if held else "one step"
         allow(self.minus, why_not, f"Move {name} down {how}")
         allow(self.plus, why_not, f"Move {name} up {how}")
-        allow(self.target, why_not, f"Where {name} is to go, in {self._scale.symbol}")
+        low, high = (self._scale.number(end) for end in self._described.range)
+        bounds = f"{low} to {high} {self._scale.symbol}"
+        allow(self.target, why_not, f"Where {name} is to go, {bounds}; Enter, or Go")
         allow(
             self.go,
             why_not,

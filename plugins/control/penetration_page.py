@@ -45,8 +45,10 @@ class PenetrationPage(QWidget):
         self._prospect: Prospect | None = None
         self._planned_for: object = None
         self.arm = QPushButton("Arm")
+        self.arm.setToolTip("Prepare the penetration; nothing moves yet")
         self.arm.clicked.connect(lambda _: self._arm())
         self.button = QPushButton("Start")
+        self.button.setToolTip("Begin the armed penetration")
         self.button.setProperty("primary", True)
         # By Tab alone: no space bar that follows a click may start or end anything.
         self.button.setFocusPolicy(Qt.FocusPolicy.TabFocus)

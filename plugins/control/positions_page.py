@@ -30,6 +30,7 @@ class PositionsPage(QWidget):
         self.name.setPlaceholderText("name of this place")
         self.name.setMaxLength(LONGEST_NAME)
         self.name.setAccessibleName("Name for where the robot is now")
+        self.name.setToolTip(f"What to call where the robot is now; at most {LONGEST_NAME} letters")
         self.name.textEdited.connect(lambda _: self._forget())
         self.go = button("Go there", "", self._go)
         self.delete = button("Delete", "", self._delete)

@@ -85,7 +85,7 @@ class FaultRow:
         ]
         for field, parameter in zip(self.fields, fault.parameters, strict=True):
             field.setAccessibleName(f"{fault.title}: {parameter.name}")
-            field.setToolTip(plain_tip(f"{parameter.name}. {fault.meaning}"))
+            field.setToolTip(plain_tip(f"{parameter.name}. {fault.meaning}", _bounds(parameter)))
         self.button = QPushButton("Inject")
         self.button.setAccessibleName(f"Inject {fault.title}")
         self.button.clicked.connect(lambda _: inject(self.command()))
@@ -107,6 +107,12 @@ class FaultRow:
         grid.addWidget(self.button, row, 2)
 
 
+def _bounds(parameter: Pick | Number) -> str:
+    if isinstance(parameter, Pick):
+        return ""
+    return f"{parameter.low:g} to {parameter.high:.7g} {parameter.unit}".rstrip()
+
+
 class Injection(QWidget):
     """The virtual board, and what can be done to it.
 
@@ -123,6 +129,7 @@ class Injection(QWidget):
         self.board = BoardProcess(workbench.robot, self)
         self.lines = QComboBox()
         self.lines.setAccessibleName("Lines of the virtual board")
+        self.lines.setToolTip("Whether the virtual boards share one serial line")
         most = 2 if len(workbench.robot.axes) > _BOARD_AXES else 1
         self._lines = most
         if most > 1:

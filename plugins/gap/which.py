@@ -46,6 +46,7 @@ class WhichView(QSplitter):
         self.text = QPlainTextEdit()
         self.text.setReadOnly(True)
         self.text.setAccessibleName("What is said of the axis")
+        self.text.setToolTip("What the diagnosis says of the axis")
         self.addWidget(self.ranking)
         self.addWidget(self.text)
         self.setSizes([480, 460])

@@ -48,6 +48,8 @@ class Controls(QWidget):
         self.poles = _choice("Poles", [(f"{n} poles" if n > 1 else "1 pole", n) for n in POLES])
         self.poles.setCurrentIndex(POLES.index(2))
         self.copy, self.save = QPushButton("Copy"), QPushButton("Save …")
+        self.copy.setToolTip("Copy the figures as text")
+        self.save.setToolTip("Write the figures into a file")
         self.keep = QPushButton("Keep card")
         self.keep.setToolTip("Write this health card behind the earlier ones of the axis")
         self._lay_out()

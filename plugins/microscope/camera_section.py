@@ -40,9 +40,11 @@ class CameraSection(Section):
                 "number, such as opencv:film.avi or sequence:/data/pictures"
             )
         )
-        self.open = button("Open", self._open)
+        self.open = button("Open", self._open, "Open this camera; the one that is open is closed")
         self.open.setProperty("primary", True)
-        self.close_button = button("Close", lambda: workbench.ask(microscope.close_camera))
+        self.close_button = button(
+            "Close", lambda: workbench.ask(microscope.close_camera), "Let go of the camera"
+        )
         self.objective = SteadyChoice("Objective")
         self.objective.setEditable(True)
         self.objective.setInsertPolicy(SteadyChoice.InsertPolicy.NoInsert)
@@ -117,14 +119,17 @@ class SettingsSection(Section):
             ("Trigger", self.trigger),
         ):
             field.setAccessibleName(text)
+            field.setToolTip(plain_tip(f"{text}; its limits are the camera's, which is not open"))
             field.setMinimumWidth(60)
             rows.addRow(text, field)
         rows.addRow(self.repeat)
         self.column.addWidget(self.form)
-        self.apply = button("Set", self._apply)
-        self.cut = button("Region in sight", self._cut)
+        self.apply = button("Set", self._apply, "Set the camera so; what it refuses is said below")
+        self.cut = button("Region in sight", self._cut, "Read out only what is in sight now")
         self.add_row(self.apply, self.cut)
-        self.shoot = button("Take a picture", lambda: workbench.ask(microscope.trigger))
+        self.shoot = button(
+            "Take a picture", lambda: workbench.ask(microscope.trigger), "Trigger the camera once"
+        )
         self.column.addWidget(self.shoot)
         self.problem = self.add_text()
         self.problem.setProperty("bad", True)

@@ -15,6 +15,7 @@ from rotemina.plugins.microscope.overlays import Layer
 from rotemina.plugins.microscope.picture_view import PictureView
 from rotemina.plugins.microscope.section import Section, SteadyChoice, button
 
+_GAMMA_TIP = f"{GAMMA[0]:g} to {GAMMA[1]:g}; 1: as light is; less brightens what is dark"
 _STEPS = 100.0  # of the slider, from the least gamma to the greatest, by its logarithm
 
 
@@ -74,7 +75,7 @@ class PictureSection(Section):
             contrast = replace(contrast, low=low, high=high)
         self._view.set_contrast(contrast)
         self._gamma_text.setText(f"gamma {contrast.gamma:.2f}")
-        self.gamma.setToolTip(plain_tip("1: as light is; less brightens what is dark"))
+        self.gamma.setToolTip(plain_tip(_GAMMA_TIP))
 
 
 class LayerSection(Section):
@@ -85,6 +86,7 @@ class LayerSection(Section):
         self.boxes: dict[Layer, QCheckBox] = {}
         for layer in Layer:
             box = QCheckBox(layer.value)
+            box.setToolTip(plain_tip(f"Show over the picture: {layer.value}"))
             key = f"microscope.layer.{layer.name.lower()}"
             box.setChecked(bool(settings.get(key, layer in view.layers)))
             view.set_layer(layer, box.isChecked())

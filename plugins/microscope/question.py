@@ -17,9 +17,9 @@ class Question(QFrame):
         self.text = QLabel()
         self.text.setTextFormat(Qt.TextFormat.PlainText)
         self.text.setWordWrap(True)
-        self.yes = button(yes, lambda: answer(True))
+        self.yes = button(yes, lambda: answer(True), "Make the move")
         self.yes.setProperty("primary", True)
-        self.no = button("Cancel", lambda: answer(False))
+        self.no = button("Cancel", lambda: answer(False), "Make no move")
         for one in (self.yes, self.no):
             one.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         row = QHBoxLayout(self)

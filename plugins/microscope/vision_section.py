@@ -33,7 +33,9 @@ class TipSection(Section):
         )
         self.track.clicked.connect(lambda on: workbench.ask(lambda: microscope.track(on)))
         self.background = button(
-            "Take background", lambda: workbench.ask(microscope.take_background)
+            "Take background",
+            lambda: workbench.ask(microscope.take_background),
+            "Keep what lies beneath, with the tip out of the way",
         )
         self.drift = QCheckBox("watch the drift")
         self.drift.setToolTip(plain_tip("By how much the background has moved since it was taken"))
@@ -73,7 +75,11 @@ class CellSection(Section):
         self._guide = self.add_text()
         self._guide.setText("Cell, above the picture, outlines the cell that is clicked.")
         self.said = self.add_text()
-        self.forget = button("Forget the cell", lambda: workbench.ask(microscope.forget_cell))
+        self.forget = button(
+            "Forget the cell",
+            lambda: workbench.ask(microscope.forget_cell),
+            "Take the outline away",
+        )
         self.column.addWidget(self.forget)
 
     def refresh(self, sight: Sight) -> None:
@@ -93,14 +99,17 @@ class FocusSection(Section):
         self.place = SteadyChoice("What is focused with")
         self.reach = QLineEdit(f"{1e6 * _PRESET_M:g}")
         self.reach.setAccessibleName("How far to search each way, µm")
-        self.reach.setToolTip(plain_tip("How far to search each way from where it is, µm"))
-        self.search = button("Autofocus", self._autofocus)
+        self.reach.setToolTip(plain_tip("How far to search each way from where it is, above 0 µm"))
+        self.search = button(
+            "Autofocus", self._autofocus, "Look for the sharpest place, and stay there"
+        )
         self.column.addWidget(self.place)
         self.add_row(self.reach, self.search)
         self.goal = QLineEdit()
         self.goal.setPlaceholderText("focus at, µm")
         self.goal.setAccessibleName("Place of the focus drive, µm")
-        self.move = button("Move focus", self._move)
+        self.goal.setToolTip(plain_tip("Where the drive is to go, µm, within its own range"))
+        self.move = button("Move focus", self._move, "Move the focus drive of the microscope")
         self.goal.returnPressed.connect(self._move)
         self.add_row(self.goal, self.move)
         self.said = self.add_text()

@@ -38,7 +38,8 @@ class CellView(QWidget):
         self._known: object = ()
         self.where, self.about = _text(), _text()
         self.where.setProperty("quiet", False)
-        self.ahead = _field(f"{1e6 * AHEAD:g}", "Way to the cell, µm", "From where the axis stands")
+        about = "From where the axis stands, above 0 µm"
+        self.ahead = _field(f"{1e6 * AHEAD:g}", "Way to the cell, µm", about)
         self.stiffness = _field(
             f"{STIFFNESS:g}", "Stiffness of the cell", "Over that of the axis itself, up to 30"
         )

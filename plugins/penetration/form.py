@@ -67,6 +67,7 @@ class ParameterForm(QScrollArea):
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self._body = QWidget()
         self.load, self.save = QPushButton("Load …"), QPushButton("Save …")
+        self.save.setToolTip("Write these parameters into a TOML file")
         self.fields = {key: NumberField(one, self) for key, one in QUANTITIES.items()}
         self._make_choices(robot)
         self._make_more()

@@ -47,6 +47,7 @@ class LogView(QWidget):
         self.text = QPlainTextEdit()
         self.text.setReadOnly(True)
         self.text.setAccessibleName("All of the chosen run")
+        self.text.setToolTip("All that was logged of the chosen run")
         self.text.setPlaceholderText("Choose a run to see all of it.")
         self.text.setMinimumWidth(160)
         split = QSplitter(Qt.Orientation.Horizontal)

@@ -53,16 +53,21 @@ class Controls(QWidget):
         self.what.setToolTip("The plate with its hub moved, or one of its modes")
         self.colour = QComboBox()
         self.colour.setAccessibleName("Colours")
+        self.colour.setToolTip("What the colours mean")
         for quantity in QUANTITIES:
             self.colour.addItem(quantity.title)
         self.sliders = tuple(
             SteadySlider(f"{label(name)} of the hub", _STEPS) for name, _, _ in AXES
         )
+        for slider, (name, unit, _) in zip(self.sliders, AXES, strict=True):
+            slider.setToolTip(f"{label(name)} of the hub over its range, in {unit}")
         self.values = tuple(QLabel() for _ in AXES)
         self.scale = SteadySlider("Scale of the deformation", _SCALES)
         self.scale.setValue(100)
         self.scale_text = QLabel()
+        self.scale.setToolTip("How high the deformation is drawn, 0 to 200 %; 100 is well visible")
         self.mesh = QCheckBox("Mesh lines")
+        self.mesh.setToolTip("Draw the edges of the elements")
         self._lay_out()
         for box in (self.what, self.colour):
             box.setSizeAdjustPolicy(
@@ -103,6 +108,9 @@ class Controls(QWidget):
         """Offer the range of motion (3, 2) and the modes of a solved plate."""
         first = not self._ranges.any()
         self._ranges = ranges
+        for slider, ends, (name, unit, per_si) in zip(self.sliders, ranges, AXES, strict=True):
+            low, high = per_si * ends
+            slider.setToolTip(f"{label(name)} of the hub, {low:.4g} to {high:.4g} {unit}")
         chosen = max(self.what.currentIndex(), 0)
         self.what.blockSignals(True)
         self.what.clear()

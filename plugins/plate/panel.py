@@ -66,6 +66,7 @@ class PlatePanel(Panel):
     def _make_parts(self) -> None:
         self.mesh = QComboBox()
         self.mesh.setAccessibleName("Mesh")
+        self.mesh.setToolTip("A finer mesh is truer and takes longer")
         for title, divisions in MESHES:
             self.mesh.addItem(title, divisions)
         self.mesh.setCurrentIndex(1)

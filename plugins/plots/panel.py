@@ -156,6 +156,7 @@ class PlotsPanel(Panel):
         self.pause.toggled.connect(self._hold)
         self.more = QPushButton("More")
         self.more.setMenu(self._menu())
+        self.more.setToolTip("Further views, alignment, and files of what is shown")
         self._legend = QLabel()
         self._legend.setTextFormat(Qt.TextFormat.RichText)
         self._legend.setMinimumWidth(1)  # it is cut before the window is made wider
@@ -306,6 +307,7 @@ def _choice(name: str, offered: Iterable[tuple[object, str]]) -> QComboBox:
         # Qt would hand an enumeration of text back as plain text anyway.
         box.addItem(text, str(value) if isinstance(value, str) else value)
     box.setAccessibleName(name)
+    box.setToolTip(name)
     return box
 
 

@@ -90,6 +90,7 @@ class EventsView(QWidget):
         self.table.clicked.connect(lambda index: self.jump(index.row()))
         self.table.activated.connect(lambda index: self.jump(index.row()))
         self.details = QCheckBox("with states and log lines")
+        self.details.setToolTip("Show these too, beside what the operator did and was told")
         self.details.toggled.connect(self._choose)
         self.title = QLabel(_EMPTY)
         self.title.setProperty("quiet", True)

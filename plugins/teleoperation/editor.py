@@ -10,7 +10,14 @@ from rotemina.app.motion.teleoperation.views import TeleoperationState
 from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.teleoperation import wording
-from rotemina.plugins.teleoperation.scale_fields import FIELDS, changed, shown, texts, without
+from rotemina.plugins.teleoperation.scale_fields import (
+    FIELDS,
+    bounds_text,
+    changed,
+    shown,
+    texts,
+    without,
+)
 from rotemina.plugins.teleoperation.section import Section, SteadyChoice, button, plain_text
 from rotemina.sim.errors import InputError
 
@@ -27,6 +34,7 @@ class ScaleEditor(Section):
         self._shown: tuple[str, str, Scale] | None = None
         self.choice = SteadyChoice()
         self.choice.setAccessibleName("Coordinate whose scale is shown")
+        self.choice.setToolTip("Coordinate whose scale is shown below")
         self.choice.currentIndexChanged.connect(lambda _: self._show())
         self.presets = button("Presets", "", self._use_presets)
         row = QHBoxLayout()
@@ -96,6 +104,7 @@ class ScaleEditor(Section):
             edit, unit = self.fields[field.name], shown(field, coordinate).unit
             self._units[field.name].setText(unit)
             edit.setAccessibleName(f"{field.title} of {self.choice.currentText()} {unit}".rstrip())
+            edit.setToolTip(plain_tip(field.tip, bounds_text(field, coordinate)))
             if elsewhere or not (edit.hasFocus() and edit.isModified()):
                 edit.setText(told[field.name])
 

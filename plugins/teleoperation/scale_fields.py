@@ -2,9 +2,10 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import cache
 from typing import NamedTuple
 
-from pydantic import ValidationError
+from pydantic import TypeAdapter, ValidationError
 
 from rotemina.app.display import PLAIN_NUMBER
 from rotemina.app.motion.teleoperation.frames import Coordinate
@@ -83,6 +84,24 @@ def shown(field: ScaleField, coordinate: Coordinate) -> Shown:
     if coordinate.unit == "m":
         unit = "mm" if Scale.preset(coordinate).way > _TABLE_M else "um"
     return Shown(symbol(unit) + ("/s" if field.unit == "speed" else ""), per_si(unit))
+
+
+def bounds_text(field: ScaleField, coordinate: Coordinate) -> str:
+    """Return what a field of a coordinate may hold, with its unit."""
+    unit, bounds = shown(field, coordinate), coordinate.bounds
+    if field.name == "way":
+        return f"above 0, up to {unit.text(bounds.high - bounds.low)}"
+    if field.name == "speed":
+        return f"above 0, up to {unit.text(bounds.max_speed)}"
+    kept = _checked()[field.name]
+    return f"{unit.number(kept['minimum'])} to {unit.text(kept['maximum'])}"
+
+
+@cache
+def _checked() -> dict[str, dict[str, float]]:
+    """Return what :class:`Scale` itself checks of each number, by JSON schema's words."""
+    properties: dict[str, dict[str, float]] = TypeAdapter(Scale).json_schema()["properties"]
+    return properties
 
 
 def changed(scale: Scale, name: str, text: str, coordinate: Coordinate) -> Scale:

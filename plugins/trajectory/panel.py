@@ -47,8 +47,10 @@ class TrajectoryPanel(Panel):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
         self.load = QPushButton("Load …")
+        self.load.setToolTip("Take a trajectory from a text file, and try it on the model (Ctrl+T)")
         self.load.clicked.connect(lambda: self.main_window.ask_trajectory())
         self.resample = QPushButton("Resample …")
+        self.resample.setToolTip("Another rate, in Hz, for the trajectory in hand")
         self.resample.setEnabled(False)
         self.resample.clicked.connect(self._resample)
         self.transport = Transport(workbench)

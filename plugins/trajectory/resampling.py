@@ -35,6 +35,7 @@ class ResamplingDialog(QDialog):
         self.resampled: Record | None = None
         self.rate = QLineEdit("1000")
         self.rate.setAccessibleName("Rate in Hz")
+        self.rate.setToolTip("Rows per second, Hz; above 0")
         self.method = QComboBox()
         for text, name in METHODS.items():
             self.method.addItem(text, name)

@@ -37,6 +37,7 @@ class Transport(QWidget):
         self.forward.clicked.connect(lambda: self._step(1))
         self.rows = QComboBox()
         self.rows.setAccessibleName("Rows of a step")
+        self.rows.setToolTip("How many rows of the trajectory a step goes, 1 to 1000")
         for rows in STEPS:
             self.rows.addItem("1 row" if rows == 1 else f"{rows} rows", rows)
         self.speed = QDoubleSpinBox()

@@ -1,11 +1,27 @@
 """Palette, keys, log page and support bundle, and every action of the window."""
 
+import re
 import zipfile
 
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QGuiApplication
-from PySide6.QtWidgets import QApplication, QFileDialog, QInputDialog, QPushButton
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QAbstractSlider,
+    QAbstractSpinBox,
+    QApplication,
+    QComboBox,
+    QDoubleSpinBox,
+    QFileDialog,
+    QInputDialog,
+    QLineEdit,
+    QPushButton,
+    QScrollBar,
+    QSpinBox,
+    QTabBar,
+    QWidget,
+)
 
 from rotemina.app.shell import entries, key_help
 from rotemina.app.shell import theme as themes
@@ -13,6 +29,10 @@ from rotemina.app.shell.controls import allow
 from rotemina.app.shell.workbench import Level
 
 LONG_MS = 30_000
+CONTROLS = (QAbstractButton, QAbstractSlider, QAbstractSpinBox, QComboBox, QLineEdit)
+PARTS_OF = (QAbstractSpinBox, QComboBox, QLineEdit, QTabBar)
+UNIT = re.compile(r"(?<=[ ,])(mm/s|µm/s|mm|µm|µrad|ms|Hz|1/h|s|%)$")
+LIMIT = re.compile(r"\d to [\d.]|above 0|at most \d|within its own range")
 
 
 @pytest.fixture
@@ -110,9 +130,49 @@ def test_the_palette_finds_explains_and_does_by_keys_alone(qtbot, window):
 
 
 def test_the_pages_of_help(qtbot, window, tmp_path):
+    every_control_says_what_it_does_with_unit_and_limits(window)
     keys_are_those_of_the_actions_and_no_two_are_alike(window)
     the_log_page_filters_follows_and_copies(window)
     the_support_bundle_is_shown_before_it_is_written(qtbot, window, tmp_path)
+
+
+def every_control_says_what_it_does_with_unit_and_limits(window):
+    state = window.workbench.session.snapshot()
+    silent, boundless = [], []
+    for name, panel in dict(window.panels).items():
+        window.bring_up(name)
+        for page in range(panel.bar.tools.count() if name == "microscope" else 1):
+            if name == "microscope":
+                panel.bar.tools.setCurrentIndex(page)
+            window.workbench.refreshed.emit(state)
+        for control in controls_of(panel):
+            what, tip = f"{name}: {control.accessibleName()}", control.toolTip()
+            if not tip:
+                silent.append(f"{what} {getattr(control, 'text', str)()}")
+            if not tells_limits(control, tip):
+                boundless.append(f"{what}: {tip}")
+    assert silent == []
+    assert boundless == []
+
+
+def controls_of(panel):
+    for control in panel.findChildren(QWidget):
+        bare = type(control) in (QAbstractButton, QScrollBar)  # the corner of a table
+        if (
+            isinstance(control, CONTROLS)
+            and not bare
+            and not isinstance(control.parent(), PARTS_OF)
+        ):
+            yield control
+
+
+def tells_limits(control, tip):
+    if isinstance(control, QSpinBox | QDoubleSpinBox):
+        return all(f"{end:.7g}" in tip for end in (control.minimum(), control.maximum()))
+    unit = UNIT.search(control.accessibleName())
+    if unit is None or not isinstance(control, QLineEdit):
+        return True
+    return unit[0] in tip and LIMIT.search(tip) is not None
 
 
 def keys_are_those_of_the_actions_and_no_two_are_alike(window):
