@@ -27,7 +27,7 @@ from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.compensation.controls import Controls
-from rotemina.plugins.compensation.job import Job, Tell
+from rotemina.app.shell.job import Job, Tell
 from rotemina.plugins.compensation.learning import (
     Learned,
     Listener,
