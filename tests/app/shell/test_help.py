@@ -145,6 +145,7 @@ def every_control_says_what_it_does_with_unit_and_limits(window):
             if name == "microscope":
                 panel.bar.tools.setCurrentIndex(page)
             window.workbench.refreshed.emit(state)
+            window.workbench.shown.emit(state)
         for control in controls_of(panel):
             what, tip = f"{name}: {control.accessibleName()}", control.toolTip()
             if not tip:
