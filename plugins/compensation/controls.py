@@ -14,7 +14,8 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.display import label
-from rotemina.plugins.compensation.words import FORWARD_ONLY
+from rotemina.plugins.compensation.trial import Help
+from rotemina.plugins.compensation.words import LIVE_LOOP
 from rotemina.sim.robot.model import PiezoAxis, Robot
 
 
@@ -38,14 +39,17 @@ class Controls(QWidget):
         self.kind.setToolTip("Which of the trained inverses is put on")
         self.switch, self.trial = QPushButton("Put on"), QPushButton("Try it")
         self.switch.setProperty("primary", True)
-        self.before, self.after, self.beyond = _told(""), _told(""), _told("")
-        self.tune, self.keep = QPushButton("Tune"), QPushButton("Keep point …")
+        self.sweep = QPushButton("Sweep")
+        self.residuals = {one: _told("") for one in Help}
+        self.beyond = _told("")
+        self.tune, self.open_gains = QPushButton("Tune"), QPushButton("Open gains …")
+        self.keep, self.apply = QPushButton("Keep point …"), QPushButton("Apply point")
         self.generations = QSpinBox()
         self.generations.setRange(1, 500)
         self.generations.setValue(50)
         self.generations.setAccessibleName("Generations of 60 individuals")
         self.generations.setToolTip("1 to 500 generations of 60 individuals each")
-        self.forward = QCheckBox("through the inverse")
+        self.forward = QCheckBox("with inverse")
         self.forward.setToolTip("Feed the reference forward through the inverse in hand")
         self.stop = QPushButton("Stop")
         self.progress = QProgressBar()
@@ -75,21 +79,24 @@ class Controls(QWidget):
             ((self.open, 1), (self.save, 1)),
             ((_head("Feed-forward"), 3),),
             ((self.kind, 3),),
-            ((self.switch, 1), (self.trial, 1)),
-            ((_plain("Without"), 1), (self.before, 2)),
-            ((_plain("With"), 1), (self.after, 2)),
-            ((self.beyond, 3),),
-            ((_head("Gains of a loop"), 3),),
-            ((self.tune, 1), (self.generations, 1), (self.keep, 1)),
-            ((self.forward, 3),),
+            ((self.switch, 1), (self.sweep, 1), (self.trial, 1)),
+            ((_head("Feedback"), 3),),
+            ((self.tune, 1), (self.generations, 1), (self.forward, 1)),
             ((self.point, 3),),
+            ((self.apply, 1), (self.keep, 1), (self.open_gains, 1)),
+            ((_head("What is left of the error on a trial"), 3),),
+            *(
+                ((_plain(one.value.capitalize()), 1), (told, 2))
+                for one, told in self.residuals.items()
+            ),
+            ((self.beyond, 3),),
         )
         for number, row in enumerate(rows):
             column = 0
             for widget, span in row:
                 grid.addWidget(widget, number, column, 1, span)
                 column += span
-        remark = _told(FORWARD_ONLY)
+        remark = _told(LIVE_LOOP)
         remark.setProperty("quiet", True)
         whole = QVBoxLayout(self)
         whole.setContentsMargins(0, 0, 4, 0)

@@ -3,8 +3,6 @@
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from threading import Event as Flag
-from typing import Any
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtWidgets import (
@@ -20,31 +18,29 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.motion.compensation import NamedInverse, check_belongs
-from rotemina.app.motion.state import Event, PlaybackFinished, SessionState
+from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.controls import allow
+from rotemina.app.shell.job import Job, Tell
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
 from rotemina.drivers.samples import DeviceState
+from rotemina.plugins.compensation.acting import Acting
 from rotemina.plugins.compensation.controls import Controls
-from rotemina.app.shell.job import Job, Tell
 from rotemina.plugins.compensation.learning import (
     Learned,
     Listener,
     learned_from,
     learned_simulated,
 )
-from rotemina.plugins.compensation.trial import NAME, Trial, trial_motion, trial_of
-from rotemina.plugins.compensation.tuning import problem_of, search
+from rotemina.plugins.compensation.searching import Searching
+from rotemina.plugins.compensation.trial import NAME
 from rotemina.plugins.compensation.views import CheckView, FrontView, LiveView
-from rotemina.plugins.compensation.words import NOTHING, beyond, left, point_text
+from rotemina.plugins.compensation.words import NO_FRONT, NOTHING
 from rotemina.sim.compensate.file import read_trained, write_trained
 from rotemina.sim.compensate.judgement import NAMES
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.tuning.problem import Try
-from rotemina.sim.tuning.result import Tuning, save_tuning
-from rotemina.sim.tuning.search import Generation, SearchSettings
 
 RECORDS = "Records (*.csv *.txt *.dat *.gz);;All files (*)"
 INVERSES, TUNINGS = "Inverses (*.json)", "Tunings (*.toml)"
@@ -67,14 +63,11 @@ class CompensationPanel(Panel):
         theme = workbench.theme
         self.controls = Controls(workbench.robot)
         self.check, self.live, self.front = CheckView(theme), LiveView(theme), FrontView(theme)
-        self.job, self._trying = Job(self), Job(self)
+        self.acting = Acting(workbench, self.controls, self.live)
+        self.search = Searching(workbench, self.controls, self.front)
+        self.job = Job(self)
         self.learned: Learned | None = None
-        self.tuning: Tuning | None = None
-        self.trials: dict[bool, Trial] = {}
         self._source = ""
-        self._problem: Any = None  # of the tuning in hand
-        self._enough = Flag()
-        self._searching = False
         self.views, self.tabs = QStackedWidget(), QTabBar()
         self.tabs.setAccessibleName("What is shown")
         self.tabs.setExpanding(False)
@@ -146,82 +139,24 @@ class CompensationPanel(Panel):
             done,
         )
 
-    # --- put on -----------------------------------------------------------------------------------
-
-    def switch(self) -> None:
-        """Put the chosen inverse on its axis, or take off what is on."""
-        session, axis = self.workbench.session, self.controls.chosen
-        if axis in session.compensated:
-            self.workbench.ask(lambda: session.uncompensate(axis))
-            return
-        learned, kind = self.learned, self.controls.kind.currentData()
-        if learned is None or learned.axis != axis:
-            return
-        model = learned.trained.models[kind]
-        name = f"{NAMES[kind]}, {self._source}"
-        inverse = NamedInverse(model, learned.provenance.robot, name)
-        self.workbench.ask(lambda: session.compensate(inverse))
+    # --- act and tune -----------------------------------------------------------------------------
 
     def try_it(self) -> None:
-        """Play swings that fade; what is left is shown beside the other state's."""
-        robot, session = self.workbench.robot, self.workbench.session
-        motion = trial_motion(robot, self.controls.chosen)
-        if self.workbench.ask(lambda: session.play(motion)):
+        """Play swings that fade; what is left is shown beside what other states left."""
+        if self.acting.try_it():
             self.tabs.setCurrentIndex(LIVE)
-
-    # --- tune -------------------------------------------------------------------------------------
 
     def tune(self) -> None:
         """Search gains; the front is drawn as it evolves."""
-        robot, axis = self._robot(), self.controls.chosen
         learned = self.learned if self.controls.forward.isChecked() else None
         model = None if learned is None else learned.trained.models[learned.trained.chosen]
-        settings = SearchSettings(generations=self.controls.generations.value())
-        name = self._source if model is not None else ""
-        self._enough = enough = Flag()
-        self._searching = True
-        self.tuning = self._problem = None
         self.tabs.setCurrentIndex(FRONT)
-
-        def work(tell: Tell) -> tuple[Any, Tuning]:
-            tell("Preparing the simulated loop", 0.0, None)
-            problem = problem_of(robot, axis, model)
-
-            def told(found: Generation) -> bool:
-                done = f"{found.done} of {found.total} generations, {len(found.front)} points"
-                tell(done, found.share, found)
-                return not enough.is_set()
-
-            return problem, search(problem, settings, told, name)
-
-        self.job.start(work)
-
-    def pick(self, number: int) -> None:
-        """Take a point of the front, and try it on a step and a triangle."""
-        tuning, problem = self.tuning, self._problem
-        if tuning is None or problem is None:
-            return
-        self.tuning = tuning.choosing(number)
-        point = self.tuning.best
-        self.front.mark(number)
-        self.controls.point.setText(point_text(point, number))
-        self._trying.start(lambda _: problem.try_out(point.gains)[0])
-
-    def keep(self, path: Path) -> None:
-        """Write the tuning with the point that was taken."""
-        tuning = self.tuning
-        if tuning is not None:
-            self.workbench.work(
-                "keep tuning",
-                f"Writing {path.name} …",
-                lambda: save_tuning(tuning, path),
-                lambda _: self.workbench.notify(Level.GOOD, f"Saved {path}"),
-            )
+        self.search.tune(self._robot(), self.controls.chosen, model, self._source)
 
     def stop(self) -> None:
         """Stop the machine's trial, or end what is worked on; a search keeps what it found."""
-        if self._searching:
-            self._enough.set()
+        if self.search.running:
+            self.search.enough()
         elif self.job.running:
             self.job.stop()
             self.controls.tell("Stopped; nothing was replaced.", None)
@@ -236,34 +171,23 @@ class CompensationPanel(Panel):
         return robot if effects is None else replace(robot, effects=effects)
 
     def _learn(self, source: str, work: Callable[[Listener], Learned]) -> None:
-        self._searching = False
-
         def named(tell: Tell) -> tuple[str, Learned]:
             return source, work(lambda what, share: tell(what, share, None))
 
         self.controls.tell("Learning …", 0.0)
         self.job.start(named)
 
-    def _told(self, what: str, share: float, news: object) -> None:
+    def _told(self, what: str, share: float, _news: object) -> None:
         self.controls.tell(what, share)
-        if isinstance(news, Generation):
-            self.front.show_generation(news, SearchSettings().against)
 
-    def _finished(self, answer: tuple[Any, Any]) -> None:
+    def _finished(self, answer: tuple[str, Learned]) -> None:
         self.controls.tell("", None)
-        if self._searching:
-            self._searching = False
-            self._problem, self.tuning = answer
-            self.front.show_tuning(self.tuning)
-            self.pick(self.tuning.recommended)
-            return
         self._source, learned = answer
         self._take(learned)
 
     def _failed(self, message: str) -> None:
-        self._searching = False
         self.controls.tell("It failed; nothing was replaced.", None)
-        self.workbench.notify(Level.ERROR, f"Compensation: {message}")
+        self.workbench.notify(Level.ERROR, f"Compensation: {message}", about=self)
 
     def _take(self, learned: Learned) -> None:
         self.learned = learned
@@ -277,22 +201,6 @@ class CompensationPanel(Panel):
         self.check.show_learned(learned)
         self.tabs.setCurrentIndex(CHECK)
 
-    def _show_tries(self, tries: tuple[Try, Try]) -> None:
-        assert self.tuning is not None, "a point was taken"
-        self.front.show_tries(*tries, self._unit(self.tuning.axis))
-
-    def _forget_trials(self) -> None:
-        self.trials.clear()
-        self.live.clear()
-
-    def _heard(self, event: Event) -> None:
-        if not isinstance(event, PlaybackFinished) or event.record is None or not event.completed:
-            return
-        trial = trial_of(event.record, self.controls.chosen)
-        if trial is not None:
-            self.trials[trial.compensated] = trial
-            self.live.show_trial(trial, self._unit(self.controls.chosen))
-
     def _come_forward(self, run: Run) -> None:
         """Come to the front again after a trial: the comparison of it has come there."""
         if run.record.metadata.get("trajectory") == NAME:
@@ -305,35 +213,26 @@ class CompensationPanel(Panel):
         if dock is not None:
             dock.raise_()
 
-    def _unit(self, axis: str) -> str:
-        return self.workbench.robot.unit(axis) or "m"
-
     def _refresh(self, state: SessionState) -> None:
-        controls, session, axis = self.controls, self.workbench.session, self.controls.chosen
-        unit = self._unit(axis) if axis else "m"
-        controls.before.setText(left(self.trials.get(False), unit))
-        controls.after.setText(left(self.trials.get(True), unit))
-        on = axis in session.compensated
-        controls.switch.setText("Take off" if on else "Put on")
-        controls.beyond.setText(beyond(session.beyond_inverse(axis)))
+        controls, axis = self.controls, self.controls.chosen
         no_axis = None if axis else "the robot has no piezo in open loop"
-        busy = "work is under way; stop it or wait" if self.job.running else no_axis
+        running = self.job.running or self.search.running
+        busy = "work is under way; stop it or wait" if running else no_axis
         record = None if self.workbench.record is not None else "no record is in hand"
         none = None if self.learned is not None else NOTHING
         other = self._other(axis)
-        still = state.locked or (None if state.activity is DeviceState.IDLE else "it moves")
-        point = None if self.tuning is not None else "there is no front yet: tune first"
+        point = None if self.search.tuning is not None else NO_FRONT
+        self.acting.refresh(state, other, self.search.tuning)
         allow(controls.simulate, busy, "Move the simulated axis over its range and learn from it")
         allow(controls.record, busy or record, "Learn from the record in hand")
         allow(controls.files, busy, "Learn from records with cmd and meas, or ref")
         allow(controls.open, busy, "Take the inverses of a file")
         allow(controls.save, none, "Keep these inverses in a file")
-        allow(controls.switch, still or (None if on else other), self._switch_tip())
-        allow(controls.trial, still or no_axis, "Play 6 s of swings over 60 % of the range")
         allow(controls.tune, busy, "Search gains of a PID loop at 5 kHz on the simulated axis")
         allow(controls.forward, other, "Feed the reference forward through the inverse in hand")
         allow(controls.keep, busy or point, "Write the front with the point that is marked")
-        working = self.job.running or state.activity is DeviceState.PLAYING
+        allow(controls.open_gains, busy, "Take the gains of a file, as rotemina tune writes one")
+        working = running or state.activity is DeviceState.PLAYING
         allow(controls.stop, None if working else "nothing is under way", "End it")
 
     def _other(self, axis: str) -> str | None:
@@ -343,35 +242,31 @@ class CompensationPanel(Panel):
         mine = self.learned.axis
         return None if mine == axis else f"the inverse in hand is of axis {mine}"
 
-    def _switch_tip(self) -> str:
-        if self.workbench.session.compensates_all:
-            return "Every set-point of this axis goes through the inverse; the axis stays in place"
-        return "Played trajectories go through the inverse; single moves go as they are told"
-
     def _connect(self) -> None:
         controls = self.controls
         for button, action in (
             (controls.simulate, self.learn_simulated),
             (controls.record, self.learn_record),
-            (controls.switch, self.switch),
+            (controls.switch, lambda: self.acting.switch(self.learned, self._source)),
+            (controls.apply, lambda: self.acting.apply(self.search.tuning, self.search.name)),
+            (controls.sweep, self.acting.sweep),
             (controls.trial, self.try_it),
             (controls.tune, self.tune),
             (controls.stop, self.stop),
         ):
             button.clicked.connect(action)
-        controls.axis.currentIndexChanged.connect(self._forget_trials)
+        controls.axis.currentIndexChanged.connect(lambda _: self.acting.forget())
         self._ask(controls.files, "Records", RECORDS, self.learn_files)
         self._ask(controls.open, "Inverses", INVERSES, lambda paths: self.open_file(paths[0]))
         self._ask(controls.save, "Keep inverses", INVERSES, lambda paths: self.save_file(paths[0]))
-        self._ask(controls.keep, "Keep gains", TUNINGS, lambda paths: self.keep(paths[0]))
+        self._ask(controls.keep, "Keep gains", TUNINGS, lambda paths: self.search.keep(paths[0]))
+        self._ask(controls.open_gains, "Gains", TUNINGS, lambda paths: self.search.open(paths[0]))
         self.job.told.connect(self._told)
         self.job.finished.connect(self._finished)
         self.job.failed.connect(self._failed)
-        self._trying.finished.connect(self._show_tries)
-        self._trying.failed.connect(self._failed)
-        self.front.picked.connect(self.pick)
+        self.search.failed.connect(self._failed)
         self.tabs.currentChanged.connect(self.views.setCurrentIndex)
-        self._happened.connect(self._heard)
+        self._happened.connect(self.acting.heard)
         self._unsubscribe = self.workbench.session.subscribe(self._happened.emit)
         self.workbench.refreshed.connect(self._refresh)
         self.workbench.theme_changed.connect(self._use_theme)
@@ -406,9 +301,8 @@ class CompensationPanel(Panel):
 
     def _close(self) -> None:
         self._unsubscribe()
-        self._enough.set()
         self.job.close()
-        self._trying.close()
+        self.search.close()
 
     def _lay_out(self) -> None:
         scroll = QScrollArea()

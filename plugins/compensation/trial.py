@@ -1,6 +1,7 @@
 """The motion by which compensation is tried, and what is left on it; free of Qt."""
 
 from dataclasses import dataclass
+from enum import StrEnum
 
 import numpy as np
 
@@ -14,11 +15,27 @@ _SWING, _FADED = 0.3, 0.75  # of the range: the first swing; how much less the l
 _ONSET_S, _SKIPPED_S = 1.0, 2.0
 
 
+class Help(StrEnum):
+    """What helped the axis on a trial."""
+
+    NONE = "without"
+    INVERSE = "with the inverse"
+    LOOP = "with feedback"
+    BOTH = "with both"
+
+    @classmethod
+    def of(cls, *, inverse: bool, loop: bool) -> "Help":
+        """Return it for what was on."""
+        if inverse:
+            return cls.BOTH if loop else cls.INVERSE
+        return cls.LOOP if loop else cls.NONE
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Trial:
     """What one play of the motion left, SI: rms about the mean, the mean, and the loop (n,)."""
 
-    compensated: bool
+    by: Help
     rms: float
     offset: float
     wanted: FloatArray
@@ -49,7 +66,10 @@ def trial_of(record: Record, axis: str) -> Trial | None:
     position = record.signal(axis, Tap.MEAS)[since]
     left = position - wanted
     return Trial(
-        f"compensation {axis}" in record.metadata,
+        Help.of(
+            inverse=f"compensation {axis}" in record.metadata,
+            loop=f"feedback {axis}" in record.metadata,
+        ),
         float(np.std(left)),
         float(np.mean(left)),
         wanted,

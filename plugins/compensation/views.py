@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
 from rotemina.app.shell.plot import SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.compensation.learning import Learned
-from rotemina.plugins.compensation.trial import Trial
+from rotemina.plugins.compensation.trial import Help, Trial
 from rotemina.plugins.compensation.words import HEAD, NOTHING, judged, reasons
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.tuning.objectives import Against
@@ -143,11 +143,12 @@ class CheckView(QWidget):
 
 
 class LiveView(QWidget):
-    """The loops of the trial motion without and with the inverse."""
+    """The loops of the trial motion without help, with the inverse, with feedback, with both."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
-        roles = {"without": "quiet", "with the inverse": "accent"}
+        names = zip(Help, ("quiet", "accent", "warning", "good"), strict=True)
+        roles = {one.value: role for one, role in names}
         self.loop = Curves(theme, "Reading over what is wanted [µ]", roles, "wanted [µ]")
         self.left = Curves(theme, "Reading − wanted, mean off [µ]", roles, "wanted [µ]")
         row = QHBoxLayout(self)
@@ -159,7 +160,7 @@ class LiveView(QWidget):
         """Draw a trial beside the other one."""
         self.loop.set_unit(unit)
         self.left.set_unit(unit)
-        name = "with the inverse" if trial.compensated else "without"
+        name = trial.by.value
         wanted, left = _MICRO * trial.wanted, trial.position - trial.wanted
         self.loop.draw(name, wanted, _MICRO * trial.position)
         self.left.draw(name, wanted, _MICRO * (left - left.mean()))

@@ -1,5 +1,8 @@
 """What the panel says, and in which numbers; free of Qt."""
 
+from collections.abc import Mapping
+
+from rotemina.app.display import label
 from rotemina.plugins.compensation.trial import Trial
 from rotemina.sim.compensate.inverse import Beyond
 from rotemina.sim.compensate.judgement import NAMES
@@ -8,9 +11,15 @@ from rotemina.sim.tuning.front import Point
 
 HEAD = ("inverse", "rms", "worst", "of range")
 NOTHING = "There is no inverse yet: learn one, or open a file."
-FORWARD_ONLY = (
-    "Gains are for a loop at 5 kHz. Neither the boards nor the simulated machine close one live: "
-    "they are tried here on the simulated loop, and kept in a file. What is put on is feed-forward."
+NO_FRONT = "there is no front yet: tune, or open gains"
+LIVE_LOOP = (
+    "The simulated machine closes the loop live, at 5 kHz; it is put on only where it is stable on "
+    "axes off by 5 % too. The boards close none: there, what is put on is feed-forward."
+)
+AT_A_LIMIT = "Its loop asks for more than the axis' range: move it away from the end."
+SWEEP = (
+    "Swing over all that the inverse saw, to wipe out what the axis went through before: takes off "
+    "most of a constant error (of a loop it is taken off anyway)"
 )
 _SAID = {
     Beyond.LOW: "below what it saw (clamped)",
@@ -51,6 +60,13 @@ def left(trial: Trial | None, unit: str) -> str:
     if trial is None:
         return "–"
     return f"{micro(trial.rms, unit)} rms, mean {micro(trial.offset, unit)}"
+
+
+def owned(owners: Mapping[str, str]) -> str | None:
+    """Return why the axes cannot be played: somebody drives one still."""
+    for axis, owner in owners.items():
+        return f"axis {label(axis)} is still driven by {owner}; wait, or stop it"
+    return None
 
 
 def beyond(said: Beyond) -> str:

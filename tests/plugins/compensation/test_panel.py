@@ -7,7 +7,7 @@ import pytest
 
 from rotemina.app.motion.state import PlaybackFinished
 from rotemina.plugins.compensation.learning import Learned, learned_from
-from rotemina.plugins.compensation.trial import trial_motion, trial_of
+from rotemina.plugins.compensation.trial import Help, trial_motion, trial_of
 from rotemina.plugins.compensation.words import beyond, judged, left, micro
 from rotemina.sim.compensate import anfis
 from rotemina.sim.compensate.errors import CompensationError
@@ -112,38 +112,85 @@ def test_learn_put_on_and_take_off(qtbot, panel, tmp_path, monkeypatch):
 
     # What a play of the trial motion left is shown beside the other state's.
     motion = trial_motion(ROBOT, "zn")
-    for metadata, state in (({}, False), ({"compensation zn": "PI"}, True)):
+    on = {"compensation zn": "PI"}, {"feedback zn": "zn.toml"}
+    for metadata, state in (
+        ({}, Help.NONE),
+        (on[0], Help.INVERSE),
+        (on[1], Help.LOOP),
+        (on[0] | on[1], Help.BOTH),
+    ):
         wanted = motion.signal("zn", Tap.CMD)
         signals = {("zn", Tap.CMD): wanted, ("zn", Tap.MEAS): 1.01 * wanted}
         said = {"trajectory": motion.metadata["name"], **metadata}
         played = Record.from_signals(motion.time_s, signals, {"zn": "m"}, said)
         panel._happened.emit(PlaybackFinished(played, True))
-        assert state in panel.trials
-    qtbot.waitUntil(lambda: "rms, mean" in controls.after.text(), timeout=LONG_MS)
+        assert state in panel.acting.trials
+    for told in controls.residuals.values():
+        qtbot.waitUntil(lambda told=told: "rms, mean" in told.text(), timeout=LONG_MS)
 
     controls.switch.click()
     qtbot.waitUntil(lambda: session.compensated == {}, timeout=LONG_MS)
 
 
-def test_a_search_is_stopped_and_a_point_of_its_front_tried_and_kept(qtbot, panel, tmp_path):
-    controls = panel.controls
+def test_a_search_is_stopped_and_a_point_of_its_front_tried_kept_applied_and_taken_off(
+    qtbot, panel, tmp_path
+):
+    controls, session, search = panel.controls, panel.workbench.session, panel.search
     controls.axis.setCurrentIndex(2)
+    qtbot.waitUntil(lambda: "there is no front yet" in controls.apply.toolTip(), timeout=LONG_MS)
     controls.generations.setValue(60)
     panel.tune()
     qtbot.waitUntil(lambda: "generations" in controls.doing.text(), timeout=LONG_MS)
     controls.stop.setEnabled(True)
     controls.stop.click()
-    qtbot.waitUntil(lambda: panel.tuning is not None, timeout=LONG_MS)
-    assert panel.tuning.provenance.done < 60
-    panel.pick(0)
-    assert panel.tuning.chosen == 0
+    qtbot.waitUntil(lambda: search.tuning is not None, timeout=LONG_MS)
+    assert search.tuning.provenance.done < 60
+    search.pick(0)
+    assert search.tuning.chosen == 0
     assert controls.point.text().startswith("Point 0: tracking ")
     curve = panel.front.step.plot._curves["position"]
     qtbot.waitUntil(lambda: curve.getData()[0] is not None, timeout=LONG_MS)
     x, y = panel.front._front[0] * (100.0, 1.0)
     assert panel.front.nearest(x, y) == 0
-    panel.keep(tmp_path / "zn.toml")
-    qtbot.waitUntil((tmp_path / "zn.toml").exists, timeout=LONG_MS)
+    search.keep(tmp_path / "zn.toml")
+    qtbot.waitUntil(lambda: search.name == "zn.toml", timeout=LONG_MS)
+
+    search.tuning = None
+    search.open(tmp_path / "zn.toml")
+    qtbot.waitUntil(lambda: search.tuning is not None, timeout=LONG_MS)
+    assert search.tuning.chosen == 0
+    qtbot.waitUntil(controls.apply.isEnabled, timeout=LONG_MS)
+    controls.apply.click()
+    qtbot.waitUntil(lambda: "zn" in session.regulated, timeout=LONG_MS)
+    assert session.regulated["zn"].name == "zn.toml, point 0"
+    qtbot.waitUntil(lambda: controls.apply.text() == "Take loop off", timeout=LONG_MS)
+    qtbot.waitUntil(controls.apply.isEnabled, timeout=LONG_MS)
+    controls.apply.click()
+    qtbot.waitUntil(lambda: session.regulated == {}, timeout=LONG_MS)
+
+    # Gains that are not stable on the axis are never applied.
+    best = search.tuning.best
+    bad = replace(best, gains=replace(best.gains, integral=9000.0))
+    search.tuning = replace(search.tuning, points=(bad,), chosen=0, recommended=0)
+    told = []
+    panel.workbench.noticed.connect(lambda *notice: told.append(notice))
+    panel.acting.apply(search.tuning, "bad.toml")
+    qtbot.waitUntil(lambda: any("nothing was applied" in str(one) for one in told), timeout=LONG_MS)
+    assert session.regulated == {}
+
+
+def test_a_trial_waits_until_nobody_drives_the_axis(qtbot, panel):
+    controls, session = panel.controls, panel.workbench.session
+    controls.axis.setCurrentIndex(2)
+    qtbot.waitUntil(controls.trial.isEnabled, timeout=LONG_MS)
+    session.reserve("somebody")
+    said = "is still driven by somebody; wait, or stop it"
+    for button in (controls.trial, controls.sweep, controls.apply):
+        qtbot.waitUntil(lambda button=button: said in button.toolTip(), timeout=LONG_MS)
+        assert not button.isEnabled()
+    session.set_free("somebody")
+    qtbot.waitUntil(controls.trial.isEnabled, timeout=LONG_MS)
+    assert "no inverse is on" in controls.sweep.toolTip()
 
 
 @pytest.mark.slow
@@ -155,16 +202,25 @@ def test_before_and_after_on_the_simulated_machine(qtbot, panel):
     controls.axis.setCurrentIndex(2)
     panel.learn_simulated()
     qtbot.waitUntil(lambda: panel.learned is not None, timeout=4 * LONG_MS)
-    for on in (False, True):
-        if on:
+    for by in (Help.NONE, Help.INVERSE):
+        if by is Help.INVERSE:
             qtbot.waitUntil(controls.switch.isEnabled, timeout=LONG_MS)
             controls.switch.click()
             qtbot.waitUntil(lambda: "zn" in session.compensated, timeout=LONG_MS)
-        qtbot.waitUntil(lambda: "zn" not in session.snapshot().owners, timeout=LONG_MS)
         qtbot.waitUntil(controls.trial.isEnabled, timeout=LONG_MS)
         controls.trial.click()
-        qtbot.waitUntil(lambda on=on: on in panel.trials, timeout=LONG_MS)
-    assert panel.trials[True].rms < 0.15 * panel.trials[False].rms
+        qtbot.waitUntil(lambda by=by: by in panel.acting.trials, timeout=LONG_MS)
+    trials = panel.acting.trials
+    assert trials[Help.INVERSE].rms < 0.15 * trials[Help.NONE].rms
+    mean = trials[Help.INVERSE].offset
+    qtbot.waitUntil(controls.sweep.isEnabled, timeout=LONG_MS)
+    controls.sweep.click()
+    qtbot.waitUntil(lambda: bool(session.snapshot().owners), timeout=LONG_MS)
+    qtbot.waitUntil(controls.trial.isEnabled, timeout=LONG_MS)
+    panel.acting.forget()
+    controls.trial.click()
+    qtbot.waitUntil(lambda: Help.INVERSE in trials, timeout=LONG_MS)
+    assert abs(trials[Help.INVERSE].offset) < max(abs(mean), 0.2e-6)
 
 
 def test_a_trial_is_told_from_other_plays():
@@ -177,7 +233,7 @@ def test_a_trial_is_told_from_other_plays():
     said = {"trajectory": "compensation trial"}
     trial = trial_of(Record.from_signals(motion.time_s, signals, {"zn": "m"}, said), "zn")
     assert trial is not None
-    assert not trial.compensated
+    assert trial.by is Help.NONE
     assert (trial.rms, trial.offset) == pytest.approx((0.0, 2e-7), abs=1e-12)
     assert trial_of(Record.from_signals(motion.time_s, signals, {"zn": "m"}), "zn") is None
     assert trial_of(Record.from_signals(motion.time_s, signals, {"zn": "m"}, said), "thx") is None
