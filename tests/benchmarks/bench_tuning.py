@@ -2,7 +2,8 @@
 
 The search is that of ``rotemina tune``: 50 generations of 60 individuals on nano Z with hysteresis
 12 %, creep 2 % per decade and noise; 60 s on two cores at most. Then the time of a sample of the
-simulated loop and of the live controller, and the recommended point's own levels.
+simulated loop and of the live controller, the recommended point's own levels, and how much of a
+core the simulated machine takes in real time with a loop on and off.
 """
 
 import time
@@ -11,8 +12,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from rotemina.drivers.clock import VirtualClock
+from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.feedback.feed_forward import FeedForward
 from rotemina.sim.feedback.lead import lead_taps
+from rotemina.sim.feedback.regulation import Regulation
 from rotemina.sim.feedback.stability import LoopAnalysis
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -97,3 +101,24 @@ def test_the_time_of_a_sample() -> None:
         f"\nsimulated loop {1e6 * simulated_s:.2f} µs a sample, live controller "
         f"{1e6 * live_s:.2f} µs a sample, a trial on step and triangle {1e3 * trial_s:.1f} ms"
     )
+
+
+def test_a_live_loop_leaves_most_of_a_core() -> None:
+    problem = TuningProblem(ROBOT, "zn", RATE_HZ, spread=0.0)
+    gains = problem.gains_of([0.5, 0.05, 0.1, 0.9, 0.8, 0.0])
+    clock, whole_s = VirtualClock(), 20.0
+    machine = Simulator(ROBOT, clock=clock)
+    machine.open()
+    clock.advance(0.1)
+    machine.read()
+    shares = []
+    for loop in (None, Regulation(ROBOT, "zn", gains, RATE_HZ)):
+        machine.regulate("zn", loop)
+        begin_s = time.process_time()
+        for number in range(round(whole_s / 0.016)):
+            machine.move_to({"zn": 20e-6 if number % 20 < 10 else 40e-6})
+            clock.advance(0.016)
+            machine.read()
+        shares.append((time.process_time() - begin_s) / whole_s)
+    print(f"\nsimulated machine: {shares[0]:.1%} of a core, with a loop at 5 kHz {shares[1]:.1%}")
+    assert shares[1] < 0.2

@@ -215,7 +215,7 @@ def test_before_and_after_on_the_simulated_machine(qtbot, panel):
     mean = trials[Help.INVERSE].offset
     qtbot.waitUntil(controls.sweep.isEnabled, timeout=LONG_MS)
     controls.sweep.click()
-    qtbot.waitUntil(lambda: bool(session.snapshot().owners), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: not controls.trial.isEnabled(), timeout=LONG_MS)
     qtbot.waitUntil(controls.trial.isEnabled, timeout=LONG_MS)
     panel.acting.forget()
     controls.trial.click()
