@@ -54,7 +54,8 @@ class Arrangement(QObject):
         """Keep the layout as it is under a name, in the place of one of that name."""
         objection = self.kept.objection(name)
         if objection is not None:
-            self._bench.notify(Level.WARNING, f"The layout is not saved: {objection}.")
+            text = f"The layout is not saved: {objection}."
+            self._bench.notify(Level.WARNING, text, about="window.md#layouts")
             return
         self.kept.keep(name, self._window.saveState(layouts.VERSION))
         self._bench.notify(Level.GOOD, f"The layout is saved as {name!r}.")
@@ -63,7 +64,9 @@ class Arrangement(QObject):
         """Bring back a layout that was kept."""
         if not self._use(self.kept.state(name)):
             self._bench.notify(
-                Level.WARNING, f"The layout {name!r} cannot be read; delete it and save it anew."
+                Level.WARNING,
+                f"The layout {name!r} cannot be read; delete it and save it anew.",
+                about="window.md#layouts",
             )
 
     def restore(self) -> None:

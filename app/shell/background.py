@@ -6,6 +6,7 @@ from typing import NamedTuple, TypeVar
 
 from PySide6.QtCore import QObject, QRunnable, QThreadPool, Signal
 
+from rotemina.app.shell.help_topics import explained
 from rotemina.sim.errors import InputError
 
 logger = logging.getLogger(__name__)
@@ -30,7 +31,7 @@ class _Job(QRunnable):
         try:
             answer = self._work()
         except InputError as error:
-            failure = str(error)
+            failure = explained(error)
         except Exception as error:  # a fault of the program must reach the operator, not vanish
             logger.exception("work in the background failed")
             failure = f"a fault of the program: {type(error).__name__}: {error}"
@@ -43,7 +44,7 @@ class Background(QObject):
     An answer that was overtaken by a later request of the same kind is dropped.
     """
 
-    _finished = Signal(int, object, str)
+    _finished = Signal(int, object, object)
 
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
@@ -61,7 +62,10 @@ class Background(QObject):
         done: Callable[[Answer], None],
         failed: Callable[[str], None],
     ) -> None:
-        """Start ``work``; call ``done(answer)`` or ``failed(message)`` on the window's thread."""
+        """Start ``work``; call ``done(answer)`` or ``failed(message)`` on the window's thread.
+
+        The message of an :class:`InputError` knows its page of the help.
+        """
         self._count += 1
         number = self._latest[kind] = self._count
         self._requests[number] = _Request(kind, done, failed)

@@ -5,7 +5,6 @@ from collections.abc import Callable, Mapping
 from PySide6.QtCore import QEvent, QObject
 from PySide6.QtWidgets import QAbstractButton, QDockWidget, QTabWidget, QToolButton, QWidget
 
-from rotemina.app.panel import Panel
 from rotemina.app.shell.controls import plain_tip
 
 _GAP = 2  # px between the buttons of a title bar
@@ -86,12 +85,3 @@ class TabHelp(QObject):
     def _tell(self) -> None:
         self.button.setVisible(bool(self._pages.get(self._tabs.currentIndex())))
         self.button.tell(self._tabs.tabText(self._tabs.currentIndex()))
-
-
-def page_at(widget: QWidget | None) -> str:
-    """Return the page of the panel that a widget is in, "" where there is none."""
-    while widget is not None:
-        if isinstance(widget, Panel):
-            return widget.help_page
-        widget = widget.parentWidget()
-    return ""

@@ -1,6 +1,13 @@
 """The log page: all that the program told, to be filtered and copied."""
 
-from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt, QTimer
+from PySide6.QtCore import (
+    QAbstractTableModel,
+    QModelIndex,
+    QPersistentModelIndex,
+    Qt,
+    QTimer,
+    Signal,
+)
 from PySide6.QtGui import QColor, QGuiApplication, QHideEvent, QShowEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -81,7 +88,14 @@ class MessageTable(QAbstractTableModel):
 
 
 class LogPage(QDialog):
-    """A window of its own beside the operator's, with filter and copy."""
+    """A window of its own beside the operator's, with filter, copy and help.
+
+    Signals
+    -------
+    asked(str) : which page of the help is to be opened.
+    """
+
+    asked = Signal(str)
 
     def __init__(self, log: MessageLog, theme: Theme, parent: QWidget) -> None:
         super().__init__(parent)
@@ -101,6 +115,11 @@ class LogPage(QDialog):
         self.copy = QPushButton("Copy")
         self.copy.setAutoDefault(False)
         self.copy.clicked.connect(self.copy_messages)
+        self.help = QPushButton("?")
+        self.help.setAutoDefault(False)
+        self.help.setAccessibleName("Help on the chosen message")
+        self.help.clicked.connect(lambda: self.asked.emit(self._page()))
+        self.table.selectionModel().selectionChanged.connect(lambda *_: self._allow_help())
         self._lay_out()
         self.level.currentIndexChanged.connect(lambda _: self._show_messages())
         self.words.textChanged.connect(lambda _: self._show_messages())
@@ -143,6 +162,17 @@ class LogPage(QDialog):
         self.count.setText(f"{len(picked)} of {len(messages)} messages")
         tip = "Copy the selected messages, or all that are shown"
         allow(self.copy, None if picked else "no message is shown", tip)
+        self._allow_help()
+
+    def _page(self) -> str:
+        rows = self.table.selectionModel().selectedRows()
+        return self.model.message(rows[0].row()).page if len(rows) == 1 else ""
+
+    def _allow_help(self) -> None:
+        one = len(self.table.selectionModel().selectedRows()) == 1
+        none = "no page is about it" if one else "choose one message"
+        page = self._page()
+        allow(self.help, None if page else none, f"What the message means: {page}" if page else "")
 
     def _make_table(self) -> QTableView:
         table = QTableView()
@@ -166,6 +196,7 @@ class LogPage(QDialog):
         top.addWidget(self.level)
         top.addWidget(self.words, 1)
         top.addWidget(self.count)
+        top.addWidget(self.help)
         top.addWidget(self.copy)
         column = QVBoxLayout(self)
         column.addLayout(top)

@@ -25,8 +25,9 @@ from rotemina.app.shell import commands, key_help, layout_menu, layouts
 from rotemina.app.shell.arrangement import Arrangement
 from rotemina.app.shell.column_mapping import ask_columns
 from rotemina.app.shell.entries import Entry, command_entries, panel_entries
-from rotemina.app.shell.help_button import DockHelp, TabHelp, page_at
+from rotemina.app.shell.help_button import DockHelp, TabHelp
 from rotemina.app.shell.help_page import HelpPage
+from rotemina.app.shell.help_topics import page_at
 from rotemina.app.shell.host import find_panels
 from rotemina.app.shell.late_panels import LatePanels
 from rotemina.app.shell.log_page import LogPage
@@ -90,6 +91,8 @@ class MainWindow(QMainWindow):
         self._stop_watch = StopWatch(workbench, self.stop_button, self.emergency_button, self)
         application.installEventFilter(self._stop_watch)
         workbench.noticed.connect(self.notices.show_notice)
+        self.notices.asked.connect(self.help_page.open_page)
+        self.log_page.asked.connect(self.help_page.open_page)
         workbench.refreshed.connect(self._refresh)
         workbench.plan_changed.connect(lambda _: self.bring_up("trajectory"))
         workbench.run_changed.connect(lambda _: self.bring_up("comparison"))
@@ -156,7 +159,8 @@ class MainWindow(QMainWindow):
         if dock is not None:
             self.removeDockWidget(dock)
             dock.deleteLater()
-        self.workbench.notify(Level.ERROR, f"Panel {name!r} is left out: {reason}")
+        text = f"Panel {name!r} is left out: {reason}"
+        self.workbench.notify(Level.ERROR, text, about="plugins.md#what-a-bad-plugin-can-do")
 
     def _make_menus(self) -> None:
         for command in self.commands():
@@ -221,7 +225,8 @@ class MainWindow(QMainWindow):
     def ask_save(self) -> None:
         """Ask where to, and save the record in hand."""
         if self.workbench.record is None:
-            self.workbench.notify(Level.WARNING, "There is no record to save: play or open one.")
+            text = "There is no record to save: play or open one."
+            self.workbench.notify(Level.WARNING, text, about="comparison.md")
             return
         dialog = self._file_dialog("Save record", "Records (*.csv *.csv.gz)")
         dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)

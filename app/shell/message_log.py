@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from datetime import datetime
 
+from rotemina.app.shell.help_topics import page_by_name, page_for, page_of
 from rotemina.app.shell.workbench import Level
 
 MOST = 2000  # messages that are kept
@@ -24,6 +25,7 @@ class Message:
     level: Level
     source: str
     text: str
+    page: str = ""  # of the help
 
     @property
     def line(self) -> str:
@@ -66,7 +68,7 @@ class MessageLog(logging.Handler):
 
     def notice(self, level: Level, text: str) -> None:
         """Add what the window tells the operator."""
-        self._add(level, "window", text)
+        self._add(level, "window", text, page_of(text))
 
     def emit(self, record: logging.LogRecord) -> None:
         """Add a record of the log."""
@@ -80,12 +82,14 @@ class MessageLog(logging.Handler):
         except Exception:  # a badly written log call must not end what it reports on
             self.handleError(record)
             return
-        self._add(level, record.name.removeprefix(_PACKAGE), text)
+        error = record.exc_info[1] if record.exc_info else None
+        page = (page_for(error) if error is not None else "") or page_by_name(record.name)
+        self._add(level, record.name.removeprefix(_PACKAGE), text, page)
 
-    def _add(self, level: Level, source: str, text: str) -> None:
+    def _add(self, level: Level, source: str, text: str, page: str) -> None:
         if len(text) > LONGEST:
             text = f"{text[:LONGEST]} …"
-        message = Message(self._clock(), level, source, text)
+        message = Message(self._clock(), level, source, text, page)
         with self._guard:
             self._messages.append(message)
             self._count += 1

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from rotemina.app.shell.help_topics import page_of
 from rotemina.app.shell.workbench import Level
 
 MOST_HEIGHT = 62
@@ -20,9 +21,16 @@ MOST = 3  # older notices give way; the log keeps them all
 
 
 class Notice(QFrame):
-    """One message with a button that closes it."""
+    """One message with a button that closes it, and one that opens the page on it.
+
+    Signals
+    -------
+    closed()
+    asked(str) : which page is to be opened.
+    """
 
     closed = Signal()
+    asked = Signal(str)
 
     def __init__(self, level: Level, text: str) -> None:
         super().__init__()
@@ -45,11 +53,27 @@ class Notice(QFrame):
         row = QHBoxLayout(self)
         row.setContentsMargins(10, 4, 6, 4)
         row.addWidget(message, 1)
+        page = page_of(text)
+        if page:
+            self.help = QToolButton()
+            self.help.setText("?")
+            self.help.setAutoRaise(True)
+            self.help.setToolTip(f"What this means, and what to do: {page}")
+            self.help.setAccessibleName("Help on this notice")
+            self.help.clicked.connect(lambda _=False: self.asked.emit(page))
+            row.addWidget(self.help, 0, Qt.AlignmentFlag.AlignTop)
         row.addWidget(close, 0, Qt.AlignmentFlag.AlignTop)
 
 
 class NoticeBar(QWidget):
-    """The notices that are still open, newest first; takes no room when there is none."""
+    """The notices that are still open, newest first; takes no room when there is none.
+
+    Signals
+    -------
+    asked(str) : which page of the help is to be opened.
+    """
+
+    asked = Signal(str)
 
     def __init__(self) -> None:
         super().__init__()
@@ -65,6 +89,7 @@ class NoticeBar(QWidget):
                 self._remove(open_notice)
         notice = Notice(level, text)
         notice.closed.connect(lambda: self._remove(notice))
+        notice.asked.connect(self.asked)
         self._open.insert(0, notice)
         self._column.insertWidget(0, notice)
         for old in self.notices()[MOST:]:

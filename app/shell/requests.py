@@ -6,6 +6,7 @@ from typing import NamedTuple
 from PySide6.QtCore import QObject, Signal
 
 from rotemina.app.motion.session import MotionSession
+from rotemina.app.shell.help_topics import explained
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.settings import SettingValue
 from rotemina.sim.errors import InputError
@@ -31,7 +32,7 @@ class Requests(QObject):
     ports_offered(tuple of OfferedPort) : where virtual boards listen now.
     """
 
-    refused = Signal(str)
+    refused = Signal(object)
     ports_offered = Signal(object)
 
     def __init__(self, session: MotionSession) -> None:
@@ -132,6 +133,6 @@ class Requests(QObject):
         try:
             request()
         except (InputError, OSError, ValueError, RuntimeError) as error:
-            self.refused.emit(str(error))
+            self.refused.emit(explained(error))
             return False
         return True

@@ -19,6 +19,7 @@ from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import CommandRefused, Event, Faulted, PlaybackFinished
 from rotemina.app.settings import Settings
 from rotemina.app.shell.background import Background
+from rotemina.app.shell.help_topics import Explained, page_for, page_of
 from rotemina.app.shell.progress import Progress
 from rotemina.app.shell.replaying import Replaying, opened, remark
 from rotemina.app.shell.requests import Requests
@@ -92,7 +93,7 @@ class Workbench(Requests):
     plan_changed(Plan) : a trajectory was loaded and its dry run is done.
     run_changed(Run) : a record was opened or a playback ended, and model and real are compared.
     busy_changed(str) : what is being worked on in the background, or "".
-    noticed(Level, str) : something to tell the operator.
+    noticed(Level, Explained) : something to tell the operator, a text with its page of the help.
     theme_changed(Theme)
     closing() : the window goes; what a panel has under way must end before this returns.
     """
@@ -102,7 +103,7 @@ class Workbench(Requests):
     plan_changed = Signal(object)
     run_changed = Signal(object)
     busy_changed = Signal(str)
-    noticed = Signal(object, str)
+    noticed = Signal(object, object)
     theme_changed = Signal(object)
     closing = Signal()
     _happened = Signal(object)
@@ -125,7 +126,7 @@ class Workbench(Requests):
         self.progress: Progress | None = None
         self._background = Background(self)
         self._exceeded.connect(self._tell_excess)
-        self._told.connect(lambda text: self.notify(Level.WARNING, text))
+        self._told.connect(lambda text: self.notify(Level.WARNING, text, about="motion.md"))
         # Before this subscribes itself: when it hears of an end, the playback knows it already.
         self.playback = Playback(session, self._exceeded.emit)
         self.operation = Operation(
@@ -175,8 +176,14 @@ class Workbench(Requests):
         """Whether work in the background has yet to end."""
         return self._background.busy
 
-    def notify(self, level: Level, text: str) -> None:
-        """Tell the operator something."""
+    def notify(self, level: Level, text: str, about: object = None) -> None:
+        """Tell the operator something.
+
+        ``about`` is the error that is told of, or a widget of the panel that tells, or the name
+        of a page: the notice has a "?" that opens the page on it. A text that knows its page, as
+        those of failures in the background do, needs none.
+        """
+        text = Explained(text, page_of(text) or page_for(about))
         logger.log(logging.WARNING if level in (Level.WARNING, Level.ERROR) else logging.INFO, text)
         self.noticed.emit(level, text)
 
@@ -191,7 +198,8 @@ class Workbench(Requests):
         """Play the planned trajectory; a refusal becomes a notice."""
         plan = self.plan
         if plan is None:
-            self.notify(Level.WARNING, "There is no trajectory to play: load one first.")
+            text = "There is no trajectory to play: load one first."
+            self.notify(Level.WARNING, text, about="trajectory.md")
         else:
             self.ask(
                 lambda: self.playback.play(
@@ -251,7 +259,8 @@ class Workbench(Requests):
         """Write the record in hand to a file; it counts as unsaved until that is done."""
         record = self.record
         if record is None:
-            self.notify(Level.WARNING, "There is no record to save: play or open one first.")
+            text = "There is no record to save: play or open one first."
+            self.notify(Level.WARNING, text, about="comparison.md")
             return
 
         def done(_: None) -> None:
@@ -267,7 +276,7 @@ class Workbench(Requests):
         def show(replay: Replay) -> None:
             told = remark(replay, self.robot)
             if self.ask(lambda: self.replaying.show(replay)) and told is not None:
-                self.notify(Level.WARNING, told)
+                self.notify(Level.WARNING, told, about=replay)
 
         opening = f"Opening {path.name} …"
         self.work("replay", opening, lambda: opened(path, self.robot), show)
@@ -360,7 +369,8 @@ class Workbench(Requests):
         self.plan = plan
         self.plan_changed.emit(plan)
         if not plan.dry_run.allowed:
-            self.notify(Level.WARNING, f"{plan.name}: {plan.dry_run.objections[0]}")
+            text = f"{plan.name}: {plan.dry_run.objections[0]}"
+            self.notify(Level.WARNING, text, about="trajectory.md")
 
     def _set_run(self, run: Run) -> None:
         self.run = run
@@ -369,7 +379,7 @@ class Workbench(Requests):
 
     def _on_event(self, event: Event) -> None:
         if isinstance(event, Faulted | CommandRefused):
-            self.notify(Level.ERROR, event.message)
+            self.notify(Level.ERROR, event.message, about=event)
         elif isinstance(event, PlaybackFinished):
             self._compare_played(event.record, event.completed)
 
@@ -377,6 +387,7 @@ class Workbench(Requests):
         self.notify(
             Level.ERROR,
             f"Playback paused: {excess.text}. Look at the machine; then go on, or end it.",
+            about=excess,
         )
 
     def _keep(self, record: Record, name: str) -> None:
@@ -401,7 +412,8 @@ class Workbench(Requests):
     def _compare_played(self, record: Record | None, completed: bool) -> None:
         name = self.plan.name if self.plan else "playback"
         if record is None:
-            self.notify(Level.WARNING, f"{name}: stopped before its first row was played.")
+            text = f"{name}: stopped before its first row was played."
+            self.notify(Level.WARNING, text, about="trajectory.md")
             return
         # Kept before anything else: no comparison that fails, nor the next run, may lose it.
         self.record = self.unsaved = record
@@ -409,7 +421,8 @@ class Workbench(Requests):
         if self.playback.state.phase is PlaybackPhase.PAUSED:
             return  # compared when it has ended
         if not completed:
-            self.notify(Level.WARNING, f"{name}: stopped after {record.duration_s:.2f} s.")
+            text = f"{name}: stopped after {record.duration_s:.2f} s."
+            self.notify(Level.WARNING, text, about="trajectory.md")
         self.work(
             "played run",
             "Comparing model and real …",

@@ -181,7 +181,7 @@ class CalibrationPanel(Panel):
         if run.record is not None:
             self.fit_record(f"calibration of {self.procedure.chosen}", run.record)
         elif state.phase is Phase.FAILED:
-            self.workbench.notify(Level.ERROR, f"Calibration: {state.message}.")
+            self.workbench.notify(Level.ERROR, f"Calibration: {state.message}.", about=self)
 
     def _fit(self, records: Callable[[], list[tuple[str, Record]]]) -> None:
         axis, robot = self.procedure.chosen, self.workbench.robot
@@ -216,7 +216,7 @@ class CalibrationPanel(Panel):
             self.stored.show_stored(answer[0])
             self.tabs.setTabText(_STORED, f"Stored ({len(answer[0])})" if answer[0] else "Stored")
             for problem in answer[1]:
-                self.workbench.notify(Level.WARNING, problem)
+                self.workbench.notify(Level.WARNING, problem, about=self)
 
         self.workbench.work("stored calibrations", "Reading calibrations …", work, done)
 

@@ -36,4 +36,4 @@ class PortFinder(QObject):
         self._background.run("ports", serial_ports, self.found.emit, self._failed)
 
     def _failed(self, message: str) -> None:
-        self._notify(Level.WARNING, f"Serial ports cannot be listed: {message}")
+        self._notify(Level.WARNING, f"Serial ports cannot be listed: {message}", about=self)

@@ -91,7 +91,9 @@ class TipSection(Section):
         if moved or why is not None:
             self.question.hide()
             self._workbench.notify(
-                Level.WARNING, "The tip has moved: no floor was taught. Ask again where it rests."
+                Level.WARNING,
+                "The tip has moved: no floor was taught. Ask again where it rests.",
+                about=self,
             )
 
     def _floor(self) -> float | None:

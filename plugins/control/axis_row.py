@@ -147,6 +147,7 @@ class AxisRow(QFrame):
             self._workbench.notify(
                 Level.WARNING,
                 f"{label(self._axis)}: the robot file gives no max_speed; use steps instead.",
+                about=self,
             )
             return
         self.holding.begin(button, sign * speed)
@@ -155,7 +156,7 @@ class AxisRow(QFrame):
         text, axis = self.target.text(), self._axis
         target = typed(text, self._scale)
         if target is None:
-            self._workbench.notify(Level.WARNING, no_position(axis, text, self._scale))
+            self._workbench.notify(Level.WARNING, no_position(axis, text, self._scale), about=self)
             return
         if self._command is None:
             return  # it is being locked, for the reason in the tooltip

@@ -135,7 +135,7 @@ class EffectsPanel(Panel):
             lambda axis: self._change(replace(self.chain.asked[self.place], from_axis=axis))
         )
         self.live.changed.connect(self._show_standing)
-        self.live.refused.connect(lambda text: self.workbench.notify(Level.ERROR, text))
+        self.live.refused.connect(lambda text: self.workbench.notify(Level.ERROR, text, about=self))
         self.live.replaced.connect(self._adopt)
         self.workbench.refreshed.connect(self._refresh)
         self.workbench.theme_changed.connect(lambda _: self._show())
@@ -180,7 +180,7 @@ class EffectsPanel(Panel):
     def _refuse(self, name: str, reason: str) -> None:
         one = self.chain.effects[self.place]
         where = f"{label(one.asked.axis)} {one.effect.title}, {spoken(name)}"
-        self.workbench.notify(Level.ERROR, f"{where}: {reason}")
+        self.workbench.notify(Level.ERROR, f"{where}: {reason}", about=self)
 
     def _undo(self) -> None:
         self.chain, self._last = self._past.pop(), None
@@ -191,7 +191,7 @@ class EffectsPanel(Panel):
         try:
             chain = self.chain.changed(self.place, asked)
         except InputError as error:
-            self.workbench.notify(Level.ERROR, str(error))
+            self.workbench.notify(Level.ERROR, str(error), about=error)
             self._show()
             return
         self._use(chain, tuned)

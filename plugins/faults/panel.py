@@ -124,7 +124,7 @@ class FaultsPanel(Panel):
         kind = Kind.NOTE if injected == text else Kind.INJECTED
         self.history.add(now(), Kind.REFUSED if complaint else kind, injected)
         if complaint:
-            self.workbench.notify(Level.WARNING, text)
+            self.workbench.notify(Level.WARNING, text, about=self)
 
     def _empty(self) -> None:
         self.history.clear()

@@ -101,7 +101,9 @@ class Actions(QObject):
             self._workbench.notify(Level.GOOD, f"Saved {path}")
             if not QDesktopServices.openUrl(QUrl.fromLocalFile(str(path))):
                 self._workbench.notify(
-                    Level.WARNING, f"{path}: nothing here opens it; open it in a browser"
+                    Level.WARNING,
+                    f"{path}: nothing here opens it; open it in a browser",
+                    about=self,
                 )
 
         self._workbench.work(
@@ -147,7 +149,7 @@ class Actions(QObject):
         try:
             self._workbench.session.set_effects((*diagnosis.robot.effects, *diagnosis.fitted))
         except InputError as error:
-            self._workbench.notify(Level.ERROR, str(error))
+            self._workbench.notify(Level.ERROR, str(error), about=error)
 
 
 def write_report(

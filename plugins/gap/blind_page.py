@@ -163,7 +163,7 @@ class BlindPage(QDialog):
 
     def _fail(self, message: str) -> None:
         self._show_end("failed")
-        self._workbench.notify(Level.ERROR, message)
+        self._workbench.notify(Level.ERROR, message, about=self)
 
     def _show_state(self) -> None:
         running = self.run.running

@@ -216,7 +216,9 @@ class GapPanel(Panel):
         """Diagnose the chosen records; what was answered before stays until there is another."""
         chosen = self.records.chosen
         if not chosen:
-            self.workbench.notify(Level.WARNING, "There are no records to diagnose: choose some.")
+            self.workbench.notify(
+                Level.WARNING, "There are no records to diagnose: choose some.", about=self
+            )
             return
         names = [each.name for each in chosen]
         doing = "waiting for the end of what was stopped" if self.diagnosing.busy else "reading"
@@ -249,7 +251,7 @@ class GapPanel(Panel):
 
     def _fail(self, message: str) -> None:
         self.doing.show_text("The diagnosis failed; the notice above says why.")
-        self.workbench.notify(Level.ERROR, message)
+        self.workbench.notify(Level.ERROR, message, about=self)
         self._show_state()
 
     # --- what is shown ----------------------------------------------------------------------------

@@ -121,6 +121,7 @@ class RecordChoice(QToolButton):
                 self._workbench.notify(
                     Level.WARNING,
                     f"{path.name}: it has no header; add it by itself to name its columns",
+                    about=self,
                 )
             self._count_read()
 

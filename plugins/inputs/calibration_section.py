@@ -103,7 +103,9 @@ class CalibrationSection(Section):
         self._now = None
         if lost:
             self._workbench.notify(
-                Level.WARNING, f"The changed calibration of {' and '.join(lost)} was not kept."
+                Level.WARNING,
+                f"The changed calibration of {' and '.join(lost)} was not kept.",
+                about=self,
             )
 
     @property

@@ -171,7 +171,7 @@ class MappingSection(Section):
             self._profiles.edit(change(self._edited))
         except InputError as error:
             self._tell(f"Refused: {error}")
-            self._workbench.notify(Level.ERROR, str(error))
+            self._workbench.notify(Level.ERROR, str(error), about=error)
             return False
         self._tell(HINT)
         return True

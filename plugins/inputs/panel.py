@@ -61,7 +61,7 @@ class InputsPanel(Panel):
         self.profiles = ProfileChoice(self._devices, workbench.settings, axes)
         wrong = self.profiles.begin()
         if wrong is not None:  # told when the window is there to show it
-            QTimer.singleShot(0, self, lambda: workbench.notify(Level.WARNING, wrong))
+            QTimer.singleShot(0, self, lambda: workbench.notify(Level.WARNING, wrong, about=self))
         self._make_parts()
         self._lay_out()
         workbench.refreshed.connect(self._refresh)

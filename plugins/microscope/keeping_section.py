@@ -36,7 +36,7 @@ class KeepingSection(Section):
         self._workbench, self._view = workbench, view
         data = workbench.operation.data
         self._pictures = data / "pictures"
-        self._told.connect(lambda text: workbench.notify(Level.WARNING, text))
+        self._told.connect(lambda text: workbench.notify(Level.WARNING, text, about=self))
         self.filming = Filming(microscope, data / "videos", self._told.emit)
         self.snapshot = button("Snapshot", self._snap)
         self.record = button("● Video", self._toggle)
@@ -129,4 +129,4 @@ class KeepingSection(Section):
             try:
                 self.filming.end().close()
             except InputError as error:
-                self._workbench.notify(Level.ERROR, str(error))
+                self._workbench.notify(Level.ERROR, str(error), about=error)

@@ -109,7 +109,7 @@ class PenetrationPanel(Panel):
         """Arm the parameters as they are shown, or say why not."""
         self.form.take()  # a field that is still being edited counts too
         if self.form.complaint:
-            self.workbench.notify(Level.ERROR, self.form.complaint)
+            self.workbench.notify(Level.ERROR, self.form.complaint, about=self)
             return
         parameters = self.form.parameters
         self.workbench.ask(lambda: self._operation.arm_penetration(parameters))
@@ -120,7 +120,9 @@ class PenetrationPanel(Panel):
         def done(parameters: PenetrationParameters) -> None:
             if self._penetration.status.phase in FIXED:
                 self.workbench.notify(
-                    Level.WARNING, f"{path.name} is not taken: a penetration is armed or runs."
+                    Level.WARNING,
+                    f"{path.name} is not taken: a penetration is armed or runs.",
+                    about=self,
                 )
                 return
             self.form.show_parameters(parameters)
@@ -134,7 +136,9 @@ class PenetrationPanel(Panel):
         """Write the parameters to a file."""
         self.form.take()
         if self.form.complaint:
-            self.workbench.notify(Level.ERROR, f"Nothing is saved: {self.form.complaint}")
+            self.workbench.notify(
+                Level.ERROR, f"Nothing is saved: {self.form.complaint}", about=self
+            )
             return
         parameters = self.form.parameters
         self.workbench.work(
@@ -209,7 +213,9 @@ class PenetrationPanel(Panel):
         if status.problem != self._problem:
             self._problem = status.problem
             if status.problem:
-                self.workbench.notify(Level.WARNING, f"The run was not logged: {status.problem}")
+                self.workbench.notify(
+                    Level.WARNING, f"The run was not logged: {status.problem}", about=self
+                )
 
     def _look(self, status: PenetrationStatus, state: SessionState) -> None:
         """Find out why it cannot be armed now, when anything has changed that counts."""
@@ -259,7 +265,9 @@ class PenetrationPanel(Panel):
             self.log.take_file(runs)
             if problems:
                 self.workbench.notify(
-                    Level.WARNING, f"{len(problems)} lines of the log are none: {problems[0]}"
+                    Level.WARNING,
+                    f"{len(problems)} lines of the log are none: {problems[0]}",
+                    about=self,
                 )
 
         self.workbench.work("penetration log", "Reading the log …", log.read, done)

@@ -154,7 +154,7 @@ class PlatePanel(Panel):
 
     def _fail(self, message: str) -> None:
         self.doing.setText("Failed.")
-        self.workbench.notify(Level.ERROR, message)
+        self.workbench.notify(Level.ERROR, message, about=self)
         self._show_state()
 
     def _show_stage(self, name: str) -> None:

@@ -96,7 +96,9 @@ class PlotsPanel(Panel):
     def align(self) -> None:
         """Move the other run in time to where its commands are those that are shown."""
         if self.other is None:
-            self.workbench.notify(Level.WARNING, "There is no other run to align: choose one.")
+            self.workbench.notify(
+                Level.WARNING, "There is no other run to align: choose one.", about=self
+            )
             return
         window = self._whole()
         shift = alignment(window, self.other)
@@ -245,7 +247,9 @@ class PlotsPanel(Panel):
             return
         self.other = None
         if run is None:
-            self.workbench.notify(Level.WARNING, "There is no run in hand: open or play one.")
+            self.workbench.notify(
+                Level.WARNING, "There is no run in hand: open or play one.", about=self
+            )
         else:
             self.other = OtherRun.of_record(run.name, run.record, self.workbench.robot)
             self.align()

@@ -65,7 +65,7 @@ class LeftBox(QFrame):
             names = listed([path.name for path in done])
             self._workbench.notify(Level.GOOD, f"Recovered {names}")
         for reason in refused:
-            self._workbench.notify(Level.ERROR, reason)
+            self._workbench.notify(Level.ERROR, reason, about=self)
         self._end()
 
     def _end(self) -> None:

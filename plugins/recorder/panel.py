@@ -73,7 +73,7 @@ class RecorderPanel(Panel):
             "look",
             lambda: look(folder, own, known),
             self._take,
-            lambda message: self.workbench.notify(Level.ERROR, message),
+            lambda message: self.workbench.notify(Level.ERROR, message, about=self),
         )
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
@@ -97,6 +97,7 @@ class RecorderPanel(Panel):
                 Level.WARNING,
                 f"Recordings that were cut off: {listed(names)}. Recover them in the panel "
                 f"{self.title}.",
+                about=self,
             )
 
     def _bring_up(self) -> None:

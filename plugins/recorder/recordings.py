@@ -184,7 +184,7 @@ class RecordingsView(QWidget):
         try:
             return span(self.begin.text(), self.end.text(), one.duration_s)
         except InputError as error:
-            self._workbench.notify(Level.WARNING, str(error))
+            self._workbench.notify(Level.WARNING, str(error), about=error)
             return None
 
     # --- dialogs ----------------------------------------------------------------------------------

@@ -120,7 +120,7 @@ class ScaleEditor(Section):
         try:
             made = changed(scale, name, edit.text(), coordinate)
         except InputError as error:
-            self._workbench.notify(Level.WARNING, str(error))
+            self._workbench.notify(Level.WARNING, str(error), about=error)
             made = scale
         taken = made is scale or self._workbench.ask(
             lambda: self._workbench.operation.use_scales(scales.with_scale(mode, of, made))

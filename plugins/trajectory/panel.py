@@ -145,7 +145,7 @@ class TrajectoryPanel(Panel):
         try:
             bound = read_bound(item.text(), unit)
         except InputError as error:
-            self.workbench.notify(Level.WARNING, f"{label(name)}: {error}")
+            self.workbench.notify(Level.WARNING, f"{label(name)}: {error}", about=self)
             bound = bounds.get(name)
         if bound is None:
             bounds.pop(name, None)

@@ -155,7 +155,7 @@ class View3dPanel(Panel):
         if not QDesktopServices.openUrl(QUrl(server.url)):
             # The address is a secret: neither in a notice nor in the log.
             QGuiApplication.clipboard().setText(server.url)
-            self.workbench.notify(Level.WARNING, words.NO_BROWSER)
+            self.workbench.notify(Level.WARNING, words.NO_BROWSER, about=self)
 
     def _close(self) -> None:
         self.close_view(wait=True)

@@ -1,0 +1,126 @@
+"""Which page explains a message: a table by where its error, event or log record comes from."""
+
+from PySide6.QtCore import QObject
+
+_LIMITS = "motion.md#limits"
+_FAULTS = "faults.md#what-a-message-means"
+
+#: Module, or class in it -> page. The longest name counts, and a class before those it is made of.
+PAGES = {
+    "rotemina.app.blind": "blind-test.md",
+    "rotemina.app.calibration": "calibration.md",
+    "rotemina.app.calibration.health_book": "calibration.md#health-card",
+    "rotemina.app.cameras": "cameras.md#what-can-be-wrong",
+    "rotemina.app.driver_settings": "connection.md#device",
+    "rotemina.app.microscope": "microscope.md#in-the-window",
+    "rotemina.app.motion": "motion.md",
+    "rotemina.app.motion.deviation": "motion.md#playing-by-hand",
+    "rotemina.app.motion.mailbox": "motion.md#states",
+    "rotemina.app.motion.penetration": "penetration.md",
+    "rotemina.app.motion.playback": "motion.md#playing-by-hand",
+    "rotemina.app.motion.recording": "recording.md",
+    "rotemina.app.motion.saved_positions": "control.md#the-file-of-positions",
+    "rotemina.app.motion.state.CommandRefused": _LIMITS,
+    "rotemina.app.motion.state.Faulted": _FAULTS,
+    "rotemina.app.motion.teleoperation": "teleoperation.md",
+    "rotemina.app.motion.teleoperation.calibration": "input-mapping.md#calibration-files",
+    "rotemina.app.motion.teleoperation.profile": "input-mapping.md#profiles-by-hand",
+    "rotemina.app.plugin_kit": "plugins.md",
+    "rotemina.app.scene": "view3d.md",
+    "rotemina.app.shell": "window.md",
+    "rotemina.app.shell.host": "plugins.md#what-a-bad-plugin-can-do",
+    "rotemina.app.shell.requests": "connection.md#device",
+    "rotemina.drivers": "drivers.md",
+    "rotemina.drivers.cameras": "cameras.md#what-can-be-wrong",
+    "rotemina.drivers.errors": _FAULTS,
+    "rotemina.drivers.errors.ConnectionLostError": "connection.md#device",
+    "rotemina.drivers.errors.DriverTimeoutError": "connection.md#device",
+    "rotemina.drivers.errors.LimitError": _LIMITS,
+    "rotemina.drivers.errors.ProtocolError": "protocol.md",
+    "rotemina.drivers.errors.StateError": "connection.md#state",
+    "rotemina.drivers.inputs": "inputs.md#when-a-joystick-is-missing",
+    "rotemina.drivers.inputs.script": "inputs.md#scripts",
+    "rotemina.drivers.mc68hc11": "protocol.md",
+    "rotemina.drivers.registry": "plugins.md#what-a-bad-plugin-can-do",
+    "rotemina.drivers.settings": "connection.md#device",
+    "rotemina.drivers.virtual_board": "faults.md#faults-on-purpose",
+    "rotemina.sim.blind": "blind-test.md",
+    "rotemina.sim.calibration": "calibration.md#refused",
+    "rotemina.sim.comparison": "comparison.md",
+    "rotemina.sim.compensate": "compensation.md",
+    "rotemina.sim.effects": "effects.md",
+    "rotemina.sim.excitation": "excitations.md#limits",
+    "rotemina.sim.feedback": "tuning.md",
+    "rotemina.sim.gap": "gap-diagnosis.md#what-is-refused-and-what-is-only-told",
+    "rotemina.sim.identification": "identification.md",
+    "rotemina.sim.kinematics": "kinematics.md",
+    "rotemina.sim.microscope": "microscope.md#the-simulated-microscope",
+    "rotemina.sim.modes": "kinematics.md#modes",
+    "rotemina.sim.plant": "simulation.md",
+    "rotemina.sim.plate": "plate.md",
+    "rotemina.sim.plugin_points": "plugins.md#what-a-bad-plugin-can-do",
+    "rotemina.sim.records": "file-formats.md#records-and-trajectories",
+    "rotemina.sim.robot": "file-formats.md#robot-files",
+    "rotemina.sim.shaping": "excitations.md",
+    "rotemina.sim.simulation": "simulation.md",
+    "rotemina.sim.trajectory": "trajectory.md",
+    "rotemina.sim.trajectory.limits.OutOfLimitsError": _LIMITS,
+    "rotemina.sim.tuning": "tuning.md",
+    "rotemina.sim.units": "file-formats.md#records-and-trajectories",
+    "rotemina.sim.vision": "vision.md#limits",
+    "rotemina.sim.whole_files": "file-formats.md#export",
+}
+
+
+class Explained(str):
+    """A message that knows the page which explains it; "" where none does."""
+
+    __slots__ = ("page",)
+    page: str
+
+    def __new__(cls, text: str, page: str) -> "Explained":
+        """Return the text with its page."""
+        made = super().__new__(cls, text)
+        made.page = page
+        return made
+
+
+def explained(error: BaseException) -> Explained:
+    """Return what an error says, with the page on errors of its kind."""
+    return Explained(str(error), page_for(error))
+
+
+def page_of(text: str) -> str:
+    """Return the page that a message knows."""
+    return text.page if isinstance(text, Explained) else ""
+
+
+def page_for(about: object) -> str:
+    """Return the page on an error, an event or a widget in a panel; a text is the page itself."""
+    if isinstance(about, str):
+        return about
+    if isinstance(about, QObject) and (page := page_at(about)):
+        return page
+    for kind in type(about).__mro__:
+        if page := page_by_name(f"{kind.__module__}.{kind.__qualname__}"):
+            return page
+    return ""
+
+
+def page_at(part: QObject | None) -> str:
+    """Return the page of the panel that a widget is in, "" where there is none."""
+    while part is not None:
+        page = getattr(part, "help_page", "")  # panels know this module, not it them
+        if page and isinstance(page, str):
+            return page
+        part = part.parent()
+    return ""
+
+
+def page_by_name(name: str) -> str:
+    """Return the page on a module or what is in it, "" where there is none."""
+    while name:
+        if name in PAGES:
+            return PAGES[name]
+        name = name.rpartition(".")[0]
+    return ""
