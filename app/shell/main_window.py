@@ -288,8 +288,10 @@ class MainWindow(QMainWindow):
         yield from panel_entries(self.panels.made, self.docks, self.bring_up)
 
     def help_here(self) -> None:
-        """Show the page of the panel that has the focus, else that of the window."""
-        self.help_page.open_page(page_at(QApplication.focusWidget()) or "window.md")
+        """Show the page of the panel that has the focus, or had it last; else that of the window."""
+        focused = (QApplication.focusWidget(), self.focusWidget())
+        pages = filter(None, map(page_at, focused))
+        self.help_page.open_page(next(pages, "window.md"))
 
     def show_help(self) -> None:
         """Show the first page, from which all others are reached."""
