@@ -38,6 +38,7 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.inverse import Beyond
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.errors import InputError
+from rotemina.sim.feedback.errors import LostLoopError
 from rotemina.sim.feedback.regulation import Regulation
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.records.record import Record
@@ -379,7 +380,7 @@ class Simulator(
                 self._end(device, end_s)
             self._keep(device.advance(now_s))
             self._are_at(device.true_position)
-        except PlantError as error:
+        except (PlantError, LostLoopError) as error:
             self._fault = str(error)
 
     def _keep(self, parts: list[Samples]) -> None:

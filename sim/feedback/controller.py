@@ -8,7 +8,7 @@ from math import exp, isfinite
 
 import numpy as np
 
-from rotemina.sim.arrays import ComplexArray, FloatArray
+from rotemina.sim.arrays import BoolArray, ComplexArray, FloatArray
 from rotemina.sim.feedback import kernel
 from rotemina.sim.feedback.errors import FeedbackError
 from rotemina.sim.feedback.feed_forward import FeedForward
@@ -47,6 +47,10 @@ class Controller:
         self.numbers = numbers_of(gains, interval_s, limits)
         self.memory = np.zeros(kernel.MEMORY)
         self.feed_forward = feed_forward or FeedForward()
+        self.interval_s = interval_s
+        #: What the integral added when it began, m or rad; for how many samples now the sensor has
+        #: been too far off.
+        self.begun_at, self.astray = 0.0, 0
 
     def start(self, reference: float, output: float | None = None) -> None:
         """Rest at a reference, with an output that holds the axis there.
@@ -56,6 +60,7 @@ class Controller:
         """
         feed = self.feed_forward.start(reference)
         self.memory[:] = rested(self.numbers, feed, feed if output is None else output)
+        self.begun_at = self.integral
 
     def step(self, reference: float, measured: float) -> float:
         """Return the output of this sample, m or rad, held until the next.
@@ -92,6 +97,11 @@ class Controller:
     def limited(self) -> bool:
         """Whether a limit cut the last output off."""
         return bool(self.memory[kernel.OUTPUT] != self.memory[kernel.ASKED])
+
+    def within(self, output: FloatArray) -> BoolArray:
+        """Return which outputs (n,) lie inside the limits, and not at them."""
+        low, high = self.numbers[kernel.LOW], self.numbers[kernel.HIGH]
+        return np.asarray((output > low) & (output < high))
 
     @property
     def integral(self) -> float:

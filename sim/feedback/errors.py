@@ -5,3 +5,7 @@ from rotemina.sim.errors import InputError
 
 class FeedbackError(InputError):
     """Gains, limits or a loop that cannot be used."""
+
+
+class LostLoopError(FeedbackError):
+    """A loop whose sensor or actuator does not answer it."""

@@ -6,10 +6,11 @@ from functools import lru_cache
 
 import numpy as np
 
-from rotemina.sim.arrays import FloatArray
+from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.feedback import loop_kernel
 from rotemina.sim.feedback.axis_loop import rows_after
 from rotemina.sim.feedback.controller import Controller
+from rotemina.sim.feedback.errors import LostLoopError
 from rotemina.sim.plant import kernel
 from rotemina.sim.plant.chance import Chance
 from rotemina.sim.plant.errors import PlantError
@@ -19,6 +20,10 @@ from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.state import Behind, Motion, PlantState
 
 Controllers = Mapping[int, Controller]
+
+# Shares of the range at which a loop is given up: its sensor, or its actuator, does not answer it.
+_LOST, _LED = 0.1, 0.25  # by error, by what it has added since it began
+_LOST_S = 5e-3  # for so long at least: a single wrong reading is none
 
 
 def advance(
@@ -56,6 +61,9 @@ def advance(
 
     Raises
     ------
+    LostLoopError
+        If a sensor stays a tenth of the range away from its reference, though no limit keeps the
+        axis there, or a loop has added a quarter of the range.
     PlantError
         If the response leaves what a number can hold.
     """
@@ -91,9 +99,15 @@ def _compiled(
         *_prepared(plant, interval_s), moving, filled, np.ascontiguousarray(command), drawn, loops,
         np.ascontiguousarray(reference[:, list(controllers)]), np.stack(feed, axis=1), output,
     )  # fmt: skip
+    _check(plant, filled.position)
+    for number, (index, one) in enumerate(controllers.items()):
+        read = filled.reading[1:, index] - loops.offset[number]
+        within = one.within(output[:, number])
+        error = np.where(within, reference[:, index] - read, 0.0)
+        added = np.where(within, output[:, number] - feed[number], one.begun_at)
+        _watch(plant, index, error, added, one)
     for memory, one in zip(loops.memory, controllers.values(), strict=True):
         one.memory[:] = memory
-    _check(plant, filled.position)
     asked = command.copy()
     asked[:, list(controllers)] = output
     told = filled.inputs[1:].copy()
@@ -134,9 +148,10 @@ def _by_sample(
         motion, state = plant.advance(state, time_s, told, chance=chance)
         for index in columns:
             one = controllers[index]
-            told[0, index] = one.answer(
-                float(reference[k, index]), float(motion.reading[0, index]) - offsets[index]
-            )
+            read = float(motion.reading[0, index]) - offsets[index]
+            told[0, index] = one.answer(float(reference[k, index]), read)
+            error = np.where(one.within(told[:, index]), reference[k, index] - read, 0.0)
+            _watch(plant, index, error, np.array([one.integral]), one)
         inputs = state.inputs.copy()
         inputs[-1, columns] = motion.inputs[0, columns] = plant.open_loop_inputs(told)[0, columns]
         state = replace(state, inputs=inputs)
@@ -161,6 +176,43 @@ def _loops(plant: Plant, controllers: Controllers) -> loop_kernel.Loops:
 def _prepared(plant: Plant, interval_s: float) -> tuple[Machine, kernel.Steps]:
     behind = Behind.COMMAND
     return plant.machine(behind), plant.steps(np.array([0.0, interval_s]), 1, behind)
+
+
+def _watch(
+    plant: Plant, index: int, error: FloatArray, added: FloatArray, controller: Controller
+) -> None:
+    """Give a loop up that nothing answers, from its errors (n,) and what it added (n,)."""
+    span = list(plant.robot.axes.values())[index].span
+    lost = _lasting(np.abs(error) > _LOST * span, controller)
+    led = np.abs(added - controller.begun_at) > _LED * span
+    if not (lost | led).any():
+        return
+    name = plant.axes[index]
+    row = int(np.argmax(lost | led))
+    what = (
+        f"its sensor is {error[row]:.3g} {plant.robot.unit(name)} away from where it shall be "
+        f"({_LOST:.0%} of the range at most)"
+        if lost[row]
+        else f"it has added {added[row] - controller.begun_at:.3g} {plant.robot.unit(name)} "
+        f"({_LED:.0%} of the range at most)"
+    )
+    raise LostLoopError(
+        f"axis {name}: its loop was given up, as nothing answers it: {what}; check the sensor and "
+        "the actuator, clear the fault, then close the loop again"
+    )
+
+
+def _lasting(off: BoolArray, controller: Controller) -> BoolArray:
+    """Return at which samples (n,) it has been ``off`` (n,) for long; the controller counts."""
+    if not off.any():
+        controller.astray = 0
+        return off
+    enough = _LOST_S / controller.interval_s
+    lasting = np.zeros_like(off)
+    for row, one in enumerate(off):
+        controller.astray = controller.astray + 1 if one else 0
+        lasting[row] = controller.astray >= enough
+    return lasting
 
 
 def _check(plant: Plant, position: FloatArray) -> None:

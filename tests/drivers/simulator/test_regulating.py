@@ -11,6 +11,7 @@ from rotemina.drivers.profile import Profile, ProfileSegment
 from rotemina.drivers.samples import DeviceState
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.feedback import regulated_plant
 from rotemina.sim.feedback.axis_loop import AxisLoop
 from rotemina.sim.feedback.feed_forward import FeedForward
 from rotemina.sim.feedback.gains import Gains, Notch
@@ -282,6 +283,26 @@ def test_what_may_not_be_applied_is_refused_with_the_reason():
     with pytest.raises(LimitError, match="was found stable on robot"):
         machine.driver.regulate("zn", Regulation(other, "zn", GAINS, RATE_HZ))
     assert machine.driver.regulated == {}
+
+
+@pytest.mark.parametrize("slow", [False, True])
+def test_a_loop_that_nothing_answers_is_given_up_and_its_output_stays(slow, monkeypatch):
+    machine = Machine()
+    machine.close_loop()
+    before = machine.run(0.1)[2][-1]
+    late = (AxisEffect(axis="zn", id="delay", parameters={"delay": 1e-3}),) if slow else ()
+    machine.driver.set_effects((*WORN, *late))
+    monkeypatch.setattr(regulated_plant, "_LOST", 1e-6)  # less than the noise is far off then
+    machine.driver.move_to({"zn": 33.0017e-6})  # between two steps of the sensor
+    machine.run(0.1)
+    status = machine.driver.status()
+    assert status.state is DeviceState.FAULT
+    assert "axis zn: its loop was given up, as nothing answers it" in status.fault
+    machine.driver.clear_fault()
+    assert machine.driver.regulated == {}
+    sent = machine.run(0.1)[2]
+    assert sent[-1] == pytest.approx(before, abs=1.5e-6)
+    assert np.ptp(sent) < 1e-15
 
 
 def test_a_delay_that_comes_while_it_runs_is_simulated_too():

@@ -19,7 +19,7 @@ PLANTS = {
     "zn Preisach": ("foreign", "zn", 9),
 }
 TENTH_HZ = {"thx": 30.0, "thy": 30.0, "zn": 42.0}
-# Where dead zones bend the loop, what creeps more slowly than the record lasts is a larger constant.
+# Where dead zones bend the loop, creep that outlasts the record is a larger constant.
 SHORT_OF = {"zn bent": 2.0}
 MOST_RMS, MOST_RMS_AT_TENTH, MOST_MSE = 0.006, 0.01, 0.005
 LOW = 0.06  # where training begins, nearly: a share of the range

@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 
 from rotemina.sim.feedback import regulated_plant
-from rotemina.sim.feedback.gains import Gains, Notch
+from rotemina.sim.feedback.controller import Controller
+from rotemina.sim.feedback.errors import LostLoopError
+from rotemina.sim.feedback.feed_forward import FeedForward
+from rotemina.sim.feedback.gains import Gains, Notch, OutputLimits
 from rotemina.sim.feedback.regulation import Regulation
 from rotemina.sim.plant.chance import Chance
 from rotemina.sim.plant.plant import Plant
@@ -64,3 +67,23 @@ def test_what_is_not_finite_leaves_the_output_as_it_was(worn):
     _, _, asked = regulated_plant.advance(plant, state, H, command, reference, controllers)
     assert np.isfinite(asked).all()
     assert (asked[100:120, ZN] == asked[99, ZN]).all()
+
+
+@pytest.mark.parametrize("way", [regulated_plant._compiled, regulated_plant._by_sample])
+@pytest.mark.parametrize("gains", [Gains(), Gains(integral=3000.0)])
+def test_a_loop_that_nothing_answers_is_given_up(worn, way, gains):
+    plant, state, command, reference, _ = started(worn)
+    controller = Controller(gains, H, OutputLimits(-1e-3, 1e-3), FeedForward((0.0,)))
+    controller.start(float(state.position[-1, ZN]), float(command[0, ZN]))
+    reference[:, ZN] += np.linspace(0.0, 15e-6, 300) if gains.integral == 0.0 else 0.0
+    if gains.integral:  # far too much of it: it swings up
+        reference[1:, ZN] += 1e-6
+    command, reference = np.tile(command, (8, 1)), np.concatenate([reference] * 8)
+    with pytest.raises(LostLoopError, match="axis zn: its loop was given up, as nothing answers"):
+        way(plant, state, H, command, reference, {ZN: controller}, None)
+
+
+def test_one_wrong_reading_is_none(worn):
+    plant, state, command, reference, controllers = started(worn)
+    reference[50:60, ZN] += 10e-6  # as 2 ms of outliers would look
+    regulated_plant.advance(plant, state, H, command, reference, controllers)
