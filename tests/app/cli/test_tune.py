@@ -4,9 +4,13 @@ import json
 import tomllib
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from rotemina.app.cli.main import main
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records.writing import write_record
 from rotemina.sim.tuning import search
 from rotemina.sim.tuning.result import load_tuning
 
@@ -132,3 +136,25 @@ def test_bad_input_is_told_before_any_work(capsys, given, message):
 def test_an_axis_is_needed(capsys):
     assert main(["tune", "-o", "zn.toml"]) == 2
     assert "--axis" in capsys.readouterr().err
+
+
+def test_a_tuned_loop_plays_a_trajectory_and_one_that_is_not_stable_does_not(capsys):
+    assert tuned(capsys)[0] == 0
+    path = 32e-6 + 15e-6 * np.sin(2.0 * np.pi * 5.0 * 1e-3 * np.arange(400))
+    way = Record.from_signals(1e-3 * np.arange(400), {("zn", Tap.CMD): path}, {"zn": "m"})
+    write_record(way, Path("way.csv"))
+    errors = []
+    for more in ([], ["--tuning", "zn.toml"]):
+        out = f"out{len(errors)}.csv"
+        assert main(["play", "way.csv", "-o", out, *more]) == 0
+        record = read_record(out)
+        errors.append(np.std((record.signal("zn", Tap.MEAS) - path)[50:]))
+    assert record.metadata["feedback zn"].startswith("zn.toml, point ")
+    assert errors[1] < 0.5 * errors[0]
+    text = Path("zn.toml").read_text("utf-8")
+    chosen = load_tuning("zn.toml").best.gains.integral
+    Path("bad.toml").write_text(text.replace(f"integral = {chosen!r}", "integral = 9e3"), "utf-8")
+    capsys.readouterr()
+    assert main(["play", "way.csv", "-o", "no.csv", "--tuning", "bad.toml"]) == 2
+    assert "nothing was applied" in capsys.readouterr().err
+    assert not Path("no.csv").exists()
