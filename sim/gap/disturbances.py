@@ -20,7 +20,7 @@ from rotemina.sim.gap.jumps import jumps
 from rotemina.sim.gap.tones import tone_signals, tones
 from rotemina.sim.gap.whiteness import noise_level
 from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.model import StepperAxis
+from rotemina.sim.robot.model import AxisEffect, StepperAxis
 
 _MORE_NOISE = 1.3  # floors from which noise is more than declared
 _SETTLED_S = 0.3  # after which a held axis rests
@@ -45,13 +45,21 @@ class Disturbance:
     note: str
 
 
-def set_aside(evidence: Evidence) -> tuple[Evidence, tuple[Disturbance, ...]]:
-    """Return evidence without what commands do not cause, and what that was."""
+def set_aside(
+    evidence: Evidence, explained: Sequence[AxisEffect] = ()
+) -> tuple[Evidence, tuple[Disturbance, ...]]:
+    """Return evidence without what commands do not cause, and what that was.
+
+    It is looked for beside a model with the effects that are ``explained``.
+    """
+    robot = evidence.robot
+    if explained:
+        evidence = evidence.with_model(replace(robot, effects=(*robot.effects, *explained)))
     found: list[Disturbance] = []
     for step in (_without_jumps, _without_tones, _without_excursions, _with_true_floors):
         evidence, own = step(evidence)
         found += own
-    return evidence, tuple(found)
+    return evidence.with_model(robot) if explained else evidence, tuple(found)
 
 
 def _without_jumps(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
@@ -128,7 +136,9 @@ def _without_excursions(evidence: Evidence) -> tuple[Evidence, list[Disturbance]
             floor = observation.floor[Tap.MEAS]
             change = _commanded_change(evidence, observation.record) / floor
             reading = observation.real[Tap.MEAS] / floor
-            found = excursions(observation.record.time_s, gap, reading, change)
+            compared = Tap.REF in observation.real
+            time_s = observation.record.time_s
+            found = excursions(time_s, gap, reading, change, compared=compared)
             kept = _kept(observation, Tap.MEAS)
             found &= kept
             if found.any():
@@ -148,7 +158,10 @@ def _without_excursions(evidence: Evidence) -> tuple[Evidence, list[Disturbance]
 
 
 def _commanded_change(evidence: Evidence, record: Record) -> FloatArray:
-    """Return how far (n,) commands went in a row: the axis' own, and others' as they shake it."""
+    """Return how abruptly (n,) commands went on: the axis' own, and others' as they shake it.
+
+    At an even pace, however quick, nothing rings.
+    """
     change = np.zeros(len(record.time_s))
     span = Facts.of(evidence.robot.axes[evidence.axis]).span
     for axis in record.axes:
@@ -156,7 +169,8 @@ def _commanded_change(evidence: Evidence, record: Record) -> FloatArray:
             command = record.signal(axis, Tap.CMD)
             share = 1.0 if axis == evidence.axis else _SHAKEN
             size = share * span / Facts.of(evidence.robot.axes[axis]).span
-            change = np.maximum(change, size * np.abs(np.diff(command, prepend=command[0])))
+            turn = np.diff(command, 2, prepend=[command[0], command[0]])
+            change = np.maximum(change, size * np.abs(turn))
     return change
 
 
@@ -268,11 +282,16 @@ def _raised(evidence: Evidence, times: float) -> Evidence:
 
 
 def _sensor_gap(observation: Observation, gaps: Signals) -> FloatArray:
-    """Return what the sensor says more (n,) than the reference, or than the model; in floors."""
+    """Return what the sensor says more (n,) than the reference, or than the model; in floors.
+
+    What the model's own sensor says more is no part of it.
+    """
     if Tap.REF not in observation.real:
         return gaps[Tap.MEAS]
-    apart = observation.real[Tap.MEAS] - observation.real[Tap.REF]
-    return np.asarray((apart - np.median(apart)) / observation.floor[Tap.MEAS])
+    apart = gaps[Tap.MEAS] - gaps[Tap.REF] * (
+        observation.floor[Tap.REF] / observation.floor[Tap.MEAS]
+    )
+    return np.asarray(apart - np.median(apart))
 
 
 def _kept(observation: Observation, tap: Tap) -> BoolArray:

@@ -27,6 +27,11 @@ _STILL_OUT = 0.5  # of their power, that outliers keep beside an explanation
 _MUCH_BETTER = 0.7  # of a score: what else would correct the model is taken along
 _NOT_NOISE = 0.6  # of a raised floor's power: a fit that leaves less shows that it was no noise
 
+_LOOKS = 3  # for disturbances, beside what the one before explains
+_UNEXPLAINED = 1.2  # mean square over the floor, from which there is another look
+_CLEARLY_MORE = 1.1  # times the power of a disturbance that was found before
+
+_Found = tuple[Evidence, tuple[Disturbance, ...], Selection, Explanation]
 Told = Callable[[str, str | None], None]
 
 
@@ -62,17 +67,12 @@ def examine(whole: Evidence, told: Told, *, jobs: int = 1) -> Examination:
         return _of_modes(whole, modal)
     evidence, aside = set_aside(whole)
     selection, best = _explained(evidence, told, jobs)
-    raised = [one for one in aside if one.effect == "sensor_noise"]
-    if raised and best.fit.cost < _NOT_NOISE:
-        # What seemed noise was explained: the sensor is as good as declared.
-        aside = tuple(one for one in aside if one.effect != "sensor_noise")
-        evidence = evidence.with_observations(
-            [
-                replace(own, floor=was.floor)
-                for own, was in zip(evidence.observations, whole.observations, strict=True)
-            ]
-        )
-        selection, best = _explained(evidence, told, jobs)
+    evidence, aside, selection, best = _looked_again(
+        whole, (evidence, aside, selection, best), told, jobs
+    )
+    evidence, aside, selection, best = _without_false_noise(
+        whole, (evidence, aside, selection, best), told, jobs
+    )
     aside = tuple(one for one in aside if not _was_explained(whole, evidence, best, one))
     told("deciding", None)
     drift = wander(evidence, best.fit.residual)
@@ -107,6 +107,54 @@ def examine(whole: Evidence, told: Told, *, jobs: int = 1) -> Examination:
         ranked,
         probed(evidence, best.held_out),
     )
+
+
+def _looked_again(whole: Evidence, first: _Found, told: Told, jobs: int) -> _Found:
+    """Return what is found once what a first look explains hides disturbances no more.
+
+    Steps of a screw hide lost ones, and a coarse converter hides the spikes of a sensor.
+    """
+    for _ in range(_LOOKS):
+        _, aside, _, best = first
+        acting = [one for one in best.fit.effects if _acts(one)]
+        if best.score < _UNEXPLAINED or not acting:
+            break
+        evidence, found = set_aside(whole, acting)
+        if not _more(found, aside):
+            break
+        selection, better = _explained(evidence, told, jobs)
+        if better.score > _MUCH_BETTER * best.score:
+            break
+        first = evidence, found, selection, better
+    return first
+
+
+def _without_false_noise(whole: Evidence, first: _Found, told: Told, jobs: int) -> _Found:
+    """Return what is found with the declared floor, where what seemed noise can be explained.
+
+    What a quick motion leaves from row to row, as an encoder's own error does, looks like noise.
+    """
+    evidence, aside, selection, best = first
+    raised = [one for one in aside if one.effect == "sensor_noise"]
+    if not raised or (selection.tried and best.fit.cost >= _NOT_NOISE):
+        return first
+    declared = evidence.with_observations(
+        [
+            replace(own, floor=was.floor)
+            for own, was in zip(evidence.observations, whole.observations, strict=True)
+        ]
+    )
+    others = tuple(one for one in aside if one.effect != "sensor_noise")
+    second = declared, others, *_explained(declared, told, jobs)
+    if not selection.tried and second[3].score > _NOT_NOISE * second[2].raw:
+        return first  # nothing but noise explains it
+    return second
+
+
+def _more(found: Sequence[Disturbance], before: Sequence[Disturbance]) -> bool:
+    """Tell whether disturbances are others than before, or clearly more of them."""
+    known = {one.effect: one.power for one in before}
+    return any(one.power > _CLEARLY_MORE * known.get(one.effect, 0.0) for one in found)
 
 
 def _was_explained(

@@ -11,6 +11,7 @@ from rotemina.sim.arrays import BoolArray, FloatArray
 _WINDOWS = (5, 41)  # rows over which a reading is expected to be like its neighbours
 _FAR = 8.0  # robust standard deviations, and floors, from which a reading stands out
 _BACK = 0.3  # of an excursion's size, within which it comes back to where it left
+_NOTHING_ELSE = 0.15  # of an excursion's size, by which the rows beside it differ
 _ABRUPT = 0.5  # of an excursion's size, that it does from one row to the next
 _NEAR_A_STEP = 0.2  # of an excursion's size: a command that moved as far shortly before explains it
 _SHORTLY_S = 0.15
@@ -22,19 +23,26 @@ _DEVIATION = 1.4826  # standard deviations in a median absolute one
 
 
 def excursions(
-    time_s: FloatArray, gap: FloatArray, reading: FloatArray, change: FloatArray
+    time_s: FloatArray,
+    gap: FloatArray,
+    reading: FloatArray,
+    change: FloatArray,
+    *,
+    compared: bool = False,
 ) -> BoolArray:
     """Return which rows (n,) are outliers of a gap over its floor.
 
     They stand out from their neighbours, come and go abruptly, and no ``change`` (n,) of commands
     from row to row, in floors, came shortly before; or the ``reading`` (n,), in floors, stands
     still while the axis moves on. Where more than a twentieth would be outliers, none is one.
+    Where the gap is that to a reference (``compared``), which rings as well, a single row that
+    stands out is an outlier whatever the command did.
     """
-    found = _away(time_s, gap, change) | _held(gap, reading)
+    found = _away(time_s, gap, change, compared) | _held(gap, reading)
     return found if found.mean() <= _MOST else np.zeros(len(gap), dtype=np.bool_)
 
 
-def _away(time_s: FloatArray, gap: FloatArray, change: FloatArray) -> BoolArray:
+def _away(time_s: FloatArray, gap: FloatArray, change: FloatArray, compared: bool) -> BoolArray:
     out = np.zeros(len(gap), dtype=np.bool_)
     for window in _WINDOWS:
         if window < len(gap):
@@ -46,7 +54,8 @@ def _away(time_s: FloatArray, gap: FloatArray, change: FloatArray) -> BoolArray:
         size = float(np.abs(own - (before + after) / 2.0).max())
         abrupt = min(abs(own[0] - before), abs(own[-1] - after)) > _ABRUPT * size
         back = abs(after - before) < _BACK * size
-        if abrupt and back and stepped[begin] < _NEAR_A_STEP * size:
+        alone = compared and end - begin == 1 and abs(after - before) < _NOTHING_ELSE * size
+        if abrupt and back and (alone or stepped[begin] < _NEAR_A_STEP * size):
             found[begin:end] = True
     return found
 

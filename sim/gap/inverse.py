@@ -8,8 +8,9 @@ Series (1949), ch. 3).
 from dataclasses import replace
 
 import numpy as np
+from scipy.interpolate import PchipInterpolator
 
-from rotemina.sim.arrays import FloatArray
+from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.gap.evidence import Evidence, Part, Signals
 from rotemina.sim.gap.fit import Fit
@@ -21,6 +22,7 @@ from rotemina.sim.records.record import Tap
 
 _KICK = 1e-3  # of the range
 _TAPER = 0.05  # of a record, at each end
+_MOSTLY = 0.9  # of the rows, that count: where fewer do, what is between them is not known
 _LEAST = 0.1  # floors squared, that what is left has above them
 
 
@@ -36,7 +38,8 @@ def at_input(evidence: Evidence, fitted: Fit) -> list[tuple[Part, FloatArray]]:
         observation = evidence.observations[part.record]
         if observation.record.closed_loop:
             continue
-        left, floor = fitted.residual[part.rows], observation.floor[part.tap]
+        left = _bridged(fitted.residual[part.rows], observation.kept.get(part.tap))
+        floor = observation.floor[part.tap]
         if part.tap is Tap.U:
             seen.append((part, left * floor * gain))
             continue
@@ -44,6 +47,20 @@ def at_input(evidence: Evidence, fitted: Fit) -> list[tuple[Part, FloatArray]]:
             kicked[part.record] = _kicked(evidence, fitted, part.record)
         seen.append((part, _undone(left, kicked[part.record][part.tap] / floor, 1.0 / floor)))
     return seen
+
+
+def _bridged(left: FloatArray, kept: BoolArray | None) -> FloatArray:
+    """Return what is left (n,), with a smooth way over single rows that do not count.
+
+    They are zeros in a residual: an abrupt change, which no input but a burst explains.
+    """
+    if kept is None or kept.mean() < _MOSTLY or kept.all():
+        return left
+    rows = np.arange(len(left))
+    inner = np.clip(rows[~kept], rows[kept][0], rows[kept][-1])
+    bridged = left.copy()
+    bridged[~kept] = PchipInterpolator(rows[kept], left[kept])(inner)
+    return bridged
 
 
 def _kicked(evidence: Evidence, fitted: Fit, number: int) -> Signals:

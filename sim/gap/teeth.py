@@ -25,6 +25,7 @@ _FINE = 12  # parts of a tooth, to which the next record is matched
 _MOST = 600  # widths that are tried on a further record
 _PARTS = (0.04, 0.02, 0.008, 0.003, 0.001)  # of a tooth, by which a grid is moved at last
 _PROMISES = 0.08  # of what is left of a record, that a sawtooth takes away
+_BURST = 5.0  # times its usual size, that what is left of a tooth has at most
 _CANDIDATES = 3  # lines that are looked at
 
 
@@ -93,7 +94,7 @@ def _seen(evidence: Evidence, fitted: Fit, candidate: AxisEffect, origin: float)
     if candidate.id == "quantization":
         places = [o.record.signal(evidence.axis, Tap.CMD) - origin for o in evidence.observations]
         return [
-            Seen(part.record, places[part.record], left)
+            Seen(part.record, places[part.record], _without_bursts(left))
             for part, left in at_input(evidence, fitted)
         ]
     answers = evidence.response(fitted.effects)
@@ -102,6 +103,12 @@ def _seen(evidence: Evidence, fitted: Fit, candidate: AxisEffect, origin: float)
         for part in evidence.parts
         if part.tap is Tap.MEAS
     ]
+
+
+def _without_bursts(left: FloatArray) -> FloatArray:
+    """Return what is left (n,) without what no tooth can be: a spike of the sensor, undone."""
+    most = _BURST * float(np.median(np.abs(left)))
+    return np.where(np.abs(left) > most, 0.0, left)
 
 
 def _lines(seen: Sequence[Seen], bounds: tuple[float, float]) -> list[tuple[int, float]]:

@@ -1,5 +1,7 @@
 """The grid of a coarse converter, found through mechanics that ring with every step."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -51,6 +53,24 @@ def test_width_and_shift_of_steps_are_found(axis, volts, shares):
     before = float(np.mean(evidence.residual() ** 2))
     named = AxisEffect(axis=axis, id="quantization", parameters=found)
     assert np.mean(evidence.residual([named]) ** 2) - 1.0 < 0.05 * (before - 1.0)
+
+
+@pytest.mark.parametrize("left_out", [True, False])
+def test_steps_are_found_among_the_spikes_of_a_sensor(left_out):
+    steps = AxisEffect(axis="y", id="quantization", parameters={"step": 7e-6, "shift": 0.2})
+    records = recorded("y", [steps], 0.002, 0.05)
+    evidence, rng = Evidence.of(ROBOT, "y", records), np.random.default_rng(1)
+    observations = []
+    for one in evidence.observations:
+        spiked = rng.uniform(size=len(one.record.time_s)) < 0.003
+        reading = one.real[Tap.MEAS] + 2e-5 * spiked
+        kept = {Tap.MEAS: ~spiked} if left_out else {}
+        observations.append(replace(one, real={**one.real, Tap.MEAS: reading}, kept=kept))
+    evidence = evidence.with_observations(observations)
+    asked = AxisEffect(axis="y", id="quantization")
+    (_, found) = [one.parameters for one in starts(evidence, untouched(evidence).fit, asked)]
+    assert found["step"] == pytest.approx(7e-6, rel=0.1 * 7e-6 / (0.05 * ROBOT.axes["y"].span))
+    assert found["shift"] == pytest.approx(0.2, abs=0.05)
 
 
 def test_a_healthy_axis_shows_no_steps():
