@@ -132,10 +132,12 @@ def qt_libraries(platform: str) -> Finding:
 
 def qt(platform: str, program: str = _TRY_QT) -> Iterator[Finding]:
     """Start Qt in a process of its own, for it aborts where it cannot; tell how it draws."""
+    windowless = platform == "offscreen"  # as the program itself does without a display
     try:
         done = subprocess.run(
             [sys.executable, "-c", program],
             capture_output=True, text=True, check=False, timeout=_QT_STARTS_IN_S,
+            env={**os.environ, **({"QT_QPA_PLATFORM": platform} if windowless else {})},
         )  # fmt: skip
         said, fault = done.stdout.splitlines(), done.stderr.strip()
     except subprocess.TimeoutExpired:
@@ -149,7 +151,11 @@ def qt(platform: str, program: str = _TRY_QT) -> Iterator[Finding]:
         seen = f"Qt does not start on {platform!r}: {reason}"
         yield Finding("Qt platform", State.BROKEN, seen, advice)
         return
-    yield Finding("Qt platform", State.GOOD, said[0])
+    if windowless:
+        advice = "Commands work all the same. A window needs a desktop: start it from one."
+        yield Finding("Qt platform", State.LIMITED, f"{said[0]}: no display for a window", advice)
+    else:
+        yield Finding("Qt platform", State.GOOD, said[0])
     yield _rendering(said[1] if len(said) > 1 else "")
 
 

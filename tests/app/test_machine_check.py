@@ -94,6 +94,12 @@ def test_qt_is_tried_in_a_process_that_may_abort(program, states, said):
     assert said in found[-1].seen
 
 
+def test_without_a_display_qt_starts_as_the_program_does(monkeypatch):
+    monkeypatch.delenv("QT_QPA_PLATFORM")
+    (found, *_) = machine_check.qt("offscreen")
+    assert (found.state, found.seen) == (State.LIMITED, "offscreen: no display for a window")
+
+
 def test_a_qt_that_hangs_is_given_up(monkeypatch):
     monkeypatch.setattr(machine_check, "_QT_STARTS_IN_S", 0.2)
     (found,) = machine_check.qt("xcb", "import threading; threading.Event().wait()")
