@@ -8,6 +8,8 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check
 
 # The Qt platform that must work: empty for the one of the display in use.
 QT_PLATFORM := offscreen
+# Long tests use a window on a screen of their own: --screen installs that as well.
+SCREEN :=
 
 # A .venv can be used when no installation into it was cut off and its Python still runs.
 USABLE := test ! -e $(VENV)/.unfinished && $(BIN)/python -c 'import pip' 2>/dev/null
@@ -32,6 +34,7 @@ test: system $(VENV)/.test  ## run the quick tests
 	@$(PYTEST) --numprocesses auto --maxprocesses 4 --dist loadfile -m "not slow"
 
 # pytest fails when it selects nothing, which is right as soon as one slow test is written.
+test-slow: SCREEN := --screen
 test-slow: system $(VENV)/.test  ## run the long tests
 	@if grep -rqs --include='*.py' '^ *@pytest\.mark\.slow\|^pytestmark.*slow' tests; \
 	then $(PYTEST) -m slow; else echo 'There are no slow tests.'; fi
@@ -80,7 +83,7 @@ help:  ## list these targets
 # venv and the libraries of Qt.
 system:
 	@$(PYTHON) -c 'import ctypes' 2>/dev/null || { $(INSTALL_PYTHON); }
-	@$(PYTHON) -I -B app/system_check.py --install $(QT_PLATFORM)
+	@$(PYTHON) -I -B app/system_check.py --install $(SCREEN) $(QT_PLATFORM)
 
 APT_GET := apt-get install -y --no-install-recommends python3 python3-venv
 define INSTALL_PYTHON
@@ -100,7 +103,7 @@ endef
 $(VENV)/.python: $(REBUILD) | system
 	@{ $(USABLE); } || { \
 	$(PYTHON) -m venv --clear --without-pip $(VENV) && touch $(VENV)/.unfinished && \
-	$(BIN)/python -m ensurepip --upgrade >/dev/null && rm $(VENV)/.unfinished; }
+	$(BIN)/python -m ensurepip --upgrade --default-pip >/dev/null && rm $(VENV)/.unfinished; }
 	@touch $@
 
 # Killed on the way, pip leaves packages that look complete: .unfinished has them made again.

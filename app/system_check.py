@@ -67,6 +67,8 @@ LIBRARIES = {
     ),
 }
 FONT = Package("fonts-dejavu-core", "a font")
+# A screen that nobody looks at, and a hand for it: some long tests use the window as it is.
+SCREEN = (Package("xvfb", "Xvfb"), Package("xdotool", "xdotool"))
 
 
 def platform_in_use(environment: Mapping[str, str]) -> str:
@@ -120,6 +122,13 @@ def missing_python_parts() -> list[Package]:
     return []
 
 
+def missing_programs() -> list[Package]:
+    """Return packages of the programs with which tests use a window; they can do without."""
+    if not sys.platform.startswith("linux"):
+        return []
+    return [package for package in SCREEN if not shutil.which(package.provides)]
+
+
 def install_command(packages: Sequence[Package]) -> str:
     """Command that a person types to install packages on Debian or Ubuntu."""
     update = "apt-get update"
@@ -157,6 +166,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Check this machine, install what is missing if allowed, and return an exit code."""
     parser = argparse.ArgumentParser(description="Check what RoTeMiNa needs of the system.")
     parser.add_argument("--install", action="store_true", help="install what is missing")
+    parser.add_argument("--screen", action="store_true", help="also what tests of the window use")
     parser.add_argument("platform", nargs="?", default=platform_in_use(os.environ))
     options = parser.parse_args(arguments)
 
@@ -164,7 +174,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _fail(_old_python())
     needed = missing_python_parts() + missing_libraries(options.platform)
     wanted = list(dict.fromkeys(needed + missing_libraries("xcb")))
-    if options.install and wanted and install(wanted):
+    extra = missing_programs() if options.screen else []
+    if options.install and wanted + extra and install(wanted + extra):
         needed = missing_python_parts() + missing_libraries(options.platform)
         wanted = list(dict.fromkeys(needed + missing_libraries("xcb")))
     # Who has no display is not held up by the libraries that draw on one.

@@ -312,3 +312,15 @@ def needed(path: Path) -> list[str]:
     strings = offset_of(next(value for tag, value in dynamic if tag == 5))
     names = (strings + value for tag, value in dynamic if tag == 1)
     return [content[name : content.index(b"\0", name)].decode() for name in names]
+
+
+def test_programs_of_tests_are_asked_for_and_nobody_is_held_up_without(monkeypatch):
+    asked = []
+    monkeypatch.setattr(system_check.shutil, "which", lambda _: None)
+    monkeypatch.setattr(system_check, "missing_libraries", lambda _: [])
+    monkeypatch.setattr(system_check, "missing_python_parts", list)
+    monkeypatch.setattr(system_check, "install", lambda packages: asked.append(packages))
+    assert system_check.main(["--install", "--screen", "offscreen"]) == 0
+    assert [package.name for package in asked[0]] == ["xvfb", "xdotool"]
+    assert system_check.main(["--install", "offscreen"]) == 0
+    assert len(asked) == 1
