@@ -117,7 +117,7 @@ def arrange(
 
 
 def hide_forgotten_tabs(window: QMainWindow) -> None:
-    """Hide tab bars that Qt has made on the way and forgotten (seen in 6.11).
+    """Hide tab bars that Qt has made on the way and forgotten (seen in 6.11); others may scroll.
 
     The tabs of docks stand right above (or below) the one in front; those that stand above none
     are what is left of another layout.
@@ -129,6 +129,9 @@ def hide_forgotten_tabs(window: QMainWindow) -> None:
     ]
     only_mine = Qt.FindChildOption.FindDirectChildrenOnly
     for bar in window.findChildren(QTabBar, options=only_mine):
+        # Qt cuts the words of all to a letter where there are many: rather scroll.
+        bar.setElideMode(Qt.TextElideMode.ElideNone)
+        bar.setUsesScrollButtons(True)
         if bar.isVisible() and not any(_belongs(bar, dock) for dock in docks):
             bar.hide()
 

@@ -2,7 +2,8 @@
 
 import time
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushButton
 
 from rotemina.app.display import Scale, axis_scale, label
@@ -93,8 +94,6 @@ class AxisRow(QFrame):
         name.setTextFormat(Qt.TextFormat.PlainText)  # a name from a file is no markup
         name.setProperty("heading", True)
         name.setMinimumWidth(44)
-        widest = self.left.fontMetrics().horizontalAdvance("8888.8 µrad left")
-        self.left.setFixedWidth(widest)
         controls = QHBoxLayout()
         controls.setSpacing(4)
         controls.addWidget(self.minus)
@@ -115,7 +114,6 @@ class AxisRow(QFrame):
     def _jog_button(self, text: str, sign: int) -> QPushButton:
         button = QPushButton(text)
         button.setProperty("jog", True)
-        button.setFixedWidth(34)
         button.setAccessibleName(f"{label(self._axis)} {text}")
         button.clicked.connect(lambda _: self._step(sign))
         button.pressed.connect(lambda: self._hold(button, sign))
@@ -130,6 +128,23 @@ class AxisRow(QFrame):
         field.textEdited.connect(lambda _: self.confirmation.withdraw())
         field.returnPressed.connect(self._go)
         return field
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
+        """Leave room for the widest text whatever the size of text is."""
+        if event.type() in (QEvent.Type.FontChange, QEvent.Type.StyleChange):
+            self._fit()
+        super().changeEvent(event)
+
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
+        """Leave room for the widest text; before, the size of text is not known."""
+        self._fit()
+        super().showEvent(event)
+
+    def _fit(self) -> None:
+        self.left.setFixedWidth(self.left.fontMetrics().horizontalAdvance("8888.8 µrad left"))
+        sign = self.plus.fontMetrics().horizontalAdvance("−")
+        for button in (self.minus, self.plus):
+            button.setFixedWidth(max(34, 3 * sign))
 
     # --- moves ------------------------------------------------------------------------------------
 
@@ -193,6 +208,8 @@ class AxisRow(QFrame):
     def _lock(self, why_not: str | None) -> None:
         name, held = label(self._axis), self._steps.step(self._axis) is None
         how = "while it is held" if held else "one step"
+        for button in (self.minus, self.plus):
+            button.setProperty("held", held)  # the command palette can only click
         allow(self.minus, why_not, f"Move {name} down {how}")
         allow(self.plus, why_not, f"Move {name} up {how}")
         low, high = (self._scale.number(end) for end in self._described.range)

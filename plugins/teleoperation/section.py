@@ -46,6 +46,7 @@ def plain_text(*, quiet: bool = True, lines: int = 0) -> QLabel:
 
 def keep_lines(text: QLabel, lines: int) -> None:
     """Give a label room for so many lines, whatever is in it: what is below must not leap."""
+    text.ensurePolished()  # the theme says how large text is
     text.setFixedHeight(lines * text.fontMetrics().lineSpacing() + 2)
 
 
