@@ -139,24 +139,29 @@ def _by_sample(
     chance: Chance | None,
 ) -> tuple[Motion, PlantState, FloatArray]:
     """Do it sample by sample, which serves every plant: inputs may act late."""
-    asked, parts = command.copy(), []
-    columns, offsets = list(controllers), [axis.offset for axis in plant.robot.axes.values()]
+    asked, parts, begin_s = command.copy(), [], float(state.time_s[-1])
+    columns, told_of = list(controllers), plant.open_loop_inputs
+    offsets = np.array([axis.offset for axis in plant.robot.axes.values()], dtype=np.float64)
+    added = np.empty((len(command), len(columns)))
     for k in range(len(command)):
         told = asked[k : k + 1]
         told[0, columns] = [controllers[index].output for index in columns]
-        time_s = state.time_s[-1:] + interval_s
-        motion, state = plant.advance(state, time_s, told, chance=chance)
-        for index in columns:
-            one = controllers[index]
-            read = float(motion.reading[0, index]) - offsets[index]
+        # Counted from the sample before: so the steps are those that were made for that one.
+        state = replace(state, time_s=state.time_s - state.time_s[-1])
+        motion, state = plant.advance(state, np.array([interval_s]), told, chance=chance)
+        for number, index in enumerate(columns):
+            one, read = controllers[index], float(motion.reading[0, index] - offsets[index])
             told[0, index] = one.answer(float(reference[k, index]), read)
-            error = np.where(one.within(told[:, index]), reference[k, index] - read, 0.0)
-            _watch(plant, index, error, np.array([one.integral]), one)
-        inputs = state.inputs.copy()
-        inputs[-1, columns] = motion.inputs[0, columns] = plant.open_loop_inputs(told)[0, columns]
-        state = replace(state, inputs=inputs)
+            added[k, number] = one.integral
+        state.inputs[-1, columns] = motion.inputs[0, columns] = told_of(told)[0, columns]
         parts.append(motion)
-    return Motion(*(np.concatenate(one) for one in zip(*parts, strict=True))), state, asked
+    whole = Motion(*(np.concatenate(one) for one in zip(*parts, strict=True)))
+    for number, (index, one) in enumerate(controllers.items()):
+        read = whole.reading[:, index] - offsets[index]
+        error = np.where(one.within(asked[:, index]), reference[:, index] - read, 0.0)
+        _watch(plant, index, error, added[:, number], one)
+    time_s = state.time_s - state.time_s[-1] + begin_s + len(command) * interval_s
+    return whole, replace(state, time_s=time_s), asked
 
 
 def _loops(plant: Plant, controllers: Controllers) -> loop_kernel.Loops:
