@@ -18,6 +18,8 @@ from rotemina.plugins.compensation.trial import Help
 from rotemina.plugins.compensation.words import LIVE_LOOP
 from rotemina.sim.robot.model import PiezoAxis, Robot
 
+_LEFT = dict(zip(Help, ("Without", "Inverse", "Feedback", "Both"), strict=True))
+
 
 class Controls(QWidget):
     """Choices and buttons; what they ask for is done by the panel."""
@@ -42,14 +44,14 @@ class Controls(QWidget):
         self.sweep = QPushButton("Sweep")
         self.residuals = {one: _told("") for one in Help}
         self.beyond = _told("")
-        self.tune, self.open_gains = QPushButton("Tune"), QPushButton("Open gains …")
-        self.keep, self.apply = QPushButton("Keep point …"), QPushButton("Apply point")
+        self.tune, self.open_gains = QPushButton("Tune"), QPushButton("Open …")
+        self.keep, self.apply = QPushButton("Keep …"), QPushButton("Apply point")
         self.generations = QSpinBox()
         self.generations.setRange(1, 500)
         self.generations.setValue(50)
         self.generations.setAccessibleName("Generations of 60 individuals")
         self.generations.setToolTip("1 to 500 generations of 60 individuals each")
-        self.forward = QCheckBox("with inverse")
+        self.forward = QCheckBox("through the inverse")
         self.forward.setToolTip("Feed the reference forward through the inverse in hand")
         self.stop = QPushButton("Stop")
         self.progress = QProgressBar()
@@ -81,14 +83,12 @@ class Controls(QWidget):
             ((self.kind, 3),),
             ((self.switch, 1), (self.sweep, 1), (self.trial, 1)),
             ((_head("Feedback"), 3),),
-            ((self.tune, 1), (self.generations, 1), (self.forward, 1)),
+            ((self.tune, 1), (self.generations, 1)),
+            ((self.forward, 3),),
             ((self.point, 3),),
             ((self.apply, 1), (self.keep, 1), (self.open_gains, 1)),
             ((_head("What is left of the error on a trial"), 3),),
-            *(
-                ((_plain(one.value.capitalize()), 1), (told, 2))
-                for one, told in self.residuals.items()
-            ),
+            *(((_plain(_LEFT[one]), 1), (told, 2)) for one, told in self.residuals.items()),
             ((self.beyond, 3),),
         )
         for number, row in enumerate(rows):
