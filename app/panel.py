@@ -41,6 +41,9 @@ class Panel(QWidget):
         What its "?" opens: a page of the documentation, as ``safety.md`` or ``plate.md#the-panel``,
         or one that the plugin's own package carries, as ``glass_stage:help.md``. Without one there
         is no "?".
+    at_once : bool
+        Whether it is made with the window, before the machine is connected: for one that keeps what
+        happens. Others are made when they are first seen, or a little later.
     api_version : int
         The version of this interface that the panel was written for.
     """
@@ -49,6 +52,7 @@ class Panel(QWidget):
     area: ClassVar[Area] = Area.RIGHT
     order: ClassVar[int] = 100
     help_page: ClassVar[str] = ""
+    at_once: ClassVar[bool] = False
     api_version: ClassVar[int] = API_VERSION
 
     def __init__(self, workbench: Workbench) -> None:

@@ -36,6 +36,9 @@ class LatePanels(QObject):
         self._next.timeout.connect(self._make_next)
         for dock in docks.values():
             dock.visibilityChanged.connect(lambda seen: seen and self._look.start())
+        for name in panels.waiting:
+            if panels.kinds[name].at_once:
+                panels.make(name)
         workbench.busy_changed.connect(self._before_work)
         workbench.closing.connect(self._end)
 

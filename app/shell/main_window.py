@@ -288,7 +288,7 @@ class MainWindow(QMainWindow):
         yield from panel_entries(self.panels.made, self.docks, self.bring_up)
 
     def help_here(self) -> None:
-        """Show the page of the panel that has the focus, or had it last; else that of the window."""
+        """Show the page of the panel that has the focus, or had it last; else the window's."""
         focused = (QApplication.focusWidget(), self.focusWidget())
         pages = filter(None, map(page_at, focused))
         self.help_page.open_page(next(pages, "window.md"))

@@ -34,6 +34,7 @@ class FaultsPanel(Panel):
     area = Area.BOTTOM
     order = 60
     help_page = "faults.md"
+    at_once = True  # what goes wrong while the window opens belongs to the history
 
     _happened = Signal(object, object)
 

@@ -164,7 +164,7 @@ def test_a_device_that_cannot_be_opened_leaves_a_window_with_the_reason(
     panel = window.panels["connection"]
     phase_is(qtbot, panel, "failed")
     assert "nothing answers on port <COM9>" in panel.standing.reason.text()
-    assert "nothing answers on port <COM9>" in notices(window)
+    qtbot.waitUntil(lambda: "port <COM9>" in notices(window), timeout=LONG_MS)
     assert panel.standing.reason.textFormat() is Qt.TextFormat.PlainText
     assert not panel.position.home_all.isEnabled()
     qtbot.waitUntil(window._bar.reconnect.isVisible, timeout=LONG_MS)
