@@ -1,0 +1,245 @@
+"""The real program on a screen of its own, by mouse and keyboard, on a machine with a secret.
+
+The machine is virtual boards in a process of their own with the blind generator's plant behind
+them. Which effect it has is drawn there; the test reads it when all is done.
+"""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rotemina.sim.gap.report.words import effect_title
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records.writing import write_record
+from rotemina.sim.robot.file import load_robot
+
+HERE = Path(__file__).parent
+SEED = 1
+LEAST_TIMES = 5.0
+SOON_S, LONG_S = 30.0, 120.0
+TRIES = 6
+FIRST = ("nice", "-n", "-10") if shutil.which("nice") else ()
+PROOF = "panels['gap'].proof.proof"
+PLAY = "panels['trajectory'].transport.play"
+AXES = {"thx": 0.61, "thy": 0.83, "zn": 0.47}  # swings, Hz
+XVFB, XDOTOOL = shutil.which("Xvfb"), shutil.which("xdotool")
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not (XVFB and XDOTOOL), reason="Xvfb or xdotool is not installed"),
+]
+
+
+@contextmanager
+def running(command, **options):
+    """A process that ends with the test."""
+    # Board and program keep time to milliseconds; where nobody may ask for that, this only warns.
+    with subprocess.Popen(
+        [*FIRST, *command], stdout=subprocess.PIPE, text=True, **options
+    ) as process:
+        try:
+            yield process
+        finally:
+            process.terminate()
+            try:
+                process.wait(10.0)
+            except subprocess.TimeoutExpired:
+                process.kill()
+
+
+class Operator:
+    """A hand on mouse and keyboard, and eyes."""
+
+    def __init__(self, program, environment):
+        self._program, self._environment = program, environment
+
+    def see(self, expression):
+        """Return what an expression of the window is now."""
+        self._program.stdin.write(f"{expression}\n")
+        self._program.stdin.flush()
+        line = self._program.stdout.readline()
+        assert line, f"the program has ended, asked for {expression}"
+        return json.loads(line)
+
+    def wait(self, expression, limit_s=SOON_S):
+        """Wait until something is so, and return it."""
+        end_s = time.monotonic() + limit_s
+        while not (found := self.see(expression)):
+            notices = "[one.text for one in window.notices.notices()]"
+            assert time.monotonic() < end_s, (expression, self.see(notices))
+            time.sleep(0.05)
+        return found
+
+    def click(self, where, limit_s=SOON_S):
+        """Click where an expression says, as soon as that is seen."""
+        x, y = self.wait(where, limit_s)
+        self._do("mousemove", str(x), str(y), "click", "1")
+
+    def hold(self, where, until):
+        """Hold the mouse button down until something is so."""
+        x, y = self.wait(where)
+        self._do("mousemove", str(x), str(y), "mousedown", "1")
+        try:
+            self.wait(until)
+        finally:
+            self._do("mouseup", "1")
+
+    def focus(self, title):
+        """Give a window the keyboard, as a window manager would; there is none here."""
+        found = f"^{title}"
+        self._do("search", "--sync", "--onlyvisible", "--name", found, "windowfocus", "--sync")
+
+    def press(self, key):
+        """Press a key."""
+        self._do("key", key)
+
+    def write_into(self, field, text):
+        """Write into what has the focus, until an expression says that it is there."""
+        for _ in range(TRIES):
+            self._do("key", "ctrl+a")
+            self._do("type", "--delay", "12", text)
+            end_s = time.monotonic() + 5.0
+            while time.monotonic() < end_s:
+                if self.see(field) == text:
+                    return
+                time.sleep(0.05)
+        raise AssertionError((field, self.see(field), text))
+
+    def play(self):
+        """Play what is loaded: by the mouse where its button is in sight, else by the keyboard."""
+        if self.see(f"place({PLAY})"):
+            self.click(f"{PLAY}.isEnabled() and place({PLAY})")
+        else:
+            self.focus("RoTeMiNa")
+            self.press("ctrl+p")
+
+    def play_new(self):
+        """Let the gap page play a motion that is new to it."""
+        if not self.see("place(panels['gap'].motion)"):
+            self.focus("RoTeMiNa")
+            self.press("ctrl+3")  # a comparison has come up before it
+        self.click("panels['gap'].motion.isEnabled() and place(panels['gap'].motion)")
+        self.click("button('New motion', 'Play')")
+
+    def make_ready(self):
+        """Clear the fault of boards that a busy computer has kept waiting, if there is one."""
+        if self.see("bench.session.snapshot().fault") is not None:
+            self.focus("RoTeMiNa")
+            self.press("ctrl+shift+p")
+            self.wait("window.palette_page.isVisible()")
+            self.focus("Find a command")
+            self.write_into("window.palette_page.field.text()", "clear fault")
+            self.press("Return")
+        self.wait("bench.session.snapshot().locked is None")
+
+    def until_done(self, begin, done):
+        """Begin a motion, and wait until it is done; one that was cut off is begun again."""
+        for _ in range(TRIES):
+            self.make_ready()
+            run, proof = self.see("id(bench.run)"), self.see(f"id({PROOF})")
+            begin()
+            self.wait(f"id(bench.run) != {run}", LONG_S)  # of what was played, at the least
+            if self.see("bench.run.completed"):
+                return self.wait(done.format(proof=proof))
+        raise AssertionError(f"no motion has come to its end in {TRIES}")
+
+    def _do(self, *words):
+        subprocess.run([XDOTOOL, *words], env=self._environment, check=True, timeout=SOON_S)
+
+
+def swings():
+    """Fading swings of the nano stage, each axis at its own pace."""
+    robot = load_robot("rotemina")
+    time_s = np.arange(2001) * 5e-3
+    fade = np.minimum(1.0, time_s / 0.5) * (1.0 - 0.6 * time_s / time_s[-1])
+    commands = {}
+    for axis, hertz in AXES.items():
+        low, high = robot.axes[axis].range
+        triangle = 2.0 / np.pi * np.arcsin(np.sin(2.0 * np.pi * hertz * time_s))
+        commands[(axis, Tap.CMD)] = low + (high - low) * (0.5 + 0.42 * fade * triangle)
+    return Record.from_signals(time_s, commands, {axis: robot.unit(axis) for axis in AXES})
+
+
+@pytest.fixture
+def screen():
+    """A screen that nobody looks at, and the environment of its programs."""
+    command = [XVFB, "-displayfd", "1", "-screen", "0", "1920x1080x24", "-nolisten", "tcp"]
+    with running(command, stderr=subprocess.DEVNULL) as process:
+        display = process.stdout.readline().strip()
+        assert display, "Xvfb does not start"
+        yield {**os.environ, "DISPLAY": f":{display}", "QT_QPA_PLATFORM": "xcb"}
+
+
+@pytest.fixture
+def operator(screen, tmp_path):
+    """Before the window, with the machine connected."""
+    label = tmp_path / "label.json"
+    folders = {f"XDG_{what}_HOME": str(tmp_path / what) for what in ("CACHE", "DATA", "CONFIG")}
+    environment = {**screen, **folders, "OMP_NUM_THREADS": "1"}
+    with ExitStack() as stack:
+        board = [sys.executable, str(HERE / "blind_board.py"), str(SEED), str(label)]
+        process = stack.enter_context(running(board, stdin=subprocess.DEVNULL))
+        ports = [process.stdout.readline().split()[2].rstrip(":") for _ in range(2)]
+        program = [sys.executable, str(HERE / "probed.py"), "--driver", "mc68hc11"]
+        settings = zip(("port", "second_port"), ports, strict=True)
+        options = [word for name, port in settings for word in ("--set", f"{name}={port}")]
+        window = stack.enter_context(
+            running([*program, *options], stdin=subprocess.PIPE, env=environment)
+        )
+        operator = Operator(window, environment)
+        operator.wait("window.isVisible()")
+        operator.wait("bench.session.snapshot().locked is None")
+        yield operator
+
+
+def test_from_the_start_to_a_twin_that_is_right(operator, tmp_path):
+    path = tmp_path / "swings.csv"
+    write_record(swings(), path)
+    hand = operator
+
+    before = hand.wait("bench.session.snapshot().command['x']")
+    hand.click("place(panels['control'].rows['x'].plus)")
+    hand.wait(f"bench.session.snapshot().command['x'] > {before}")
+
+    hand.click("place(panels['plots'].pause)")  # drawing without a graphics card takes a core
+    hand.press("ctrl+t")
+    hand.wait("dialog('Load trajectory') is not None")
+    hand.focus("Load trajectory")
+    hand.write_into("written('Load trajectory')", str(path))
+    hand.press("Return")
+    hand.wait("bench.plan is not None and bench.plan.dry_run.allowed")
+    hand.wait(f"{PLAY}.isEnabled() and place({PLAY})")
+    hand.until_done(hand.play, "place(panels['comparison'].table)")
+    assert hand.see("panels['comparison'].table.rowCount()") > 0
+
+    hand.focus("RoTeMiNa")
+    hand.press("ctrl+3")
+    hand.click("place(panels['gap'].start)")
+    hand.wait("panels['gap'].answer is not None", LONG_S)
+    named = hand.wait("panels['gap'].verdict.text()")
+
+    hand.click("place(panels['gap'].twin)")
+    hand.click("button('Add to twin', 'Save')")
+    hand.wait("panels['gap'].robots.currentText() == 'twin.toml'")
+    effects = load_robot(tmp_path / "twin.toml").effects
+    assert effects
+
+    hand.until_done(hand.play_new, f"id({PROOF}) != {{proof}} and place(panels['gap'].proof)")
+    shrunk = hand.see(
+        "{one.trace.axis: one.times for one in panels['gap'].proof.proof.shrunk"
+        " if one.trace.tap == 'meas'}"
+    )
+
+    (hidden,) = json.loads((tmp_path / "label.json").read_text("utf-8"))["effects"]  # only now
+    assert effect_title(hidden["effect"]).lower() in named
+    assert hidden["effect"] in {one.id for one in effects if one.axis == hidden["axis"]}
+    assert shrunk[hidden["axis"]] >= LEAST_TIMES
+    print(f"{named}; the gap is {shrunk[hidden['axis']]:.0f} times smaller")
