@@ -66,9 +66,9 @@ def test_a_panel_is_made_when_its_dock_comes_into_sight(qtbot, make_robot_window
         window.docks[name].raise_()
         qtbot.waitUntil(lambda name=name: name in window.panels.made, timeout=LONG_MS)
     assert window.panels.waiting
-    assert "faults" not in window.panels.made
-    window.bring_up("faults")
-    assert window.docks["faults"].widget() is window.panels.made["faults"]
+    assert "view3d" not in window.panels.made
+    window.bring_up("view3d")
+    assert window.docks["view3d"].widget() is window.panels.made["faults"]
     window.bring_up("nothing of that name")
 
 
