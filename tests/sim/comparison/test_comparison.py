@@ -53,7 +53,7 @@ def test_a_reference_s_own_noise_counts_before_the_robot_s_usual_one():
 @pytest.mark.parametrize("text", ["0", "-1e-6", "inf", "nan", "30 nm", ""])
 def test_a_reference_s_noise_that_is_none_is_refused(text):
     record = record_of(lambda answer: answer, tap=Tap.REF, **{"reference_noise thx": text})
-    with pytest.raises(InputError, match="reference_noise thx = .*above 0, in m or rad"):
+    with pytest.raises(InputError, match=r"reference_noise thx = .*above 0, in m or rad"):
         compare(ROBOT, record)
 
 
