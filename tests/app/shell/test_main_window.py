@@ -68,7 +68,7 @@ def test_a_panel_is_made_when_its_dock_comes_into_sight(qtbot, make_robot_window
     assert window.panels.waiting
     assert "view3d" not in window.panels.made
     window.bring_up("view3d")
-    assert window.docks["view3d"].widget() is window.panels.made["faults"]
+    assert window.docks["view3d"].widget() is window.panels.made["view3d"]
     window.bring_up("nothing of that name")
 
 
