@@ -68,6 +68,7 @@ class RecordingSection(QWidget):
         self.note.setPlaceholderText("remark")
         self.note.setAccessibleName("Remark for the recording")
         self.note.setToolTip("Written into the recording with the time of Enter")
+        self.note.setEnabled(False)  # until something is recorded
         self.note.returnPressed.connect(self.remark)
         self.keep = QPushButton("Note")
         self.keep.setToolTip("Write the remark into the recording")

@@ -116,6 +116,11 @@ class Steering:
         """Coordinates whose stick must be seen in the middle first."""
         return frozenset(name for name, lever in self._levers.items() if not lever.engaged)
 
+    @property
+    def released(self) -> bool:
+        """Whether every stick was in the middle when it was last looked at."""
+        return all(lever.engaged and lever.deflection == 0.0 for lever in self._levers.values())
+
     def told(self, name: str, deflections: Mapping[str, float]) -> float | None:
         """Return the deflection of a coordinate's stick, in the coordinate's direction, if any."""
         lever = self._levers[name]

@@ -294,7 +294,8 @@ class Teleoperator:
             if not self._elsewhere(arm, state):
                 continue
             del self._arms[name]
-            if arm.refused:
+            # A stick that was in the middle a moment ago counts at once.
+            if arm.refused or arm.steering.released:
                 axes = arm.steering.frame.axes
                 anew = self._arm(self._begun(name, axes, state), self._law, engaged=True)
                 anew.steering.begin(anew.steering.frame.start, {}, intent.deflections)

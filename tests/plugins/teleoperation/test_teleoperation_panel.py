@@ -1,6 +1,7 @@
 """The teleoperation panel in the real window, on the simulator and the threads of both."""
 
 import gc
+from itertools import cycle
 
 import pytest
 from PySide6.QtCore import QCoreApplication, QEvent, QPoint, Qt
@@ -24,7 +25,7 @@ from rotemina.sim.robot.file import load_robot
 PANELS = {"connection"}  # that is brought to the front
 
 LONG_MS = 30_000
-RIGHT, UP = Qt.Key.Key_Right, Qt.Key.Key_Up
+LEFT, RIGHT, UP = Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Up
 
 
 @pytest.fixture
@@ -171,13 +172,14 @@ def test_whatever_takes_the_pad_away_ends_the_motion(qtbot, window):
         "a profile that is made": window.workbench.operation.devices.open_mapping,
     }
     pad = window.workbench.operation.pad
-    for name, take_away in ways.items():
+    # To and fro: at the end of its range the axis would stand, whatever is held.
+    for (name, take_away), key in zip(ways.items(), cycle((RIGHT, LEFT)), strict=False):
         dock.show()
         dock.raise_()
         qtbot.waitUntil(lambda: panel.head.word.text() == "ready", timeout=LONG_MS)
         focus(qtbot, panel)
         qtbot.waitUntil(lambda: heeded(panel), timeout=LONG_MS)
-        QTest.keyPress(panel.pad.area, RIGHT)
+        QTest.keyPress(panel.pad.area, key)
         driving(qtbot, panel)
         take_away()
         driving(qtbot, panel, False)

@@ -229,6 +229,15 @@ def test_after_a_stop_that_found_all_at_rest_a_held_stick_counts_no_more(desk):
     assert desk.run(0.3, {**CENTRE, "x": -1.0}).command["x"] < high
 
 
+def test_a_stick_that_was_in_the_middle_counts_at_once_where_the_machine_was_moved(desk):
+    desk.run(0.3)
+    start = desk.session.snapshot().command["x"]
+    desk.session.go_to({"x": start + 1e-4})
+    moved = desk.run(2.0).command["x"]
+    assert moved == pytest.approx(start + 1e-4, abs=1e-9)
+    assert desk.run(0.3, {**CENTRE, "x": 1.0}).command["x"] > moved
+
+
 def test_it_does_not_fight_with_what_else_moves_an_axis(desk):
     start = desk.run(0.1).command["x"]
     desk.session.go_to({"x": start + 2e-3})
