@@ -82,8 +82,8 @@ def look():
 
 make_application()
 notify = MainWindow.__init__.__globals__["Workbench"].notify
-MainWindow.__init__.__globals__["Workbench"].notify = lambda self, level, text: (
-    told.append(text), notify(self, level, text)
+MainWindow.__init__.__globals__["Workbench"].notify = lambda self, level, text, **about: (
+    told.append(text), notify(self, level, text, **about)
 )
 QTimer.singleShot(500, look)
 sys.exit(run(MotionSession(Simulator(load_robot("rotemina"))), Settings(Path("settings.json"))))
