@@ -17,6 +17,7 @@ REBUILD := $(shell $(USABLE) || echo rebuild)
 
 EXTRAS_run :=
 EXTRAS_test := [test]
+EXTRAS_slow := [test,docs]
 EXTRAS_lint := [lint]
 EXTRAS_bench := [test,bench]
 EXTRAS_screenshots := [test]
@@ -35,7 +36,7 @@ test: system $(VENV)/.test  ## run the quick tests
 
 # pytest fails when it selects nothing, which is right as soon as one slow test is written.
 test-slow: SCREEN := --screen
-test-slow: system $(VENV)/.test  ## run the long tests
+test-slow: system $(VENV)/.slow  ## run the long tests
 	@if grep -rqs --include='*.py' '^ *@pytest\.mark\.slow\|^pytestmark.*slow' tests; \
 	then $(PYTEST) -m slow; else echo 'There are no slow tests.'; fi
 
@@ -107,7 +108,7 @@ $(VENV)/.python: $(REBUILD) | system
 	@touch $@
 
 # Killed on the way, pip leaves packages that look complete: .unfinished has them made again.
-$(VENV)/.run $(VENV)/.test $(VENV)/.lint $(VENV)/.bench $(VENV)/.screenshots $(VENV)/.docs $(VENV)/.release: \
+$(VENV)/.run $(VENV)/.test $(VENV)/.slow $(VENV)/.lint $(VENV)/.bench $(VENV)/.screenshots $(VENV)/.docs $(VENV)/.release: \
 $(VENV)/.%: pyproject.toml $(VENV)/.python
 	@echo 'Installing RoTeMiNa into $(VENV) (the first time this takes minutes)'
 	@touch $(VENV)/.unfinished

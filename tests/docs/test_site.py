@@ -9,7 +9,7 @@ import pytest
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(find_spec("mkdocs") is None, reason="mkdocs is installed by `make docs`")
+@pytest.mark.skipif(find_spec("mkdocs") is None, reason="no mkdocs: `make test-slow` installs it")
 def test_the_site_is_whole_and_needs_no_network(root, tmp_path):
     configuration = root / "docs" / "site" / "mkdocs.yml"
     done = subprocess.run(
