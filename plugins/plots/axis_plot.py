@@ -198,7 +198,8 @@ class AxisPlot(QWidget):
         parts = (window.command, window.model, window.measured)
         signals = np.stack([to_unit(part[:, column], self._gap_unit) for part in parts], axis=1)
         found = spectrum(window.device_time_s, signals)
-        if found is None:
+        # A reading that is missing has no spectrum, nor has one that never changes.
+        if found is None or not np.isfinite(logarithm(found.density[:, -1])).any():
             for name in CURVES:
                 self.plot.clear_signal(name)
             return
