@@ -158,10 +158,7 @@ def _without_excursions(evidence: Evidence) -> tuple[Evidence, list[Disturbance]
 
 
 def _commanded_change(evidence: Evidence, record: Record) -> FloatArray:
-    """Return how abruptly (n,) commands went on: the axis' own, and others' as they shake it.
-
-    At an even pace, however quick, nothing rings.
-    """
+    """Return how far (n,) commands went in a row: the axis' own, and others' as they shake it."""
     change = np.zeros(len(record.time_s))
     span = Facts.of(evidence.robot.axes[evidence.axis]).span
     for axis in record.axes:
@@ -169,8 +166,7 @@ def _commanded_change(evidence: Evidence, record: Record) -> FloatArray:
             command = record.signal(axis, Tap.CMD)
             share = 1.0 if axis == evidence.axis else _SHAKEN
             size = share * span / Facts.of(evidence.robot.axes[axis]).span
-            turn = np.diff(command, 2, prepend=[command[0], command[0]])
-            change = np.maximum(change, size * np.abs(turn))
+            change = np.maximum(change, size * np.abs(np.diff(command, prepend=command[0])))
     return change
 
 
