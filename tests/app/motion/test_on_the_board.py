@@ -23,6 +23,7 @@ ROBOT = load_robot("rotemina")
 CONNECTING_S, PLAYING_S = 20.0, 30.0
 DURATION_S = 8.0
 MISBEHAVING_S = 25.0
+TRIES = 4  # on a machine that is busy otherwise
 
 
 @contextmanager
@@ -93,7 +94,20 @@ def excitations(period_s):
 
 
 def recorded(robot):
-    """Play both excitations on boards with this robot behind them; return the records."""
+    """Play both excitations on boards with this robot behind them; return the records.
+
+    A machine that lets this process wait for longer than the boards' set-points last ends a
+    trajectory, as it must; then all is played once more.
+    """
+    for _ in range(TRIES):
+        records = played(robot)
+        if records is not None:
+            return records
+    raise AssertionError(f"{TRIES} times a set-point came too late")
+
+
+def played(robot):
+    """Play both excitations once; return the records, or nothing if a set-point came too late."""
     with board_process(robot) as ((port, second), _):
         session = MotionSession(MC68HC11(ROBOT, {"port": port, "second_port": second}))
         told = Told(session)
@@ -106,12 +120,15 @@ def recorded(robot):
             link = session.snapshot().link
         finally:
             session.close()
-    assert not told.of(Faulted)
+    faults = told.of(Faulted)
+    if faults and all("a set-point came too late" in one.message for one in faults):
+        return None
+    assert not faults
     assert not told.of(CommandRefused)
-    played = told.of(PlaybackFinished)
-    assert all(one.completed for one in played)
+    finished = told.of(PlaybackFinished)
+    assert all(one.completed for one in finished)
     assert link.rejected == 0
-    return [one.record for one in played]
+    return [one.record for one in finished]
 
 
 def effects_file(folder, axis, effect):
