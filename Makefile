@@ -36,7 +36,7 @@ test: system $(VENV)/.test  ## run the quick tests
 
 # pytest fails when it selects nothing, which is right as soon as one slow test is written.
 test-slow: SCREEN := --screen
-test-slow: system $(VENV)/.slow  ## run the long tests
+test-slow: system $(VENV)/.slow $(VENV)/src  ## run the long tests
 	@if grep -rqs --include='*.py' '^ *@pytest\.mark\.slow\|^pytestmark.*slow' tests; \
 	then $(PYTEST) -m slow; else echo 'There are no slow tests.'; fi
 
