@@ -3,7 +3,7 @@
 A text is written in English where it is shown, as ``translate("gap", "Diagnose")``: its context,
 the folder it stands in, and itself. A text that is kept in a table is marked there, and translated
 where it is shown: a table is made when its module is imported, before a language is in use. Texts
-with values are templates, filled after translation: ``translate("gap", "{n} records").format(n=3)``.
+with values are templates and are filled later: ``translate("gap", "{n} records").format(n=3)``.
 
 What the engines below the window say (refusals, reports, files) is English in every language.
 """
