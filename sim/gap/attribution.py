@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from rotemina.sim.gap.baseline import GAIN, OWN, RESONANCE, baseline
+from rotemina.sim.gap.baseline import FRICTION, GAIN, OWN, RESONANCE, baseline
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import fit
-from rotemina.sim.gap.models import Explanation, explanation
+from rotemina.sim.gap.models import Explanation, explanation, mean_squares
 from rotemina.sim.gap.selection import LEAST_POWER, LEAST_SHARE
 from rotemina.sim.robot.model import AxisEffect
 
@@ -33,6 +33,9 @@ def attributed(evidence: Evidence, bare: Explanation, explained: Explanation) ->
     brought = {name for cause in named for name in _BRINGS_ALONG.get(cause, ())}
     found = list(explained.causes)
     without = {one.id: _without(evidence, explained, one.id) for one in own}
+    if FRICTION in without:
+        light = _with_another_mass(evidence, explained)
+        without[FRICTION] = min(light, without[FRICTION], key=lambda one: one.score)
     for one in own:
         if one.id not in brought and _closes(bare, without[one.id], explained):
             found.append(_fitted(explained, one.id))
@@ -80,6 +83,20 @@ def _closes(bare: Explanation, before: Explanation, after: Explanation) -> bool:
 def _without(evidence: Evidence, explained: Explanation, name: str) -> Explanation:
     others = [one for one in explained.fit.effects if one.id != name]
     return explanation(evidence, len(explained.causes), fit(evidence, others, most_steps=6))
+
+
+def _with_another_mass(evidence: Evidence, explained: Explanation) -> Explanation:
+    """Return an explanation with the damping that a force axis of another mass has.
+
+    A wrong mass is a gain, and damping in proportion to it: what is damped stays as it was.
+    """
+    effects = explained.fit.effects
+    share = sum(one.parameters["error"] for one in effects if one.id == GAIN)
+    inertia = evidence.robot.axes[evidence.axis].inertia
+    damping = {"viscous": share * (inertia.damping if inertia else 0.0)}
+    others = [one for one in effects if one.id != FRICTION]
+    left = evidence.residual([*others, replace(_fitted(explained, FRICTION), parameters=damping)])
+    return replace(explained, held_out=left, by_tap=mean_squares(evidence, left))
 
 
 def _fitted(explanation: Explanation, name: str) -> AxisEffect:

@@ -16,7 +16,7 @@ from rotemina.sim.gap.coarseness import coarse_step
 from rotemina.sim.gap.crossings import at_crossings
 from rotemina.sim.gap.evidence import Evidence, Observation, Signals
 from rotemina.sim.gap.excursions import excursions
-from rotemina.sim.gap.jumps import jumps
+from rotemina.sim.gap.jumps import jumps as jumps_in
 from rotemina.sim.gap.tones import tone_signals, tones
 from rotemina.sim.gap.whiteness import noise_level
 from rotemina.sim.records.record import Record, Tap
@@ -46,17 +46,19 @@ class Disturbance:
 
 
 def set_aside(
-    evidence: Evidence, explained: Sequence[AxisEffect] = ()
+    evidence: Evidence, explained: Sequence[AxisEffect] = (), *, jumps: bool = True
 ) -> tuple[Evidence, tuple[Disturbance, ...]]:
     """Return evidence without what commands do not cause, and what that was.
 
-    It is looked for beside a model with the effects that are ``explained``.
+    It is looked for beside a model with the effects that are ``explained``; sudden ``jumps`` may
+    be left where they are.
     """
     robot = evidence.robot
     if explained:
         evidence = evidence.with_model(replace(robot, effects=(*robot.effects, *explained)))
     found: list[Disturbance] = []
-    for step in (_without_jumps, _without_tones, _without_excursions, _with_true_floors):
+    steps = (_without_jumps, _without_tones, _without_excursions, _with_true_floors)
+    for step in steps if jumps else steps[1:]:
         evidence, own = step(evidence)
         found += own
     return evidence.with_model(robot) if explained else evidence, tuple(found)
@@ -109,7 +111,7 @@ def _jumps(
 ) -> list[tuple[int, float]]:
     """Return rows and sizes, SI, of the jumps in a record."""
     floor = observation.floor[tap]
-    found = jumps(observation.record.time_s, gaps[tap], quantum / floor)
+    found = jumps_in(observation.record.time_s, gaps[tap], quantum / floor)
     return [(row, size * floor) for row, size in found]
 
 
