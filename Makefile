@@ -25,7 +25,7 @@ EXTRAS_docs := [docs]
 EXTRAS_release := [release]
 
 .NOTPARALLEL:
-.PHONY: run test test-slow soak lint bench screenshots docs dist bundle clean help system rebuild
+.PHONY: run test test-slow soak lint bench screenshots languages docs dist bundle clean help system rebuild
 
 run: QT_PLATFORM :=
 run: system $(VENV)/.run  ## open the program with the built-in simulator
@@ -54,6 +54,18 @@ bench: system $(VENV)/.bench  ## measure against the alternatives (tests/benchma
 
 screenshots: system $(VENV)/.screenshots  ## draw the pictures of the documentation
 	@$(BIN)/python -m rotemina.app.shell.screenshots docs/screenshots
+
+# One file of texts for each folder that shows some, named as their context; all make one .qm.
+LUPDATE := $(BIN)/pyside6-lupdate -silent -tr-function-alias QT_TRANSLATE_NOOP+=marked \
+-locations none -no-obsolete -source-language en -target-language de
+LRELEASE := $(BIN)/pyside6-lrelease -silent
+
+languages: system $(VENV)/.run  ## find what is to be translated, make resources/languages/*.qm
+	@for folder in app/shell plugins/*/; do \
+	if ls $$folder/*.py >/dev/null 2>&1 && grep -Eqs '\b(translate|marked)\(' $$folder/*.py; then \
+	$(LUPDATE) $${folder%/}/*.py -ts resources/languages/de/$$(basename $$folder).ts || exit 1; \
+	fi; done
+	@$(LRELEASE) resources/languages/de/*.ts -qm resources/languages/de.qm
 
 # The site of a later version of a theme is not this one's business, nor are its makers' notices.
 docs: system $(VENV)/.docs $(VENV)/src  ## make the site of the documentation, build/docs

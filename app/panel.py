@@ -33,7 +33,8 @@ class Panel(QWidget):
     Attributes
     ----------
     title : str
-        Shown on its frame and in the menu.
+        Shown on its frame and in the menu, there in the window's language: it is marked for
+        translation as ``marked("panels", "Gap")``.
     area : Area
     order : int
         Panels of one area stand in this order.

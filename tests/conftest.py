@@ -13,6 +13,7 @@ settings.register_profile("repeatable", derandomize=True, deadline=None, print_b
 settings.load_profile("repeatable")
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+os.environ["LANGUAGE"] = "en"  # tests know the window in English, whatever the machine speaks
 
 #: Panels of every window in tests, whatever others they ask for.
 USUAL = ("control", "plots", "trajectory", "comparison")

@@ -34,6 +34,8 @@ def shipped_files() -> list[tuple[str, Path]]:
             inside = path.relative_to(ROOT / folder)
             if path.is_dir() or any(part.startswith((".", "__py")) for part in inside.parts):
                 continue
+            if path.suffix == ".ts":
+                continue  # what languages are made from stays in the source
             files.append((".".join([layer, *inside.parent.parts]), path))
     return files
 

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
 from rotemina.app.panel import Panel
 from rotemina.app.shell.commands import Command
 from rotemina.app.shell.controls import why_not
+from rotemina.app.shell.language import translate
 
 _SIGNS = "✕…▾▴●■± "  # what ends or begins the text of a button without being a word
 
@@ -60,7 +61,7 @@ def panel_entries(
     Only buttons that act when they are clicked: one that must be held down (``held``) is left out.
     """
     for name, panel in panels.items():
-        title = docks[name].windowTitle() if name in docks else panel.title
+        title = docks[name].windowTitle() if name in docks else translate("panels", panel.title)
         yield Entry("Panel", title, "", None, lambda name=name: show(name))
         for button in _buttons(panel):
             yield Entry(

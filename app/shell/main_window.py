@@ -29,6 +29,7 @@ from rotemina.app.shell.help_button import DockHelp, TabHelp
 from rotemina.app.shell.help_page import HelpPage
 from rotemina.app.shell.help_topics import page_at
 from rotemina.app.shell.host import find_panels
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.late_panels import LatePanels
 from rotemina.app.shell.log_page import LogPage
 from rotemina.app.shell.message_log import MessageLog
@@ -134,13 +135,16 @@ class MainWindow(QMainWindow):
         if len(central) == 1:
             return central[0]
         tabs = self.central_tabs = QTabWidget()
-        pages = {tabs.addTab(panel, panel.title): panel.help_page for panel in central}
+        pages = {
+            tabs.addTab(panel, translate("panels", panel.title)): panel.help_page
+            for panel in central
+        }
         TabHelp(tabs, pages, self.help_page.open_page)
         return tabs
 
     def _dock(self, name: str, kind: type[Panel]) -> QDockWidget:
         """Return a dock for a panel, which is not made yet."""
-        dock = QDockWidget(kind.title)
+        dock = QDockWidget(translate("panels", kind.title))
         dock.setObjectName(f"dock-{name}")
         self.addDockWidget(layouts.DOCK_AREAS[kind.area], dock)
         if kind.help_page:

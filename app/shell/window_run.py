@@ -15,6 +15,7 @@ from PySide6.QtWidgets import QApplication
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.plugin_kit.panel_watch import PanelWatch
 from rotemina.app.settings import Settings
+from rotemina.app.shell import language
 from rotemina.app.shell import theme as themes
 from rotemina.app.shell.layouts import OPERATE
 from rotemina.app.shell.main_window import MainWindow
@@ -37,12 +38,13 @@ def make_application() -> QApplication:
 def make_window(
     session: MotionSession, settings: Settings, played_folder: Path | None = None
 ) -> MainWindow:
-    """Make the window with its workbench, in the theme last used; it is not shown yet.
+    """Make the window with its workbench, in the language and theme last used; it is not shown yet.
 
     Played records are kept in ``played_folder``, by default among the user's own data.
     """
     folder = played_folder or user_data_path("rotemina", appauthor=False) / "played"
     application = make_application()
+    language.use(application, language.chosen(settings))  # before anything is made that speaks
     theme = themes.theme_named(settings.get("window.theme", DEFAULT_THEME))
     themes.apply(application, theme)
     return MainWindow(Workbench(session, settings, theme, folder))

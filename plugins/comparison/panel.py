@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.display import label
 from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.plot import SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Run, Workbench
@@ -35,7 +36,7 @@ COLUMNS = ("tap", "rms", "noise floor", "rel. error", "delay")
 class ComparisonPanel(Panel):
     """The last run: the real record beside the model's answer to the same commands."""
 
-    title = "Comparison of model and real"
+    title = marked("panels", "Comparison of model and real")
     area = Area.BOTTOM
     order = 20
     help_page = "comparison.md"

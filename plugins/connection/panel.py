@@ -5,6 +5,7 @@ from PySide6.QtWidgets import QFrame, QScrollArea, QVBoxLayout, QWidget
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.connection.device import DeviceSection
 from rotemina.plugins.connection.line import LineSection, StopSection
@@ -17,7 +18,7 @@ from rotemina.plugins.connection.tip import TipSection
 class ConnectionPanel(Panel):
     """State, device, position, parameters, tip, line and stop latency, one below the other."""
 
-    title = "Connection"
+    title = marked("panels", "Connection")
     area = Area.RIGHT
     order = 20
     help_page = "connection.md"

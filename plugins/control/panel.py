@@ -15,6 +15,7 @@ from PySide6.QtWidgets import (
 from rotemina.app.display import stages
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.control.axis_row import AxisRow
 from rotemina.plugins.control.hand_page import HandPage
@@ -34,7 +35,7 @@ QPushButton[jog="true"] { padding: 0; }
 class ControlPanel(Panel):
     """Head, every axis stage by stage, and below them one page of four."""
 
-    title = "Control"
+    title = marked("panels", "Control")
     area = Area.LEFT
     order = 10
     help_page = "control.md"

@@ -23,6 +23,7 @@ from rotemina.app.display import stages
 from rotemina.app.motion.history import LiveWindow
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
 from rotemina.drivers.clock import Clock
@@ -48,7 +49,7 @@ _ALONE, _KEPT, _IN_HAND = "alone", "kept", "run"
 class PlotsPanel(Panel):
     """One plot an axis; the stages stand side by side."""
 
-    title = "Plots"
+    title = marked("panels", "Plots")
     area = Area.CENTRE
     order = 10
     help_page = "plots.md"

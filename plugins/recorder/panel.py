@@ -15,6 +15,7 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.background import Background
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.recorder.events import EventsView
 from rotemina.plugins.recorder.left import LeftBox
@@ -30,7 +31,7 @@ _CLOSING_S = 2.0  # that closing waits for a look into a folder that hangs
 class RecorderPanel(Panel):
     """The recording beside the list of recordings and the events of the one that is shown."""
 
-    title = "Recorder"
+    title = marked("panels", "Recorder")
     area = Area.BOTTOM
     order = 70
     help_page = "recording.md#in-the-window"
