@@ -1,6 +1,8 @@
-"""Faults that a virtual board can be given, as commands with parameters. Free of Qt."""
+"""Faults that a virtual board can be given, as commands with parameters. Free of widgets."""
 
 from dataclasses import dataclass
+
+from rotemina.app.shell.language import translate
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,60 +44,111 @@ class Fault:
         return " ".join(word for word in words if word)
 
 
-_TOWARDS = Pick("Direction", (("to board", "board"), ("to program", "host")))
-
-
 def faults(axes: tuple[str, ...], steppers: tuple[str, ...], lines: int) -> tuple[Fault, ...]:
-    """Return the faults of a robot with these axes, behind so many lines."""
-    every = (("all lines", ""), *((f"line {n}", f"line {n}") for n in range(1, lines + 1)))
-    line = Pick("Line", every if lines > 1 else every[:1])
-    boards = tuple((f"board {n}", f"{n}") for n in range(1, (len(axes) + 2) // 3 + 1))
-    damage = (("lose", "drop"), ("double", "double"), ("corrupt", "corrupt"), ("add", "garbage"))
+    """Return the faults of a robot with these axes, behind so many lines; words as shown now."""
+    every = (
+        (translate("faults", "all lines"), ""),
+        *((translate("faults", "line {n}").format(n=n), f"line {n}") for n in range(1, lines + 1)),
+    )
+    line = Pick(translate("faults", "Line"), every if lines > 1 else every[:1])
+    boards = tuple(
+        (translate("faults", "board {n}").format(n=n), f"{n}")
+        for n in range(1, (len(axes) + 2) // 3 + 1)
+    )
+    damage = (
+        (translate("faults", "lose"), "drop"),
+        (translate("faults", "double"), "double"),
+        (translate("faults", "corrupt"), "corrupt"),
+        (translate("faults", "add"), "garbage"),
+    )
+    towards = Pick(
+        translate("faults", "Direction"),
+        ((translate("faults", "to board"), "board"), (translate("faults", "to program"), "host")),
+    )
     made = [
         Fault(
-            "Bytes",
-            "The next bytes are lost, come twice, or with a wrong bit; or some that nobody sent",
-            (Pick("What", damage), Number("Bytes", 3, 1, 10_000), _TOWARDS, line),
-        ),
-        Fault(
-            "Delay",
-            "From now on bytes come this much later; 0 ends it",
+            translate("faults", "Bytes"),
+            translate(
+                "faults",
+                "The next bytes are lost, come twice, or with a wrong bit; or some that nobody "
+                "sent",
+            ),
             (
-                Pick("What", (("delay", "delay"),)),
-                Number("Delay", 5.0, 0.0, 1000.0, "ms", "ms", 1),
-                _TOWARDS,
+                Pick(translate("faults", "What"), damage),
+                Number(translate("faults", "Bytes"), 3, 1, 10_000),
+                towards,
                 line,
             ),
         ),
         Fault(
-            "Cable",
-            "Nothing comes through, both ways; torn off, the boards hear a zero as well",
+            translate("faults", "Delay"),
+            translate("faults", "From now on bytes come this much later; 0 ends it"),
             (
-                Pick("What", (("silent", "silence"), ("torn off", "tear"))),
-                Number("Duration", 2.0, 0.0, 3600.0, "s", "s", 1),
+                Pick(translate("faults", "What"), ((translate("faults", "delay"), "delay"),)),
+                Number(translate("faults", "Delay"), 5.0, 0.0, 1000.0, "ms", "ms", 1),
+                towards,
                 line,
             ),
         ),
         Fault(
-            "Board",
-            "A board begins anew; it does not know where its steppers are",
+            translate("faults", "Cable"),
+            translate(
+                "faults",
+                "Nothing comes through, both ways; torn off, the boards hear a zero as well",
+            ),
             (
-                Pick("What", (("reset", "reset"), ("brown-out", "brown-out"))),
-                Pick("Board", boards),
+                Pick(
+                    translate("faults", "What"),
+                    (
+                        (translate("faults", "silent"), "silence"),
+                        (translate("faults", "torn off"), "tear"),
+                    ),
+                ),
+                Number(translate("faults", "Duration"), 2.0, 0.0, 3600.0, "s", "s", 1),
+                line,
             ),
         ),
         Fault(
-            "Sensor",
-            "A sensor says the same until it is thawed",
-            (Pick("What", (("freeze", "freeze"), ("thaw", "thaw"))), _axes(axes)),
+            translate("faults", "Board"),
+            translate("faults", "A board begins anew; it does not know where its steppers are"),
+            (
+                Pick(
+                    translate("faults", "What"),
+                    (
+                        (translate("faults", "reset"), "reset"),
+                        (translate("faults", "brown-out"), "brown-out"),
+                    ),
+                ),
+                Pick(translate("faults", "Board"), boards),
+            ),
+        ),
+        Fault(
+            translate("faults", "Sensor"),
+            translate("faults", "A sensor says the same until it is thawed"),
+            (
+                Pick(
+                    translate("faults", "What"),
+                    (
+                        (translate("faults", "freeze"), "freeze"),
+                        (translate("faults", "thaw"), "thaw"),
+                    ),
+                ),
+                _axes(axes),
+            ),
         ),
     ]
     if steppers:
-        lost = Number("Microsteps", 40, 1, 1_000_000)
-        what = Pick("What", (("lose steps", "lose"),))
-        made.append(Fault("Stepper", "It stays behind its command", (what, _axes(steppers), lost)))
+        lost = Number(translate("faults", "Microsteps"), 40, 1, 1_000_000)
+        what = Pick(translate("faults", "What"), ((translate("faults", "lose steps"), "lose"),))
+        made.append(
+            Fault(
+                translate("faults", "Stepper"),
+                translate("faults", "It stays behind its command"),
+                (what, _axes(steppers), lost),
+            )
+        )
     return tuple(made)
 
 
 def _axes(names: tuple[str, ...]) -> Pick:
-    return Pick("Axis", tuple((name, name) for name in names))
+    return Pick(translate("faults", "Axis"), tuple((name, name) for name in names))

@@ -1,4 +1,7 @@
-"""Faults, lost links, refusals and recoveries, each with its time. Free of Qt."""
+"""Faults, lost links, refusals and recoveries, each with its time.
+
+Entries are kept and written in English, and shown in the language of the window.
+"""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -14,35 +17,37 @@ from rotemina.app.motion.state import (
     SessionState,
     StateChanged,
 )
+from rotemina.app.shell.language import marked, translate
 
 MOST = 500  # entries; the oldest give way
 _TURNS = 2  # a link that is lost and found again and again takes no more than two rows
 
 
 class Kind(StrEnum):
-    """What an entry tells of."""
+    """What an entry tells of, as files have it."""
 
-    FAULT = "fault"
-    LOST = "lost"
-    FAILED = "not connected"
-    REFUSED = "refused"
-    RECOVERED = "recovered"
-    STOP = "emergency stop"
-    INJECTED = "injected"
-    NOTE = "note"
+    FAULT = marked("faults", "fault")
+    LOST = marked("faults", "lost")
+    FAILED = marked("faults", "not connected")
+    REFUSED = marked("faults", "refused")
+    RECOVERED = marked("faults", "recovered")
+    STOP = marked("faults", "emergency stop")
+    INJECTED = marked("faults", "injected")
+    NOTE = marked("faults", "note")
 
 
 @dataclass(frozen=True, slots=True)
 class Entry:
     """One thing that happened; ``count`` times in a row, ``at`` the latest time.
 
-    Later entries have greater numbers.
+    Later entries have greater numbers. ``about`` stands in the text where it says ``{about}``.
     """
 
     number: int
     at: datetime
     kind: Kind
     text: str
+    about: str = ""
     count: int = 1
 
     @property
@@ -53,7 +58,17 @@ class Entry:
     @property
     def told(self) -> str:
         """The text, with how many times it came."""
-        return self.text if self.count == 1 else f"{self.text} ({self.count} times)"
+        text = _filled(self.text, self.about)
+        return text if self.count == 1 else f"{text} ({self.count} times)"
+
+    @property
+    def shown(self) -> str:
+        """The same in the language of the window."""
+        about = translate("faults", self.about) if self.about else ""
+        text = _filled(translate("faults", self.text), about)
+        if self.count == 1:
+            return text
+        return translate("faults", "{text} ({n} times)").format(text=text, n=self.count)
 
     def __str__(self) -> str:
         return f"{self.time}{self.at:%z}\t{self.kind}\t{' '.join(self.told.split())}"
@@ -79,16 +94,16 @@ class History:
         """Forget all entries."""
         self._entries.clear()
 
-    def add(self, at: datetime, kind: Kind, text: str) -> None:
+    def add(self, at: datetime, kind: Kind, text: str, about: str = "") -> None:
         """Add an entry; what comes again, or comes and goes again, is counted instead."""
         count = 1
         for place in range(len(self._entries) - 1, max(len(self._entries) - _TURNS, 0) - 1, -1):
             old = self._entries[place]
-            if (old.kind, old.text) == (kind, text):
+            if (old.kind, old.text, old.about) == (kind, text, about):
                 count += self._entries.pop(place).count
                 break
         self._number += 1
-        self._entries.append(Entry(self._number, at, kind, text, count))
+        self._entries.append(Entry(self._number, at, kind, text, about, count))
         del self._entries[: -self._most]
 
     def note_event(self, at: datetime, event: Event) -> None:
@@ -108,16 +123,19 @@ class History:
         """Add that the emergency stop was latched or released, if it was."""
         if latched != self._latched:
             self._latched = latched
-            self.add(at, Kind.STOP, "released" if latched is None else f"{latched} latched")
+            text = marked("faults", "released")
+            if latched is not None:
+                text = marked("faults", "{about} latched")
+            self.add(at, Kind.STOP, text, latched or "")
 
     def _note_state(self, at: datetime, state: SessionState) -> None:
         before, self._state = self._state, state
         connected = state.connection is Connection.CONNECTED
         was = before.connection is Connection.CONNECTED
         if connected and not was:
-            self.add(at, Kind.RECOVERED, "connected")
+            self.add(at, Kind.RECOVERED, marked("faults", "connected"))
         elif was and state.connection is Connection.DISCONNECTED:
-            self.add(at, Kind.NOTE, "disconnected")
+            self.add(at, Kind.NOTE, marked("faults", "disconnected"))
         elif connected:
             self._note_soundness(at, before, state)
         self._was_connected = was
@@ -125,11 +143,16 @@ class History:
     def _note_soundness(self, at: datetime, before: SessionState, state: SessionState) -> None:
         lost, was_lost = state.phase is Phase.SHORT_LOSS, before.phase is Phase.SHORT_LOSS
         if lost and not was_lost:
-            self.add(at, Kind.LOST, "the device says nothing for a short while")
+            self.add(at, Kind.LOST, marked("faults", "the device says nothing for a short while"))
         elif was_lost and not lost:
-            self.add(at, Kind.RECOVERED, "the device answers again")
+            self.add(at, Kind.RECOVERED, marked("faults", "the device answers again"))
         if before.fault is not None and state.fault is None:
-            self.add(at, Kind.RECOVERED, f"cleared: {before.fault}")
+            self.add(at, Kind.RECOVERED, marked("faults", "cleared: {about}"), before.fault)
+
+
+def _filled(text: str, about: str) -> str:
+    """Return a text about something; what a device says may hold braces, and stays."""
+    return text.replace("{about}", about) if about else text
 
 
 def as_text(entries: Iterable[Entry]) -> str:

@@ -17,18 +17,20 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.shell.controls import ElidedLabel, allow, plain_tip
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.faults.board_process import TAKES_COMMANDS, BoardProcess
 from rotemina.plugins.faults.commands import Fault, Number, Pick, faults
 from rotemina.sim.robot.model import StepperAxis
 
-_ABOUT = (
+_ABOUT = marked(
+    "faults",
     "For training. The simulator inside this program has neither line nor board that could fail; "
     "what its machine does wrong is in the panel Effects. A virtual board is a process of its own: "
-    "start it, connect to its ports, and let things go wrong."
+    "start it, connect to its ports, and let things go wrong.",
 )
-_NOT_RUNNING = "no virtual board runs; start it first"
-_NO_COMMANDS = "on this system a virtual board takes no commands"
+_NOT_RUNNING = marked("faults", "no virtual board runs; start it first")
+_NO_COMMANDS = marked("faults", "on this system a virtual board takes no commands")
 _BOARD_AXES = 3
 
 
@@ -86,8 +88,10 @@ class FaultRow:
         for field, parameter in zip(self.fields, fault.parameters, strict=True):
             field.setAccessibleName(f"{fault.title}: {parameter.name}")
             field.setToolTip(plain_tip(f"{parameter.name}. {fault.meaning}", _bounds(parameter)))
-        self.button = QPushButton("Inject")
-        self.button.setAccessibleName(f"Inject {fault.title}")
+        self.button = QPushButton(translate("faults", "Inject"))
+        self.button.setAccessibleName(
+            translate("faults", "Inject {fault}").format(fault=fault.title)
+        )
         self.button.clicked.connect(lambda _: inject(self.command()))
 
     def command(self) -> str:
@@ -110,7 +114,8 @@ class FaultRow:
 def _bounds(parameter: Pick | Number) -> str:
     if isinstance(parameter, Pick):
         return ""
-    return f"{parameter.low:g} to {parameter.high:.7g} {parameter.unit}".rstrip()
+    text = translate("faults", "{low:g} to {high:.7g} {unit}")
+    return text.format(low=parameter.low, high=parameter.high, unit=parameter.unit).rstrip()
 
 
 class Injection(QWidget):
@@ -118,30 +123,40 @@ class Injection(QWidget):
 
     Signals
     -------
-    told(str, bool) : something about it worth keeping, and whether it is a complaint.
+    told(str, str, bool) : something about it worth keeping, what stands in it for ``{about}``, and
+        whether it is a complaint.
     """
 
-    told = Signal(str, bool)
+    told = Signal(str, str, bool)
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
         self._workbench = workbench
         self.board = BoardProcess(workbench.robot, self)
         self.lines = QComboBox()
-        self.lines.setAccessibleName("Lines of the virtual board")
-        self.lines.setToolTip("Whether the virtual boards share one serial line")
+        self.lines.setAccessibleName(translate("faults", "Lines of the virtual board"))
+        self.lines.setToolTip(
+            translate("faults", "Whether the virtual boards share one serial line")
+        )
         most = 2 if len(workbench.robot.axes) > _BOARD_AXES else 1
         self._lines = most
         if most > 1:
-            self.lines.addItem("a line for each board", 2)
-        self.lines.addItem("one line" if most == 1 else "one shared line", 1)
-        self.homed = QCheckBox("Position known")
-        self.homed.setToolTip("Begin homed and without a fault, as no real board does")
-        self.start = QPushButton("Start virtual board")
+            self.lines.addItem(translate("faults", "a line for each board"), 2)
+        self.lines.addItem(
+            translate("faults", "one line")
+            if most == 1
+            else translate("faults", "one shared line"),
+            1,
+        )
+        self.homed = QCheckBox(translate("faults", "Position known"))
+        self.homed.setToolTip(
+            translate("faults", "Begin homed and without a fault, as no real board does")
+        )
+        self.start = QPushButton(translate("faults", "Start virtual board"))
         self.start.setProperty("primary", True)
         self.start.clicked.connect(lambda _: self._start())
-        self.end = QPushButton("End")
-        self.end.setAccessibleName("End the virtual board")
+        self.end = QPushButton(translate("faults", "End"))
+        self.end.setAccessibleName(translate("faults", "End the virtual board"))
         self.end.clicked.connect(lambda _: self.board.end())
         self.state = ElidedLabel()
         self.rows: list[FaultRow] = []
@@ -150,7 +165,7 @@ class Injection(QWidget):
         self._show()
 
     def _lay_out(self) -> None:
-        about = QLabel(_ABOUT)
+        about = QLabel(translate("faults", _ABOUT))
         about.setWordWrap(True)
         about.setProperty("quiet", True)
         self.state.setProperty("quiet", True)
@@ -183,7 +198,7 @@ class Injection(QWidget):
     def _connect(self) -> None:
         self.board.listening.connect(self._offer)
         self.board.said.connect(self._note)
-        self.board.complained.connect(lambda line: self.told.emit(line, True))
+        self.board.complained.connect(lambda line: self.told.emit(line, "", True))
         self.board.ended.connect(self._ended)
         self._workbench.closing.connect(self.board.close)
 
@@ -196,33 +211,50 @@ class Injection(QWidget):
         self.board.inject(command)
 
     def _offer(self, ports: tuple[tuple[str, str], ...]) -> None:
-        self._workbench.offer_ports((port, f"virtual {who}") for port, who in ports)
-        self.told.emit(f"virtual board on {', '.join(port for port, _ in ports)}", False)
+        self._workbench.offer_ports(
+            (port, translate("faults", "virtual {board}").format(board=who)) for port, who in ports
+        )
+        where = ", ".join(port for port, _ in ports)
+        self.told.emit(marked("faults", "virtual board on {about}"), where, False)
         self._show()
 
     def _note(self, line: str) -> None:
         _, _, text = line.partition(" s: ")
         if text:
-            self.told.emit(text, False)
+            self.told.emit(text, "", False)
 
     def _ended(self, why: str) -> None:
         self._workbench.offer_ports(())
-        self.told.emit(f"virtual board ended{f': {why}' if why else ''}", bool(why))
+        ended = marked("faults", "virtual board ended")
+        self.told.emit(
+            marked("faults", "virtual board ended: {about}") if why else ended, why, bool(why)
+        )
         self._show()
 
     def _show(self) -> None:
         """Show how the board stands, and lock what cannot be done."""
         running, ports = self.board.running, self.board.ports
         if ports:
-            text = f"Listening on {', '.join(port for port, _ in ports)}: connect to it."
+            where = ", ".join(port for port, _ in ports)
+            text = translate("faults", "Listening on {ports}: connect to it.").format(ports=where)
         else:
-            text = "Starting …" if running else "No virtual board runs."
+            text = (
+                translate("faults", "Starting …")
+                if running
+                else translate("faults", "No virtual board runs.")
+            )
         self.state.show_text(text)
-        allow(self.start, "it runs already" if running else None, "Start boards of this robot")
-        allow(self.end, None if running else _NOT_RUNNING, "End it: a line that is torn off")
+        allow(
+            self.start,
+            translate("faults", "it runs already") if running else None,
+            translate("faults", "Start boards of this robot"),
+        )
+        none = None if running else translate("faults", _NOT_RUNNING)
+        allow(self.end, none, translate("faults", "End it: a line that is torn off"))
         for widget in (self.lines, self.homed):
             widget.setEnabled(not running)
-        why = None if ports else _NOT_RUNNING
+        why = None if ports else translate("faults", _NOT_RUNNING)
+        if not TAKES_COMMANDS:
+            why = translate("faults", _NO_COMMANDS)
         for row in self.rows:
-            why = why if TAKES_COMMANDS else _NO_COMMANDS
             allow(row.button, why, row.fault.meaning)

@@ -21,6 +21,7 @@ from rotemina.app.files import write_text
 from rotemina.app.motion.state import Connection, Event, SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.controls import allow
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.faults.history import Entry, History, Kind, as_text
 from rotemina.plugins.faults.injection import Injection
@@ -30,7 +31,7 @@ from rotemina.plugins.faults.table import HistoryTable
 class FaultsPanel(Panel):
     """The history beside the faults that can be injected."""
 
-    title = "Faults"
+    title = marked("panels", "Faults")
     area = Area.BOTTOM
     order = 60
     help_page = "faults.md"
@@ -43,10 +44,10 @@ class FaultsPanel(Panel):
         self.history, self.table = History(), HistoryTable()
         self.injection = Injection(workbench)
         self._shown: tuple[Entry, ...] = ()
-        self.clear_fault = _button("Clear fault", workbench.clear_fault)
-        self.copy = _button("Copy", self.copy_all)
-        self.save = _button("Save …", self._ask_save)
-        self.empty = _button("Empty", self._empty)
+        self.clear_fault = _button(translate("faults", "Clear fault"), workbench.clear_fault)
+        self.copy = _button(translate("faults", "Copy"), self.copy_all)
+        self.save = _button(translate("faults", "Save …"), self._ask_save)
+        self.empty = _button(translate("faults", "Empty"), self._empty)
         self._lay_out()
         # Told on the session's thread: the time is taken there, not when this window has time.
         self._unsubscribe = workbench.session.subscribe(
@@ -70,9 +71,11 @@ class FaultsPanel(Panel):
         text = as_text(self.history.entries)
         self.workbench.work(
             "faults",
-            f"Writing {path.name} …",
+            translate("faults", "Writing {name} …").format(name=path.name),
             lambda: write_text(path, text),
-            lambda _: self.workbench.notify(Level.GOOD, f"Saved {path}"),
+            lambda _: self.workbench.notify(
+                Level.GOOD, translate("faults", "Saved {path}").format(path=path)
+            ),
         )
 
     def _lay_out(self) -> None:
@@ -111,28 +114,40 @@ class FaultsPanel(Panel):
             self._shown = entries
             with QSignalBlocker(self.table):
                 self.table.show_entries(entries, self.workbench.theme)
-        allow(self.clear_fault, against_clearing(state), "Acknowledge the device's fault")
-        none = None if entries else "there is nothing yet"
-        allow(self.copy, none, "Copy the chosen rows, or all, as text (Ctrl+C)")
-        allow(self.save, none, "Write all rows into a text file")
-        allow(self.empty, none, "Forget all rows")
+        allow(
+            self.clear_fault,
+            against_clearing(state),
+            translate("faults", "Acknowledge the device's fault"),
+        )
+        none = None if entries else translate("faults", "there is nothing yet")
+        allow(
+            self.copy, none, translate("faults", "Copy the chosen rows, or all, as text (Ctrl+C)")
+        )
+        allow(self.save, none, translate("faults", "Write all rows into a text file"))
+        allow(self.empty, none, translate("faults", "Forget all rows"))
 
     def _note(self, at: datetime, event: Event) -> None:
         self.history.note_event(at, event)
 
-    def _note_injection(self, text: str, complaint: bool) -> None:
+    def _note_injection(self, text: str, about: str, complaint: bool) -> None:
         injected = text.removeprefix("injected: ")
         kind = Kind.NOTE if injected == text else Kind.INJECTED
-        self.history.add(now(), Kind.REFUSED if complaint else kind, injected)
+        self.history.add(now(), Kind.REFUSED if complaint else kind, injected, about)
         if complaint:
-            self.workbench.notify(Level.WARNING, text, about=self)
+            shown = translate("faults", text).replace("{about}", about)
+            self.workbench.notify(Level.WARNING, shown, about=self)
 
     def _empty(self) -> None:
         self.history.clear()
 
     def _ask_save(self) -> None:
         folder = self.workbench.settings.get("files.folder", "")
-        dialog = QFileDialog(self.main_window, "Save faults", folder, "Text (*.txt)")
+        dialog = QFileDialog(
+            self.main_window,
+            translate("faults", "Save faults"),
+            folder,
+            translate("faults", "Text (*.txt)"),
+        )
         dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
@@ -144,8 +159,8 @@ class FaultsPanel(Panel):
 def against_clearing(state: SessionState) -> str | None:
     """Why no fault can be acknowledged."""
     if state.connection is not Connection.CONNECTED:
-        return "not connected; reconnect in the panel Connection"
-    return None if state.fault is not None else "there is no fault"
+        return translate("faults", "not connected; reconnect in the panel Connection")
+    return None if state.fault is not None else translate("faults", "there is no fault")
 
 
 def now() -> datetime:

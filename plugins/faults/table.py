@@ -7,10 +7,11 @@ from PySide6.QtGui import QColor, QGuiApplication, QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableWidget, QTableWidgetItem
 
 from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.faults.history import Entry, Kind, as_text
 
-COLUMNS = ("Time", "What", "Reason")
+COLUMNS = (marked("faults", "Time"), marked("faults", "What"), marked("faults", "Reason"))
 _CLOCK = 11  # where the time of day begins in the text of a time
 
 
@@ -20,8 +21,8 @@ class HistoryTable(QTableWidget):
     def __init__(self) -> None:
         super().__init__(0, len(COLUMNS))
         self._shown: list[Entry] = []  # by row
-        self.setAccessibleName("What went wrong, newest first")
-        self.setHorizontalHeaderLabels(list(COLUMNS))
+        self.setAccessibleName(translate("faults", "What went wrong, newest first"))
+        self.setHorizontalHeaderLabels([translate("faults", column) for column in COLUMNS])
         self.verticalHeader().hide()
         self.verticalHeader().setDefaultSectionSize(24)
         self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
@@ -77,9 +78,10 @@ class HistoryTable(QTableWidget):
             Kind.RECOVERED: theme.good,
             Kind.INJECTED: theme.accent,
         }
-        for column, text in enumerate((entry.time[_CLOCK:], str(entry.kind), entry.told)):
+        texts = (entry.time[_CLOCK:], translate("faults", entry.kind), entry.shown)
+        for column, text in enumerate(texts):
             item = QTableWidgetItem(text)
-            item.setToolTip(plain_tip(entry.time if column == 0 else entry.told))
+            item.setToolTip(plain_tip(entry.time if column == 0 else entry.shown))
             if column == 1:
                 item.setForeground(QColor(colours.get(entry.kind, theme.quiet)))
             item.setFlags(item.flags() & ~Qt.ItemFlag.ItemIsEditable)

@@ -28,7 +28,7 @@ def history():
 def tell(history, *events):
     for second, event in enumerate(events):
         history.note_event(BEGIN + timedelta(seconds=second), event)
-    return [(entry.kind, entry.text) for entry in history.entries]
+    return [(entry.kind, entry.told) for entry in history.entries]
 
 
 def changed(**changes):
@@ -81,7 +81,7 @@ def test_refusals_are_counted_where_they_repeat(history):
 def test_the_latch_is_noted_once(history):
     for latched in (None, "emergency stop", "emergency stop", None):
         history.note_latch(BEGIN, latched)
-    assert [entry.text for entry in history.entries] == ["emergency stop latched", "released"]
+    assert [entry.told for entry in history.entries] == ["emergency stop latched", "released"]
 
 
 def test_old_entries_give_way(history):

@@ -1,0 +1,398 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="de" sourcelanguage="en">
+<context>
+    <name>faults</name>
+    <message>
+        <source>the virtual board ended by itself</source>
+        <translation>die virtuelle Steuerkarte endete von selbst</translation>
+    </message>
+    <message>
+        <source>all lines</source>
+        <translation>alle Leitungen</translation>
+    </message>
+    <message>
+        <source>line {n}</source>
+        <translation>Leitung {n}</translation>
+    </message>
+    <message>
+        <source>Line</source>
+        <translation>Leitung</translation>
+    </message>
+    <message>
+        <source>board {n}</source>
+        <translation>Steuerkarte {n}</translation>
+    </message>
+    <message>
+        <source>lose</source>
+        <translation>verlieren</translation>
+    </message>
+    <message>
+        <source>double</source>
+        <translation>verdoppeln</translation>
+    </message>
+    <message>
+        <source>corrupt</source>
+        <translation>verfälschen</translation>
+    </message>
+    <message>
+        <source>add</source>
+        <translation>einfügen</translation>
+    </message>
+    <message>
+        <source>Direction</source>
+        <translation>Richtung</translation>
+    </message>
+    <message>
+        <source>to board</source>
+        <translation>zur Steuerkarte</translation>
+    </message>
+    <message>
+        <source>to program</source>
+        <translation>zum Programm</translation>
+    </message>
+    <message>
+        <source>Bytes</source>
+        <translation>Bytes</translation>
+    </message>
+    <message>
+        <source>The next bytes are lost, come twice, or with a wrong bit; or some that nobody sent</source>
+        <translation>Die nächsten Bytes gehen verloren, kommen doppelt oder mit einem falschen Bit; oder es kommen welche, die niemand gesendet hat</translation>
+    </message>
+    <message>
+        <source>What</source>
+        <translation>Was</translation>
+    </message>
+    <message>
+        <source>Delay</source>
+        <translation>Totzeit</translation>
+    </message>
+    <message>
+        <source>From now on bytes come this much later; 0 ends it</source>
+        <translation>Ab jetzt kommen Bytes um diese Zeit später; 0 beendet es</translation>
+    </message>
+    <message>
+        <source>delay</source>
+        <translation>verzögern</translation>
+    </message>
+    <message>
+        <source>Cable</source>
+        <translation>Kabel</translation>
+    </message>
+    <message>
+        <source>Nothing comes through, both ways; torn off, the boards hear a zero as well</source>
+        <translation>Nichts kommt durch, in beiden Richtungen; abgerissen hören die Steuerkarten auch eine Null</translation>
+    </message>
+    <message>
+        <source>silent</source>
+        <translation>stumm</translation>
+    </message>
+    <message>
+        <source>torn off</source>
+        <translation>abgerissen</translation>
+    </message>
+    <message>
+        <source>Duration</source>
+        <translation>Dauer</translation>
+    </message>
+    <message>
+        <source>Board</source>
+        <translation>Steuerkarte</translation>
+    </message>
+    <message>
+        <source>A board begins anew; it does not know where its steppers are</source>
+        <translation>Eine Steuerkarte beginnt neu; sie weiß nicht, wo ihre Schrittmotoren stehen</translation>
+    </message>
+    <message>
+        <source>reset</source>
+        <translation>Reset</translation>
+    </message>
+    <message>
+        <source>brown-out</source>
+        <translation>Unterspannung</translation>
+    </message>
+    <message>
+        <source>Sensor</source>
+        <translation>Sensor</translation>
+    </message>
+    <message>
+        <source>A sensor says the same until it is thawed</source>
+        <translation>Ein Sensor meldet dasselbe, bis er wieder freigegeben wird</translation>
+    </message>
+    <message>
+        <source>freeze</source>
+        <translation>einfrieren</translation>
+    </message>
+    <message>
+        <source>thaw</source>
+        <translation>freigeben</translation>
+    </message>
+    <message>
+        <source>Microsteps</source>
+        <translation>Mikroschritte</translation>
+    </message>
+    <message>
+        <source>lose steps</source>
+        <translation>Schritte verlieren</translation>
+    </message>
+    <message>
+        <source>Stepper</source>
+        <translation>Schrittmotor</translation>
+    </message>
+    <message>
+        <source>It stays behind its command</source>
+        <translation>Er bleibt hinter seinem Sollwert zurück</translation>
+    </message>
+    <message>
+        <source>Axis</source>
+        <translation>Achse</translation>
+    </message>
+    <message>
+        <source>fault</source>
+        <translation>Fehler</translation>
+    </message>
+    <message>
+        <source>lost</source>
+        <translation>verloren</translation>
+    </message>
+    <message>
+        <source>not connected</source>
+        <translation>nicht verbunden</translation>
+    </message>
+    <message>
+        <source>refused</source>
+        <translation>abgelehnt</translation>
+    </message>
+    <message>
+        <source>recovered</source>
+        <translation>wieder da</translation>
+    </message>
+    <message>
+        <source>emergency stop</source>
+        <translation>Not-Halt</translation>
+    </message>
+    <message>
+        <source>injected</source>
+        <translation>eingespeist</translation>
+    </message>
+    <message>
+        <source>note</source>
+        <translation>Hinweis</translation>
+    </message>
+    <message>
+        <source>{text} ({n} times)</source>
+        <translation>{text} ({n}-mal)</translation>
+    </message>
+    <message>
+        <source>released</source>
+        <translation>freigegeben</translation>
+    </message>
+    <message>
+        <source>{about} latched</source>
+        <translation>verriegelt: {about}</translation>
+    </message>
+    <message>
+        <source>connected</source>
+        <translation>verbunden</translation>
+    </message>
+    <message>
+        <source>disconnected</source>
+        <translation>getrennt</translation>
+    </message>
+    <message>
+        <source>the device says nothing for a short while</source>
+        <translation>das Gerät schweigt eine kurze Zeit</translation>
+    </message>
+    <message>
+        <source>the device answers again</source>
+        <translation>das Gerät antwortet wieder</translation>
+    </message>
+    <message>
+        <source>cleared: {about}</source>
+        <translation>quittiert: {about}</translation>
+    </message>
+    <message>
+        <source>For training. The simulator inside this program has neither line nor board that could fail; what its machine does wrong is in the panel Effects. A virtual board is a process of its own: start it, connect to its ports, and let things go wrong.</source>
+        <translation>Zum Üben. Der Simulator in diesem Programm hat weder Leitung noch Steuerkarte, die ausfallen könnten; was seine Maschine falsch macht, steht im Fenster Effekte. Eine virtuelle Steuerkarte ist ein eigener Prozess: starten, mit ihren Anschlüssen verbinden und Fehler einspeisen.</translation>
+    </message>
+    <message>
+        <source>no virtual board runs; start it first</source>
+        <translation>keine virtuelle Steuerkarte läuft; zuerst starten</translation>
+    </message>
+    <message>
+        <source>on this system a virtual board takes no commands</source>
+        <translation>auf diesem System nimmt eine virtuelle Steuerkarte keine Befehle an</translation>
+    </message>
+    <message>
+        <source>Inject</source>
+        <translation>Einspeisen</translation>
+    </message>
+    <message>
+        <source>Inject {fault}</source>
+        <translation>{fault} einspeisen</translation>
+    </message>
+    <message>
+        <source>{low:g} to {high:.7g} {unit}</source>
+        <translation>{low:g} bis {high:.7g} {unit}</translation>
+    </message>
+    <message>
+        <source>Lines of the virtual board</source>
+        <translation>Leitungen der virtuellen Steuerkarte</translation>
+    </message>
+    <message>
+        <source>Whether the virtual boards share one serial line</source>
+        <translation>Ob sich die virtuellen Steuerkarten eine serielle Leitung teilen</translation>
+    </message>
+    <message>
+        <source>a line for each board</source>
+        <translation>eine Leitung je Karte</translation>
+    </message>
+    <message>
+        <source>one line</source>
+        <translation>eine Leitung</translation>
+    </message>
+    <message>
+        <source>one shared line</source>
+        <translation>eine gemeinsame Leitung</translation>
+    </message>
+    <message>
+        <source>Position known</source>
+        <translation>Position bekannt</translation>
+    </message>
+    <message>
+        <source>Begin homed and without a fault, as no real board does</source>
+        <translation>Referenziert und ohne Fehler beginnen, wie es keine echte Steuerkarte tut</translation>
+    </message>
+    <message>
+        <source>Start virtual board</source>
+        <translation>Virtuelle Steuerkarte starten</translation>
+    </message>
+    <message>
+        <source>End</source>
+        <translation>Beenden</translation>
+    </message>
+    <message>
+        <source>End the virtual board</source>
+        <translation>Virtuelle Steuerkarte beenden</translation>
+    </message>
+    <message>
+        <source>virtual {board}</source>
+        <translation>virtuell: {board}</translation>
+    </message>
+    <message>
+        <source>virtual board on {about}</source>
+        <translation>virtuelle Steuerkarte an {about}</translation>
+    </message>
+    <message>
+        <source>virtual board ended</source>
+        <translation>virtuelle Steuerkarte beendet</translation>
+    </message>
+    <message>
+        <source>virtual board ended: {about}</source>
+        <translation>virtuelle Steuerkarte beendet: {about}</translation>
+    </message>
+    <message>
+        <source>Listening on {ports}: connect to it.</source>
+        <translation>Wartet an {ports}: damit verbinden.</translation>
+    </message>
+    <message>
+        <source>Starting …</source>
+        <translation>Startet …</translation>
+    </message>
+    <message>
+        <source>No virtual board runs.</source>
+        <translation>Keine virtuelle Steuerkarte läuft.</translation>
+    </message>
+    <message>
+        <source>it runs already</source>
+        <translation>sie läuft schon</translation>
+    </message>
+    <message>
+        <source>Start boards of this robot</source>
+        <translation>Steuerkarten dieses Roboters starten</translation>
+    </message>
+    <message>
+        <source>End it: a line that is torn off</source>
+        <translation>Beenden: wie eine abgerissene Leitung</translation>
+    </message>
+    <message>
+        <source>Clear fault</source>
+        <translation>Fehler quittieren</translation>
+    </message>
+    <message>
+        <source>Copy</source>
+        <translation>Kopieren</translation>
+    </message>
+    <message>
+        <source>Save …</source>
+        <translation>Speichern …</translation>
+    </message>
+    <message>
+        <source>Empty</source>
+        <translation>Leeren</translation>
+    </message>
+    <message>
+        <source>Writing {name} …</source>
+        <translation>{name} wird geschrieben …</translation>
+    </message>
+    <message>
+        <source>Saved {path}</source>
+        <translation>Gespeichert: {path}</translation>
+    </message>
+    <message>
+        <source>Acknowledge the device&apos;s fault</source>
+        <translation>Den Fehler des Geräts quittieren</translation>
+    </message>
+    <message>
+        <source>there is nothing yet</source>
+        <translation>es gibt noch nichts</translation>
+    </message>
+    <message>
+        <source>Copy the chosen rows, or all, as text (Ctrl+C)</source>
+        <translation>Die gewählten Zeilen, oder alle, als Text kopieren (Strg+C)</translation>
+    </message>
+    <message>
+        <source>Write all rows into a text file</source>
+        <translation>Alle Zeilen in eine Textdatei schreiben</translation>
+    </message>
+    <message>
+        <source>Forget all rows</source>
+        <translation>Alle Zeilen verwerfen</translation>
+    </message>
+    <message>
+        <source>Save faults</source>
+        <translation>Fehler speichern</translation>
+    </message>
+    <message>
+        <source>Text (*.txt)</source>
+        <translation>Text (*.txt)</translation>
+    </message>
+    <message>
+        <source>not connected; reconnect in the panel Connection</source>
+        <translation>nicht verbunden; im Fenster Verbindung neu verbinden</translation>
+    </message>
+    <message>
+        <source>there is no fault</source>
+        <translation>es gibt keinen Fehler</translation>
+    </message>
+    <message>
+        <source>Time</source>
+        <translation>Zeit</translation>
+    </message>
+    <message>
+        <source>Reason</source>
+        <translation>Grund</translation>
+    </message>
+    <message>
+        <source>What went wrong, newest first</source>
+        <translation>Was schiefging, Neuestes zuerst</translation>
+    </message>
+</context>
+<context>
+    <name>panels</name>
+    <message>
+        <source>Faults</source>
+        <translation>Fehler</translation>
+    </message>
+</context>
+</TS>
