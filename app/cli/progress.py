@@ -16,7 +16,7 @@ _TO_LINE_END = "\x1b[K"
 
 
 class ProgressLine:
-    """A listener that tells stage, axis, candidate and the time left.
+    """A listener that tells stage, axis, candidate, the candidate that leads and the time left.
 
     On a terminal it rewrites one line and ends it when its context ends; elsewhere it writes a
     line every few seconds, so that a log stays short.
@@ -64,6 +64,12 @@ class ProgressLine:
     def _text(self, progress: Progress, elapsed_s: float) -> str:
         what = " ".join(part for part in (progress.axis, progress.candidate) if part)
         text = f"{progress.stage} {what}".rstrip() + f", {100.0 * self._share:.0f} %"
+        if progress.ranking is not None and progress.ranking.standings:
+            first = progress.ranking.standings[0]
+            name = " + ".join(effect for effect, _ in first.causes) or "re-tuned model"
+            text += (
+                f", {name} first of {progress.ranking.tried}: {100.0 * first.closed:.0f} % closed"
+            )
         if elapsed_s >= _FIRST_GUESS_S and self._share >= _FIRST_GUESS_SHARE:
             left_s = elapsed_s * (1.0 / self._share - 1.0)
             text += f", about {_duration(left_s)} left"

@@ -1,6 +1,6 @@
 """One axis examined: screened, fitted, selected, judged."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,9 +14,17 @@ from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.many_modes import many_modes
 from rotemina.sim.gap.models import Explanation, explain, mean_squares, untouched
 from rotemina.sim.gap.probe import Probe, probed
+from rotemina.sim.gap.progress import Account
 from rotemina.sim.gap.richness import is_poor
 from rotemina.sim.gap.rivals import not_ruled_out
-from rotemina.sim.gap.selection import CLEARLY, LEAST_POWER, LEAST_SHARE, Selection, select
+from rotemina.sim.gap.selection import (
+    CLEARLY,
+    LEAST_POWER,
+    LEAST_SHARE,
+    NOTICED,
+    Selection,
+    select,
+)
 from rotemina.sim.gap.verdict import decide
 from rotemina.sim.gap.wander import wander
 from rotemina.sim.robot.model import AxisEffect
@@ -32,7 +40,6 @@ _UNEXPLAINED = 1.2  # mean square over the floor, from which there is another lo
 _CLEARLY_MORE = 1.1  # times the power of a disturbance that was found before
 
 _Found = tuple[Evidence, tuple[Disturbance, ...], Selection, Explanation]
-Told = Callable[[str, str | None], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,21 +67,24 @@ class Examination:
         return tuple(one for one in self.best.fit.effects if _acts(one))
 
 
-def examine(whole: Evidence, told: Told, *, jobs: int = 1) -> Examination:
+def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
     """Look for the causes of an axis' gap."""
-    modal = many_modes(whole, told)
+    modal = many_modes(whole, account)
     if modal is not None:
         return _of_modes(whole, modal)
     evidence, aside = set_aside(whole)
-    selection, best = _explained(evidence, told, jobs)
+    selection, best = _explained(evidence, account, jobs)
     evidence, aside, selection, best = _looked_again(
-        whole, (evidence, aside, selection, best), told, jobs
+        whole, (evidence, aside, selection, best), account, jobs
     )
     evidence, aside, selection, best = _without_false_noise(
-        whole, (evidence, aside, selection, best), told, jobs
+        whole, (evidence, aside, selection, best), account, jobs
+    )
+    evidence, aside, selection, best = _without_false_jumps(
+        whole, (evidence, aside, selection, best), account, jobs
     )
     aside = tuple(one for one in aside if not _was_explained(whole, evidence, best, one))
-    told("deciding", None)
+    account.tell("deciding", None)
     drift = wander(evidence, best.fit.residual)
     disturbances = _counting(whole, evidence, best, aside, drift)
     found, aside_at = best, power_by_tap(whole, disturbances)
@@ -109,7 +119,7 @@ def examine(whole: Evidence, told: Told, *, jobs: int = 1) -> Examination:
     )
 
 
-def _looked_again(whole: Evidence, first: _Found, told: Told, jobs: int) -> _Found:
+def _looked_again(whole: Evidence, first: _Found, account: Account, jobs: int) -> _Found:
     """Return what is found once what a first look explains hides disturbances no more.
 
     Steps of a screw hide lost ones, and a coarse converter hides the spikes of a sensor.
@@ -122,14 +132,14 @@ def _looked_again(whole: Evidence, first: _Found, told: Told, jobs: int) -> _Fou
         evidence, found = set_aside(whole, acting)
         if not _more(found, aside):
             break
-        selection, better = _explained(evidence, told, jobs)
+        selection, better = _explained(evidence, account, jobs)
         if better.score > _MUCH_BETTER * best.score:
             break
         first = evidence, found, selection, better
     return first
 
 
-def _without_false_noise(whole: Evidence, first: _Found, told: Told, jobs: int) -> _Found:
+def _without_false_noise(whole: Evidence, first: _Found, account: Account, jobs: int) -> _Found:
     """Return what is found with the declared floor, where what seemed noise can be explained.
 
     What a quick motion leaves from row to row, as an encoder's own error does, looks like noise.
@@ -145,10 +155,23 @@ def _without_false_noise(whole: Evidence, first: _Found, told: Told, jobs: int) 
         ]
     )
     others = tuple(one for one in aside if one.effect != "sensor_noise")
-    second = declared, others, *_explained(declared, told, jobs)
+    second = declared, others, *_explained(declared, account, jobs)
     if not selection.tried and second[3].score > _NOT_NOISE * second[2].raw:
         return first  # nothing but noise explains it
     return second
+
+
+def _without_false_jumps(whole: Evidence, first: _Found, account: Account, jobs: int) -> _Found:
+    """Return what is found with the jumps left in, where what seemed lost steps can be explained.
+
+    An axis that sticks and breaks loose jumps as well, by what its drive was bent meanwhile.
+    """
+    _, aside, _, best = first
+    if best.score < NOTICED or not any(one.effect == "lost_steps" for one in aside):
+        return first
+    evidence, others = set_aside(whole, jumps=False)
+    second = evidence, others, *_explained(evidence, account, jobs)
+    return second if second[3].score < _MUCH_BETTER * best.score else first
 
 
 def _more(found: Sequence[Disturbance], before: Sequence[Disturbance]) -> bool:
@@ -203,12 +226,12 @@ def _of_modes(evidence: Evidence, modal: Explanation) -> Examination:
     )
 
 
-def _explained(evidence: Evidence, told: Told, jobs: int) -> tuple[Selection, Explanation]:
+def _explained(evidence: Evidence, account: Account, jobs: int) -> tuple[Selection, Explanation]:
     """Return the selection, and the best explanation with its own parameters as causes."""
     bare = untouched(evidence)
     if max(bare.by_tap.values()) < _GAP:
         return Selection(bare, bare, bare, ()), bare
-    selection = select(evidence, told, jobs=jobs)
+    selection = select(evidence, account, jobs=jobs)
     return selection, attributed(evidence, selection.bare, selection.best)
 
 

@@ -16,7 +16,8 @@ from rotemina.sim.effects.modes import MODES
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import Fit
 from rotemina.sim.gap.models import Explanation, mean_squares
-from rotemina.sim.gap.selection import LEAST_SHARE, Told
+from rotemina.sim.gap.progress import Account
+from rotemina.sim.gap.selection import LEAST_SHARE
 from rotemina.sim.identification.vector_fitting import (
     Spectra,
     contributions,
@@ -61,7 +62,7 @@ class _Axis:
         return whole.only([self.sources.index(name) for name in sources])
 
 
-def many_modes(evidence: Evidence, told: Told) -> Explanation | None:
+def many_modes(evidence: Evidence, account: Account) -> Explanation | None:
     """Explain a gap by many modes, if that is what it comes from; None if it is not.
 
     The sources that close less than their share are left out.
@@ -69,7 +70,7 @@ def many_modes(evidence: Evidence, told: Told) -> Explanation | None:
     axis = _gathered(evidence)
     if axis is None:
         return None
-    told("fitting", "flexible_mode")
+    account.tell("fitting", "flexible_mode")
     records = range(len(axis.output))
     sources = list(axis.sources)
     whole = axis.spectra(records, sources)

@@ -23,7 +23,7 @@ from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.examination import Examination, examine
 from rotemina.sim.gap.experiment import experiments
 from rotemina.sim.gap.intake import check
-from rotemina.sim.gap.progress import Listener, Progress, unheard
+from rotemina.sim.gap.progress import Account, Listener, Progress, unheard
 from rotemina.sim.gap.telling import told_of
 from rotemina.sim.gap.where import Place, locate
 from rotemina.sim.plant.group import coupled_axes
@@ -131,22 +131,13 @@ class _Run:
     def _examine(self, name: str, evidence: Evidence, begin: float, share: float) -> None:
         context = [e for other, one in self.examined.items() if other != name for e in one.fitted]
         evidence = evidence.with_model(_with(self.robot, context))
-        steps = {"screening": 0.0, "fitting": 0.3, "deciding": 0.9}
-        latest = Progress("screening", name, None, begin)
-
-        def told(stage: str, candidate: str | None) -> None:
-            nonlocal latest
-            done = max(latest.share, begin + share * steps[stage])
-            latest = Progress(stage, name, candidate, done)
-            self.listener(latest)
-
-        evidence = replace(evidence, heartbeat=lambda: self.listener(latest))
-
+        account = Account(name, self.listener, begin, share)
+        evidence = replace(evidence, heartbeat=account.heartbeat)
         before = float(np.mean(self._bare(name).residual() ** 2))
         now = float(np.mean(evidence.residual() ** 2))
         if context and now - 1.0 < _LEAST_LEFT * (before - 1.0):
             return
-        self.examined[name] = examine(evidence, told, jobs=self.jobs)
+        self.examined[name] = examine(evidence, account, jobs=self.jobs)
 
     def _bare(self, name: str) -> Evidence:
         return Evidence.of(self.robot, name, self.records)

@@ -1,7 +1,10 @@
 """Which effects explain the gap of an axis: forward selection on data that no fit has seen."""
 
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from dataclasses import dataclass, replace
+from functools import partial
+from typing import TypeVar
 
 import numpy as np
 from joblib import Parallel, delayed
@@ -18,7 +21,9 @@ from rotemina.sim.gap.models import (
     explanation,
     untouched,
 )
+from rotemina.sim.gap.progress import Account
 from rotemina.sim.gap.screening import Screened, screen
+from rotemina.sim.gap.standing import Grade
 from rotemina.sim.gap.starts import from_stop
 from rotemina.sim.gap.verdict import closed
 from rotemina.sim.records.record import Tap
@@ -50,7 +55,7 @@ _SKETCHED = 3  # steps after which attempts are compared
 _BEHIND = 3.0  # times the cost of the best, from which an attempt is given up
 _LEAST_PROMISE = 0.5  # of the score: a best candidate that leaves more is no clear cause
 
-Told = Callable[[str, str | None], None]
+_Result = TypeVar("_Result")
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,25 +77,27 @@ class Selection:
         return self.bare.score
 
 
-def select(evidence: Evidence, told: Told, *, jobs: int = 1) -> Selection:
+def select(evidence: Evidence, account: Account, *, jobs: int = 1) -> Selection:
     """Find the causes of an axis' gap, the model's own parameters being re-tuned beside them.
 
-    ``told`` hears stage and candidate.
+    ``account`` hears of stages, and of every candidate what it leaves.
     """
     own = [one for one in candidates(evidence) if not is_own(evidence, one)]
     if not evidence.has(Tap.REF):
         own = [one for one in own if one.id not in _SENSORS_OWN]
     bare = untouched(evidence)
+    account.begin(bare.score)
     retuned = explain(evidence, ())
+    account.tried((), retuned.score, Grade.UNSEEN)
     best = retuned if enters(bare, bare, retuned) else bare
     beam, tried = [bare], [retuned]
     for level in range(MOST_CAUSES):
         found: list[Explanation] = []
         for begun in beam:
-            found += _extended(evidence, begun, own, bare, told, jobs)
+            found += _extended(evidence, begun, own, bare, account, jobs)
         found = _unique(found)
         if found and enters(bare, best, found[0]):
-            found = _unique([*found, *_reformulated(evidence, found[0], own, jobs)])
+            found = _unique([*found, *_reformulated(evidence, found[0], own, account, jobs)])
         tried += found
         if not found:
             break
@@ -139,7 +146,7 @@ def _extended(
     begun: Explanation,
     own: Sequence[AxisEffect],
     bare: Explanation,
-    told: Told,
+    account: Account,
     jobs: int,
 ) -> list[Explanation]:
     """Return explanations with one more cause each."""
@@ -148,23 +155,23 @@ def _extended(
     # No single further cause closes its share where less than that is left; only one that takes
     # nearly all of it away is looked for then, and that shows at once.
     little = bool(begun.causes) and _is_little(bare, begun)
-    told("screening", None)
+    account.tell("screening", None)
     first = scouts(evidence, free)
     slow = any(is_slow(evidence, cause) for cause in begun.causes)
-    screened = _screened(evidence, begun.fit, first, jobs, briefly=little or slow)
+    screened = _screened(evidence, begun, first, account, jobs, briefly=little or slow)
     if little and min(one.cost for one in screened) > _LEAST_PROMISE * begun.score:
         return []
     most = _FITTED_LATER if begun.causes else _FITTED
     if slow:
         most = _FITTED_SLOWLY
     chosen = _chosen(screened, most)
-    told("fitting", chosen[0].id)
-    found = _fitted(evidence, [[*begun.causes, one] for one in chosen], jobs)
+    account.tell("fitting", chosen[0].id)
+    found = _fitted(evidence, [[*begun.causes, one] for one in chosen], account, jobs)
     if min(one.fit.cost for one in found) < ADEQUATE:
         return found  # other formulations, which take long, could not do better
     others = [_informed(one, found) for one in siblings(chosen, free) if one not in first]
     if others:
-        slower = _screened(evidence, begun.fit, others, jobs, briefly=True)
+        slower = _screened(evidence, begun, others, account, jobs, briefly=True)
         least = min(one.fit.cost for one in found)
         worth = _WORTH_A_TRY if begun.causes else _WORTH_A_FIRST_TRY
         slower = [
@@ -173,7 +180,7 @@ def _extended(
             if one.cost < max(worth * least, _PROMISING * _quick(one.effect, found))
         ]
         attempts = [[*begun.causes, one.effect] for one in slower]
-        found += _fitted(evidence, attempts, jobs) if attempts else []
+        found += _fitted(evidence, attempts, account, jobs) if attempts else []
     return found
 
 
@@ -193,7 +200,11 @@ def _quick(slow: AxisEffect, found: Sequence[Explanation]) -> float:
 
 
 def _reformulated(
-    evidence: Evidence, begun: Explanation, own: Sequence[AxisEffect], jobs: int
+    evidence: Evidence,
+    begun: Explanation,
+    own: Sequence[AxisEffect],
+    account: Account,
+    jobs: int,
 ) -> list[Explanation]:
     """Return a set of causes that leaves a gap with other formulations of its members.
 
@@ -206,35 +217,75 @@ def _reformulated(
         for cause in begun.causes
         for sibling in siblings([cause], own)
     ]
-    return _fitted(evidence, attempts, jobs) if attempts else []
+    return _fitted(evidence, attempts, account, jobs) if attempts else []
 
 
 def _screened(
-    evidence: Evidence, fitted: Fit, some: Sequence[AxisEffect], jobs: int, *, briefly: bool
+    evidence: Evidence,
+    begun: Explanation,
+    some: Sequence[AxisEffect],
+    account: Account,
+    jobs: int,
+    *,
+    briefly: bool,
 ) -> list[Screened]:
-    return list(
-        Parallel(n_jobs=jobs, prefer="threads")(
-            delayed(screen)(evidence, fitted, one, briefly=briefly) for one in some
-        )
+    def told(number: int, one: Screened) -> None:
+        account.tried([*begun.causes, some[number]], one.cost, Grade.LOOK)
+
+    return _each(
+        [partial(screen, evidence, begun.fit, one, briefly=briefly) for one in some], jobs, told
     )
 
 
 def _fitted(
-    evidence: Evidence, attempts: Sequence[Sequence[AxisEffect]], jobs: int
+    evidence: Evidence, attempts: Sequence[Sequence[AxisEffect]], account: Account, jobs: int
 ) -> list[Explanation]:
     """Fit sets of causes; those that are far behind after a few steps are given up."""
     number = len(attempts[0])
-    sketches: list[Fit] = Parallel(n_jobs=jobs, prefer="threads")(
-        delayed(sketched)(evidence, beside(evidence, causes), most_steps=_SKETCHED)
-        for causes in attempts
+
+    def told(_: int, one: Fit) -> None:
+        account.tried(one.effects[:number], one.cost, Grade.FIT)
+
+    sketches = _each(
+        [
+            partial(sketched, evidence, beside(evidence, causes), most_steps=_SKETCHED)
+            for causes in attempts
+        ],
+        jobs,
+        told,
     )
     least = min(one.cost for one in sketches)
     ahead = [one for one in sketches if one.cost <= _BEHIND * least]
-    done: list[Fit] = Parallel(n_jobs=jobs, prefer="threads")(
-        delayed(finished)(evidence, one, most_steps=MOST_STEPS - _SKETCHED) for one in ahead
+    done = _each(
+        [partial(finished, evidence, one, most_steps=MOST_STEPS - _SKETCHED) for one in ahead],
+        jobs,
+        told,
     )
     behind = [one for one in sketches if one.cost > _BEHIND * least]
-    return [explanation(evidence, number, one) for one in (*done, *behind)]
+    found = []
+    for one in (*done, *behind):
+        found.append(explanation(evidence, number, one))
+        account.tried(found[-1].causes, found[-1].score, Grade.UNSEEN)
+    return found
+
+
+def _each(
+    tasks: Sequence[Callable[[], _Result]], jobs: int, told: Callable[[int, _Result], None]
+) -> list[_Result]:
+    """Return the results of tasks in their order; ``told`` hears of each as soon as it is there."""
+    done: dict[int, _Result] = {}
+    results = Parallel(n_jobs=jobs, prefer="threads", return_as="generator_unordered")(
+        delayed(_numbered)(number, task) for number, task in enumerate(tasks)
+    )
+    with closing(results):  # also where a listener has heard enough
+        for number, result in results:
+            done[number] = result
+            told(number, result)
+    return [done[number] for number in range(len(tasks))]
+
+
+def _numbered(number: int, task: Callable[[], _Result]) -> tuple[int, _Result]:
+    return number, task()
 
 
 def _chosen(screened: Sequence[Screened], most: int) -> list[AxisEffect]:

@@ -17,10 +17,12 @@ from rotemina.app.cli.main import main
 from rotemina.app.cli.progress import ProgressLine
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.progress import Progress
+from rotemina.sim.gap.standing import Grade, Standings
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.file import SHIPPED, load_robot
+from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.simulation.simulation import simulate
 from rotemina.sim.trajectory.dry_run import dry_run
 
@@ -339,6 +341,17 @@ def test_a_log_sees_a_line_every_few_seconds():
         "fitting thx creep, 25 %, about 15 s left",
         "fitting thx creep, 50 %, about 10 s left",
     ]
+
+
+def test_the_candidate_that_leads_is_told():
+    standings = Standings("thx")
+    standings.begin(101.0)
+    for name, left in (("hysteresis", 11.0), ("creep", 31.0)):
+        standings.add([AxisEffect(axis="thx", id=name)], left, Grade.LOOK)
+    stream = Terminal()
+    with ProgressLine(stream, clock=lambda: 0.0) as line:
+        line(Progress("screening", "thx", None, 0.2, standings.ranking()))
+    assert "screening thx, 20 %, hysteresis first of 2: 90 % closed" in stream.getvalue()
 
 
 def fail_after_a_step(stream):

@@ -9,6 +9,7 @@ from rotemina.sim.gap.diagnosis import Verdict
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.many_modes import many_modes
 from rotemina.sim.gap.method import diagnose
+from rotemina.sim.gap.progress import Account
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -66,7 +67,7 @@ def named(diagnosis):
 
 def modes_of(effects, count=3):
     with threadpool_limits(limits=1):  # as in a diagnosis
-        return many_modes(Evidence.of(ROBOT, "m1", recorded(effects, count)), lambda *_: None)
+        return many_modes(Evidence.of(ROBOT, "m1", recorded(effects, count)), Account("m1"))
 
 
 def test_modes_are_named_with_the_axes_that_drive_them():

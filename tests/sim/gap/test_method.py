@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 
+from rotemina.sim.gap import examination, selection
 from rotemina.sim.gap.diagnosis import UNKNOWN, Verdict
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.method import diagnose
+from rotemina.sim.gap.standing import Grade, Standings
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -140,6 +142,51 @@ def test_order_of_records_and_jobs_change_nothing():
     again = diagnose(ROBOT, own[::-1], seed=3, jobs=2)
     assert once.axes == again.axes
     assert once.axes == diagnose(ROBOT, own, seed=3).axes
+
+
+def test_candidates_rank_while_they_are_tried(monkeypatch):
+    selected, steps = [], []
+
+    def select(*given, **options):
+        selected.append(selection.select(*given, **options))
+        return selected[-1]
+
+    monkeypatch.setattr(examination, "select", select)
+    truth = AxisEffect(axis="zn", id="hysteresis", parameters={"width": 6e-6, "shape": 1.4})
+    found = diagnose(ROBOT, records([truth], "zn"), listener=steps.append)
+    rankings = [step.ranking for step in steps if step.ranking is not None]
+    tried = [one.tried for one in rankings]
+    assert tried == sorted(tried)
+    assert tried[0] == 1  # the model re-tuned
+    for one in rankings:
+        assert one.axis == "zn"
+        assert one.tried >= len(one.standings)
+        left = [each.left for each in one.standings]
+        assert left == sorted(left)
+    # Whatever was tried to the end is there, as it was judged.
+    last, (chosen,) = rankings[-1], selected
+    judged = {one.causes: one.left for one in last.standings if one.grade is Grade.UNSEEN}
+    best = {}
+    for one in chosen.tried:
+        best[one.ids] = min(one.score, best.get(one.ids, np.inf))
+    assert judged.items() >= best.items()
+    assert last.whole == chosen.raw
+    assert last.standings[0].causes == tuple((one.effect, None) for one in found.causes)
+    assert last.standings[0].closed > 0.99
+
+
+def test_what_was_tried_further_counts_and_another_gap_begins_anew():
+    creep = AxisEffect(axis="zn", id="creep")
+    standings = Standings("zn")
+    standings.begin(101.0)
+    standings.add([creep], 11.0, Grade.LOOK)
+    standings.add([creep], 31.0, Grade.FIT)  # it holds less than it promised
+    standings.add([creep], 21.0, Grade.LOOK)
+    (one,) = standings.ranking().standings
+    assert (one.left, one.grade, one.closed) == (31.0, Grade.FIT, pytest.approx(0.7))
+    standings.begin(50.0)
+    assert standings.ranking().standings == ()
+    assert standings.ranking().tried == 1
 
 
 def test_progress_never_falls_and_what_a_listener_raises_ends_it():
