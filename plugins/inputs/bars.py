@@ -6,6 +6,7 @@ from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
 from rotemina.app.motion.teleoperation.calibration import AxisCalibration
 from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 
 _BAR_HEIGHT = 18
@@ -25,11 +26,14 @@ class AxisBar(QWidget):
         self._calibration = AxisCalibration()
         self.setFixedHeight(_BAR_HEIGHT)
         self.setMinimumWidth(60)
-        self.setAccessibleName(f"Axis {name}")
+        self.setAccessibleName(translate("inputs", "Axis {name}").format(name=name))
         self.setToolTip(
             plain_tip(
-                f"{name}: thin what the device says, thick the calibrated deflection, "
-                "both −100 % to 100 %; shaded the dead zone"
+                translate(
+                    "inputs",
+                    "{name}: thin what the device says, thick the calibrated deflection, both "
+                    "−100 % to 100 %; shaded the dead zone",
+                ).format(name=name)
             )
         )
 
@@ -93,7 +97,7 @@ class Lamps(QWidget):
         policy = QSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
         policy.setHeightForWidth(True)
         self.setSizePolicy(policy)
-        self.setAccessibleName("Buttons")
+        self.setAccessibleName(translate("inputs", "Buttons"))
 
     def set_theme(self, theme: Theme) -> None:
         """Change the colours."""
@@ -108,7 +112,9 @@ class Lamps(QWidget):
         if lit != self._lit:
             self._lit = lit
             held = ", ".join(name for name in names if name in lit)
-            self.setAccessibleDescription(f"Down: {held or 'none'}")
+            self.setAccessibleDescription(
+                translate("inputs", "Down: {held}").format(held=held or translate("inputs", "none"))
+            )
         self.update()
 
     def heightForWidth(self, width: int) -> int:  # noqa: N802 (Qt's name)
@@ -169,8 +175,12 @@ class Curve(QWidget):
         self._calibration = AxisCalibration()
         self._raw: float | None = None
         self.setFixedHeight(_CURVE_HEIGHT)
-        self.setAccessibleName("Response curve")
-        self.setToolTip("Across what the device says, upwards the deflection that comes of it")
+        self.setAccessibleName(translate("inputs", "Response curve"))
+        self.setToolTip(
+            translate(
+                "inputs", "Across what the device says, upwards the deflection that comes of it"
+            )
+        )
 
     def set_theme(self, theme: Theme) -> None:
         """Change the colours."""

@@ -1,4 +1,4 @@
-"""A calibration in the making: measured in steps, then curve, sense and travel. Free of Qt."""
+"""A calibration in the making: measured in steps, then curve, sense and travel.."""
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict, replace
@@ -13,6 +13,7 @@ from rotemina.app.motion.teleoperation.calibration import (
 )
 from rotemina.app.motion.teleoperation.calibration_run import CalibrationRun
 from rotemina.app.motion.teleoperation.operator_desk import DeviceView
+from rotemina.app.shell.language import translate
 from rotemina.drivers.inputs.device import InputReading
 
 REST_S = 1.0  # for which it must be left alone, so that its noise is seen
@@ -88,7 +89,9 @@ class Calibrating:
             If no axis is wanted.
         """
         if not wanted:
-            raise CalibrationError("no axis is chosen: choose those that are to be measured")
+            raise CalibrationError(
+                translate("inputs", "no axis is chosen: choose those that are to be measured")
+            )
         sides = [axis for axis in one_sided if axis in wanted]
         self._run = CalibrationRun(self.device.axes, wanted, sides, last)
         self.step, self._begun_s, self.problems = Step.REST, now_s, {}
@@ -161,15 +164,25 @@ def changed(axis: str, before: AxisCalibration, **changes: float | bool | None) 
         return AxisCalibration(**{**asdict(before), **changes})
     except ValidationError as error:
         detail = error.errors()[0]
-        where = ".".join(map(str, detail["loc"])) or "its settings"
+        where = ".".join(map(str, detail["loc"])) or translate("inputs", "its settings")
         reason = str(detail.get("ctx", {}).get("error", detail["msg"]))
-        raise CalibrationError(f"axis {axis}, {where}: {reason}") from error
+        raise CalibrationError(
+            translate("inputs", "axis {axis}, {where}: {reason}").format(
+                axis=axis, where=where, reason=reason
+            )
+        ) from error
 
 
 def summary(one: AxisCalibration) -> str:
     """Return where an axis ends and rests, in one line."""
-    rest = "rests at an end" if one.centre in (one.low, one.high) else f"rests at {one.centre:+.2f}"
-    return f"{one.low:+.2f} to {one.high:+.2f}, {rest}"
+    rest = (
+        translate("inputs", "rests at an end")
+        if one.centre in (one.low, one.high)
+        else translate("inputs", "rests at {centre:+.2f}").format(centre=one.centre)
+    )
+    return translate("inputs", "{low:+.2f} to {high:+.2f}, {rest}").format(
+        low=one.low, high=one.high, rest=rest
+    )
 
 
 def _begins(axis: str, names: tuple[str, ...]) -> bool:

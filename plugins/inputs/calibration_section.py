@@ -6,6 +6,7 @@ from rotemina.app.motion.teleoperation.calibration import AxisCalibration
 from rotemina.app.motion.teleoperation.input_devices import Heard
 from rotemina.app.motion.teleoperation.operator_desk import DeviceView
 from rotemina.app.shell.controls import allow
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.inputs.bars import Curve
@@ -21,7 +22,7 @@ class CalibrationSection(Section):
     """Measuring, and the settings of each axis; used and kept when somebody says so."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__("Calibration")
+        super().__init__(translate("inputs", "Calibration"))
         self._workbench = workbench
         self._all: dict[str, Calibrating] = {}
         self._now: Calibrating | None = None
@@ -29,35 +30,48 @@ class CalibrationSection(Section):
         self.measuring = Measuring(workbench)
         self.measuring.measured.connect(self._show_axis)
         self.column.addWidget(self.measuring)
-        self.axis = SteadyChoice("Axis")
+        self.axis = SteadyChoice(translate("inputs", "Axis"))
         self.axis.currentIndexChanged.connect(lambda _: self._show_axis())
         self.column.addWidget(self.axis)
         self.summary = self.add_text()
         self.curve = Curve(workbench.theme)
         self.column.addWidget(self.curve)
         self._make_fields()
-        self.keep = button("Keep", self._keep)
+        self.keep = button(translate("inputs", "Keep"), self._keep)
         self.keep.setProperty("primary", True)
-        self.discard = button("Discard", self._discard)
-        self.defaults = button("Defaults", self._forget)
-        self.defaults.setToolTip("This axis as one that was never calibrated")
+        self.discard = button(translate("inputs", "Discard"), self._discard)
+        self.defaults = button(translate("inputs", "Defaults"), self._forget)
+        self.defaults.setToolTip(translate("inputs", "This axis as one that was never calibrated"))
         self.add_row(self.keep, self.discard, self.defaults)
 
     def _make_fields(self) -> None:
-        about = "Half the width of the range about the centre that counts as centred, raw"
-        self.dead_zone = NumberField("Dead zone", "", about, 0.001, 0.5)
-        self.expo = NumberField("Expo", "", "Response curve: 0 linear, 1 finest near rest", 0, 1)
-        self.travel = NumberField(
-            "Travel", "mm", "Way of the grip from rest to an end", 0.1, 1000.0, optional=True
+        about = translate(
+            "inputs", "Half the width of the range about the centre that counts as centred, raw"
         )
-        self.inverted = QCheckBox("Inverted")
-        self.inverted.setToolTip("The deflection has the other sign")
+        self.dead_zone = NumberField(translate("inputs", "Dead zone"), "", about, 0.001, 0.5)
+        self.expo = NumberField(
+            translate("inputs", "Expo"),
+            "",
+            translate("inputs", "Response curve: 0 linear, 1 finest near rest"),
+            0,
+            1,
+        )
+        self.travel = NumberField(
+            translate("inputs", "Travel"),
+            "mm",
+            translate("inputs", "Way of the grip from rest to an end"),
+            0.1,
+            1000.0,
+            optional=True,
+        )
+        self.inverted = QCheckBox(translate("inputs", "Inverted"))
+        self.inverted.setToolTip(translate("inputs", "The deflection has the other sign"))
         form = QFormLayout()
         form.setContentsMargins(0, 0, 0, 0)
         form.setVerticalSpacing(4)
-        form.addRow("Dead zone", self.dead_zone)
-        form.addRow("Expo", self.expo)
-        form.addRow("Travel, mm", self.travel)
+        form.addRow(translate("inputs", "Dead zone"), self.dead_zone)
+        form.addRow(translate("inputs", "Expo"), self.expo)
+        form.addRow(translate("inputs", "Travel, mm"), self.travel)
         form.addRow("", self.inverted)
         self.fields = QWidget()
         self.fields.setLayout(form)
@@ -82,11 +96,21 @@ class CalibrationSection(Section):
         now = self._now
         if device is None or now is None:
             return
-        self.heading.show_text(f"Calibration of {device.device.identity.name}")
+        self.heading.show_text(
+            translate("inputs", "Calibration of {name}").format(name=device.device.identity.name)
+        )
         self.measuring.refresh(now, device, now_s)
-        unchanged = None if now.changed else "nothing was changed"
-        allow(self.keep, unchanged, "Use this calibration from now on, and keep it for the device")
-        allow(self.discard, unchanged, "Go back to the calibration that is in use")
+        unchanged = None if now.changed else translate("inputs", "nothing was changed")
+        allow(
+            self.keep,
+            unchanged,
+            translate("inputs", "Use this calibration from now on, and keep it for the device"),
+        )
+        allow(
+            self.discard,
+            unchanged,
+            translate("inputs", "Go back to the calibration that is in use"),
+        )
         raw = next((a.raw for a in device.axes if a.control == self.axis.currentData()), None)
         self.curve.show_curve(self._shown, raw)
 
@@ -104,7 +128,9 @@ class CalibrationSection(Section):
         if lost:
             self._workbench.notify(
                 Level.WARNING,
-                f"The changed calibration of {' and '.join(lost)} was not kept.",
+                translate("inputs", "The changed calibration of {names} was not kept.").format(
+                    names=translate("inputs", " and ").join(lost)
+                ),
                 about=self,
             )
 
@@ -138,10 +164,12 @@ class CalibrationSection(Section):
         for widget in (self.axis, self.curve, self.fields, self.defaults):
             widget.setVisible(not none)
         if none:
-            self.summary.setText("It has no axes: there is nothing to calibrate.")
+            self.summary.setText(
+                translate("inputs", "It has no axes: there is nothing to calibrate.")
+            )
             return
         one = self._shown
-        self.summary.setText(f"Says {summary(one)}.")
+        self.summary.setText(translate("inputs", "Says {one}.").format(one=summary(one)))
         self.dead_zone.reset(one.dead_zone)
         self.expo.reset(one.expo)
         self.travel.reset(None if one.travel_m is None else _MM * one.travel_m)
@@ -172,4 +200,9 @@ class CalibrationSection(Section):
         devices = self._workbench.operation.devices
         if self._workbench.ask(lambda: devices.calibrate(identity.key, now.draft)):
             now.kept = now.draft
-            self._workbench.notify(Level.GOOD, f"The calibration of {identity.name} is kept.")
+            self._workbench.notify(
+                Level.GOOD,
+                translate("inputs", "The calibration of {name} is kept.").format(
+                    name=identity.name
+                ),
+            )

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.language import translate
 from rotemina.plugins.inputs.section import Section, clear, quiet_text, show_text
 from rotemina.plugins.inputs.words import Entry, Trouble
 
@@ -22,11 +23,13 @@ class DeviceList(Section):
     """The devices, one of which is looked at."""
 
     def __init__(self) -> None:
-        super().__init__("Devices")
+        super().__init__(translate("inputs", "Devices"))
         self.none = self.add_text()
-        show_text(self.none, "None yet. Plug one in; it is found within a second.")
+        show_text(
+            self.none, translate("inputs", "None yet. Plug one in; it is found within a second.")
+        )
         self.list = QListWidget()
-        self.list.setAccessibleName("Input devices that are plugged in")
+        self.list.setAccessibleName(translate("inputs", "Input devices that are plugged in"))
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.list.setTextElideMode(Qt.TextElideMode.ElideRight)
         self.list.currentItemChanged.connect(lambda *_: self._pick())

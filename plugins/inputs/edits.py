@@ -1,4 +1,4 @@
-"""Changes of a profile, one control at a time; the profile itself never changes. Free of Qt.
+"""Changes of a profile, one control at a time; the profile itself never changes..
 
 Whether what comes of it can be used is for whoever uses it: two owners are refused there.
 """
@@ -18,6 +18,7 @@ from rotemina.app.motion.teleoperation.profile import (
     ProfileError,
     Seat,
 )
+from rotemina.app.shell.language import translate
 
 AT = 0.5  # from where on a detected axis counts as pressed, of its deflection
 LEAST_AT = 0.1
@@ -93,8 +94,11 @@ class Edited:
         """
         if not LEAST_AT <= abs(at) <= 1.0:
             raise ProfileError(
-                f"{action}: {100 * at:g} % of the deflection cannot be a threshold; it must be "
-                f"{100 * LEAST_AT:g} to 100 % one way or the other"
+                translate(
+                    "inputs",
+                    "{action}: {percent:g} % of the deflection cannot be a threshold; it must be "
+                    "{least:g} to 100 % one way or the other",
+                ).format(action=action, percent=100 * at, least=100 * LEAST_AT)
             )
 
         def moved(each: ActionMapping) -> ActionMapping:
@@ -128,8 +132,11 @@ class Edited:
         kept = tuple(each for each in self._profile.devices if each is not self.mapping)
         if not kept:
             raise ProfileError(
-                f"profile {self._profile.name!r} would be left without any device; map another "
-                "one first, or choose another profile"
+                translate(
+                    "inputs",
+                    "profile {profile!r} would be left without any device; map another one "
+                    "first, or choose another profile",
+                ).format(profile=self._profile.name)
             )
         return replace(self._profile, devices=kept)
 

@@ -1,8 +1,9 @@
-"""*Move it now*: which control of a device is moved, for one row of the mapping. Free of Qt."""
+"""*Move it now*: which control of a device is moved, for one row of the mapping.."""
 
 from rotemina.app.motion.teleoperation.detection import Detection, Findings, Kind
 from rotemina.app.motion.teleoperation.input_devices import Heard
 from rotemina.app.motion.teleoperation.operator_desk import DeviceView
+from rotemina.app.shell.language import translate
 
 BUTTON_WAIT_S = 0.3  # a trigger tells its way first, and that it is pressed a moment later
 
@@ -61,7 +62,7 @@ class Finding:
         control = found.detected.control
         raw = self._newest.axes[self._view.device.axes.index(control)]
         at_rest = self._view.calibration.axis(control).deflection(raw) == 0.0
-        return Findings(None, "move the axis now") if at_rest else found
+        return Findings(None, translate("inputs", "move the axis now")) if at_rest else found
 
 
 def _both(button: Findings, axis: Findings) -> Findings:
@@ -69,4 +70,4 @@ def _both(button: Findings, axis: Findings) -> Findings:
     for one in (button, axis):
         if "together" in one.message:
             return one
-    return Findings(None, "press the button, or move the axis, now")
+    return Findings(None, translate("inputs", "press the button, or move the axis, now"))

@@ -7,10 +7,11 @@ from rotemina.app.motion.teleoperation.calibration import Calibration
 from rotemina.app.motion.teleoperation.mapped_device import AxisView
 from rotemina.app.motion.teleoperation.operator_desk import DeviceView
 from rotemina.app.shell.controls import ElidedLabel
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.inputs.bars import AxisBar, Lamps
 from rotemina.plugins.inputs.section import Section, clear, show_text
-from rotemina.plugins.inputs.words import target_name
+from rotemina.plugins.inputs.words import engine_text, target_name
 
 _NAME_WIDTH, _NUMBER_WIDTH = 72, 104
 
@@ -32,8 +33,12 @@ class AxisRow(QFrame):
         self.numbers.setTextFormat(Qt.TextFormat.PlainText)
         self.numbers.setFixedWidth(_NUMBER_WIDTH)
         self.numbers.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        self.numbers.setAccessibleName(f"Axis {name}: raw, calibrated")
-        self.numbers.setToolTip("What the device says, −1 to 1, and the calibrated deflection")
+        self.numbers.setAccessibleName(
+            translate("inputs", "Axis {name}: raw, calibrated").format(name=name)
+        )
+        self.numbers.setToolTip(
+            translate("inputs", "What the device says, −1 to 1, and the calibrated deflection")
+        )
         self.about = ElidedLabel()
         self.about.setProperty("quiet", True)
         grid.addWidget(title, 0, 0)
@@ -51,7 +56,7 @@ class AxisRow(QFrame):
         percent = f"{100.0 * axis.deflection:+.0f}".replace("-0", "0") if axis.deflection else "0"
         self.numbers.setText(f"{said}   {percent} %")
         drives = "" if axis.drives is None else f"→ {target_name(axis.drives)}"
-        parts = (drives, "" if axis.reason is None else axis.reason)
+        parts = (drives, "" if axis.reason is None else engine_text(axis.reason))
         self.about.show_text(": ".join(part for part in parts if part))
         self.about.setVisible(bool(self.about.text()))
 
@@ -60,7 +65,7 @@ class LiveSection(Section):
     """Bars and lamps of one device."""
 
     def __init__(self, theme: Theme) -> None:
-        super().__init__("Live")
+        super().__init__(translate("inputs", "Live"))
         self._theme = theme
         self.said = self.add_text()
         self._rows_column = QVBoxLayout()
@@ -99,7 +104,14 @@ class LiveSection(Section):
 
 def _said(view: DeviceView, age_s: float | None) -> str:
     if age_s is not None:
-        return f"Old: the devices were read {age_s:.1f} s ago. Nothing is steered by them."
+        return translate(
+            "inputs", "Old: the devices were read {age_s:.1f} s ago. Nothing is steered by them."
+        ).format(age_s=age_s)
     if view.problem is not None:
-        return view.problem[:1].upper() + view.problem[1:]
-    return "" if view.device.axes or view.device.buttons else "It has neither axes nor buttons."
+        problem = engine_text(view.problem)
+        return problem[:1].upper() + problem[1:]
+    return (
+        ""
+        if view.device.axes or view.device.buttons
+        else translate("inputs", "It has neither axes nor buttons.")
+    )

@@ -6,6 +6,7 @@ from PySide6.QtWidgets import QGridLayout, QPushButton, QToolButton, QWidget
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.profile import ActionMapping
 from rotemina.app.shell.controls import ElidedLabel, allow, plain_tip
+from rotemina.app.shell.language import translate
 from rotemina.plugins.inputs.edits import Edited
 from rotemina.plugins.inputs.number_field import NumberField
 from rotemina.plugins.inputs.words import (
@@ -43,11 +44,11 @@ class Row(QObject):
         self.title.setToolTip(plain_tip(name, tip))
         self.control = QPushButton(NOBODY)
         self.control.setCheckable(True)
-        self.control.setAccessibleName(f"Control of: {name}")
+        self.control.setAccessibleName(translate("inputs", "Control of: {name}").format(name=name))
         self.control.clicked.connect(lambda _: self.asked.emit())
         self.clear = QToolButton()
         self.clear.setText("✕")
-        self.clear.setAccessibleName(f"Clear: {name}")
+        self.clear.setAccessibleName(translate("inputs", "Clear: {name}").format(name=name))
         self.clear.clicked.connect(lambda _: self.cleared.emit())
         row = grid.rowCount()
         grid.addWidget(self.title, row, 0)
@@ -58,10 +59,16 @@ class Row(QObject):
         """Show what does it; ``finding``: what to tell while its control is being found."""
         text = self._controls(edited)
         self.control.setChecked(finding is not None)
-        self.control.setText("move it now …" if finding is not None else text or NOBODY)
-        tip = finding or "Press this, then move the control that is to do it"
+        self.control.setText(
+            translate("inputs", "move it now …") if finding is not None else text or NOBODY
+        )
+        tip = finding or translate("inputs", "Press this, then move the control that is to do it")
         self.control.setToolTip(plain_tip(self.name, text, tip))
-        allow(self.clear, None if text else "nothing does it", f"{self.name}: by nothing")
+        allow(
+            self.clear,
+            None if text else translate("inputs", "nothing does it"),
+            translate("inputs", "{name}: by nothing").format(name=self.name),
+        )
 
     def _controls(self, edited: Edited) -> str:
         raise NotImplementedError
@@ -82,8 +89,12 @@ class TargetRow(Row):
         self.target = target
         self.inverted = QPushButton("±")
         self.inverted.setCheckable(True)
-        self.inverted.setAccessibleName(f"Inverted: {self.name}")
-        self.inverted.setToolTip("Inverted: the other way than its calibration says")
+        self.inverted.setAccessibleName(
+            translate("inputs", "Inverted: {name}").format(name=self.name)
+        )
+        self.inverted.setToolTip(
+            translate("inputs", "Inverted: the other way than its calibration says")
+        )
         self.inverted.clicked.connect(lambda on: self.changed.emit(on))
         self._place_extra(grid, self.inverted)
 
@@ -98,12 +109,15 @@ class ActionRow(Row):
     """An action that is done."""
 
     def __init__(self, action: Action, grid: QGridLayout) -> None:
-        super().__init__(ACTIONS[action], ACTION_TIPS[action], grid)
+        name, tip = ACTIONS[action], ACTION_TIPS[action]
+        super().__init__(translate("inputs", name), translate("inputs", tip), grid)
         self.action = action
         self.at = NumberField(
-            f"Threshold of: {self.name}",
+            translate("inputs", "Threshold of: {name}").format(name=self.name),
             "%",
-            "Deflection from which the axis counts as pressed, not between −10 and 10",
+            translate(
+                "inputs", "Deflection from which the axis counts as pressed, not between −10 and 10"
+            ),
             -100.0,
             100.0,
         )

@@ -10,17 +10,22 @@ from rotemina.app.motion.teleoperation.input_devices import Heard
 from rotemina.app.motion.teleoperation.operator_desk import DeviceView
 from rotemina.app.motion.teleoperation.profile import Profile, Seat
 from rotemina.app.shell.controls import allow
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.inputs.edits import Edited, exchanged, threshold, turned
 from rotemina.plugins.inputs.finding import Finding
 from rotemina.plugins.inputs.mapping_rows import ActionRow, Row, TargetRow
 from rotemina.plugins.inputs.profiles import ProfileChoice
 from rotemina.plugins.inputs.section import Section, SteadyChoice, button, quiet_text
-from rotemina.plugins.inputs.words import ACTIONS, axis_targets, way_of
+from rotemina.plugins.inputs.words import ACTIONS, axis_targets, engine_text, way_of
 from rotemina.sim.errors import InputError
 
-HINT = "Press a field, then move the control that is to do it."
-_SEATS = {"Trainer": Seat.TRAINER, "Trainee": Seat.TRAINEE, "Does nothing": None}
+HINT = marked("inputs", "Press a field, then move the control that is to do it.")
+_SEATS = {
+    marked("inputs", "Trainer"): Seat.TRAINER,
+    marked("inputs", "Trainee"): Seat.TRAINEE,
+    marked("inputs", "Does nothing"): None,
+}
 
 
 class MappingSection(Section):
@@ -30,7 +35,7 @@ class MappingSection(Section):
     """
 
     def __init__(self, workbench: Workbench, profiles: ProfileChoice) -> None:
-        super().__init__("Mapping")
+        super().__init__(translate("inputs", "Mapping"))
         self._workbench = workbench
         self._devices = workbench.operation.devices
         self._profiles = profiles
@@ -38,14 +43,14 @@ class MappingSection(Section):
         self._view = DevicesView()
         self._finding: Finding | None = None
         self._row: Row | None = None
-        self.seat = SteadyChoice("Seat of the device")
+        self.seat = SteadyChoice(translate("inputs", "Seat of the device"))
         for name, seat in _SEATS.items():
-            self.seat.addItem(name, seat)
+            self.seat.addItem(translate("inputs", name), seat)
         self.seat.activated.connect(lambda _: self._choose_seat())
-        self.exchange = button("Exchange seats", self._exchange)
+        self.exchange = button(translate("inputs", "Exchange seats"), self._exchange)
         self.add_row(self.seat, self.exchange)
         self.message = quiet_text()  # placed where it stays in sight
-        self.message.setText(HINT)
+        self.message.setText(translate("inputs", HINT))
         grid = QGridLayout()
         grid.setHorizontalSpacing(5)
         grid.setVerticalSpacing(3)
@@ -84,14 +89,24 @@ class MappingSection(Section):
         self._view, self._device = view, device
         if device is None:
             return
-        self.heading.show_text(f"Mapping of {device.device.identity.name}")
+        self.heading.show_text(
+            translate("inputs", "Mapping of {device}").format(device=device.device.identity.name)
+        )
         self._look(now_s)
         edited = self._edited
         self.seat.select(None if edited.mapping is None else edited.mapping.seat)
         profile = self._devices.profile
         seats = {each.seat for each in profile.devices} if profile is not None else set()
-        alone = None if len(seats) > 1 else "all devices of the profile are at one seat"
-        allow(self.exchange, alone, "The trainer's devices become the trainee's, and theirs his")
+        alone = (
+            None
+            if len(seats) > 1
+            else translate("inputs", "all devices of the profile are at one seat")
+        )
+        allow(
+            self.exchange,
+            alone,
+            translate("inputs", "The trainer's devices become the trainee's, and theirs his"),
+        )
         for row in self._rows:
             row.show_edited(edited, self.message.text() if row is self._row else None)
 
@@ -105,7 +120,7 @@ class MappingSection(Section):
     def cancel(self) -> None:
         """Look for no control any more."""
         self._finding = self._row = None
-        self._tell(HINT)
+        self._tell(translate("inputs", HINT))
 
     def _ask(self, row: Row) -> None:
         again = row is self._row
@@ -125,9 +140,17 @@ class MappingSection(Section):
             self.cancel()
             self._take(row, found.detected)
         elif isinstance(row, TargetRow):
-            self._tell(f"{row.name}: {found.message}, {way_of(row.target)}. Press again to cancel.")
+            self._tell(
+                translate("inputs", "{name}: {message}, {target}. Press again to cancel.").format(
+                    name=row.name, message=engine_text(found.message), target=way_of(row.target)
+                )
+            )
         else:
-            self._tell(f"{row.name}: {found.message}. Press again to cancel.")
+            self._tell(
+                translate("inputs", "{name}: {message}. Press again to cancel.").format(
+                    name=row.name, message=engine_text(found.message)
+                )
+            )
 
     def _take(self, row: Row, found: Detected) -> None:
         assert self._device is not None
@@ -170,10 +193,10 @@ class MappingSection(Section):
         try:
             self._profiles.edit(change(self._edited))
         except InputError as error:
-            self._tell(f"Refused: {error}")
+            self._tell(translate("inputs", "Refused: {error}").format(error=error))
             self._workbench.notify(Level.ERROR, str(error), about=error)
             return False
-        self._tell(HINT)
+        self._tell(translate("inputs", HINT))
         return True
 
     def _tell(self, words: str) -> None:

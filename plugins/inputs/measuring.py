@@ -5,14 +5,17 @@ from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QVBoxLayout, 
 
 from rotemina.app.motion.teleoperation.operator_desk import DeviceView
 from rotemina.app.shell.controls import allow
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.inputs.calibrating import Calibrating, Step
 from rotemina.plugins.inputs.section import button, clear, quiet_text, show_text
 
 _TEXTS = {
-    Step.EDIT: "Choose the axes to measure. Tick those that rest at an end: triggers, pedals.",
-    Step.REST: "1 of 2: let go of the device, and leave it alone.",
-    Step.SWEEP: "2 of 2: move each axis to all its ends, some times.",
+    Step.EDIT: marked(
+        "inputs", "Choose the axes to measure. Tick those that rest at an end: triggers, pedals."
+    ),
+    Step.REST: marked("inputs", "1 of 2: let go of the device, and leave it alone."),
+    Step.SWEEP: marked("inputs", "2 of 2: move each axis to all its ends, some times."),
 }
 
 
@@ -40,8 +43,8 @@ class Measuring(QWidget):
         self._grid.setContentsMargins(0, 0, 0, 0)
         self._grid.setVerticalSpacing(2)
         self.problems = quiet_text()
-        self.next = button("Measure …", self._next)
-        self.cancel = button("Cancel", self._cancel)
+        self.next = button(translate("inputs", "Measure …"), self._next)
+        self.cancel = button(translate("inputs", "Cancel"), self._cancel)
         row = QHBoxLayout()
         row.setSpacing(6)
         row.addWidget(self.next, 1)
@@ -60,7 +63,7 @@ class Measuring(QWidget):
             self._offer(now)
         self._device, self._now_s = device, now_s
         self.setVisible(bool(device.device.axes))
-        show_text(self.text, _TEXTS[now.step])
+        show_text(self.text, translate("inputs", _TEXTS[now.step]))
         self.choice.setVisible(now.step is Step.EDIT)
         self.cancel.setVisible(now.step is not Step.EDIT)
         self._show_problems(now)
@@ -68,24 +71,40 @@ class Measuring(QWidget):
 
     def _show_problems(self, now: Calibrating) -> None:
         problems = now.missing if now.step is Step.SWEEP else now.problems
-        lead = "" if now.step is Step.SWEEP or not problems else "Left as they were:\n"
+        lead = (
+            ""
+            if now.step is Step.SWEEP or not problems
+            else translate("inputs", "Left as they were:\n")
+        )
         show_text(self.problems, lead + "\n".join(problems.values()) if problems else "")
 
     def _show_next(self, now: Calibrating, now_s: float) -> None:
         if now.step is Step.EDIT:
-            why = None if any(box.isChecked() for box in self.wanted.values()) else "none is ticked"
-            self.next.setText("Measure …")
-            allow(self.next, why, "Measure rest and ends of the ticked axes")
+            why = (
+                None
+                if any(box.isChecked() for box in self.wanted.values())
+                else translate("inputs", "none is ticked")
+            )
+            self.next.setText(translate("inputs", "Measure …"))
+            allow(self.next, why, translate("inputs", "Measure rest and ends of the ticked axes"))
         elif now.step is Step.REST:
             left_s = now.rest_left_s(now_s)
-            self.next.setText("It rests: next" if left_s == 0.0 else f"{left_s:.1f} s …")
+            self.next.setText(
+                translate("inputs", "It rests: next")
+                if left_s == 0.0
+                else translate("inputs", "{left_s:.1f} s …").format(left_s=left_s)
+            )
             allow(
-                self.next, None if left_s == 0.0 else "its noise is measured", "Go on to the ends"
+                self.next,
+                None if left_s == 0.0 else translate("inputs", "its noise is measured"),
+                translate("inputs", "Go on to the ends"),
             )
         else:
             good = len(now.ranges) and not now.missing
-            self.next.setText("Done" if good else "Done, without these")
-            allow(self.next, None, "Take over what was measured well")
+            self.next.setText(
+                translate("inputs", "Done") if good else translate("inputs", "Done, without these")
+            )
+            allow(self.next, None, translate("inputs", "Take over what was measured well"))
 
     def _next(self) -> None:
         now, device = self._now, self._device
@@ -110,11 +129,13 @@ class Measuring(QWidget):
         clear(self._grid)
         self.wanted, self.one_sided = {}, {}
         for row, axis in enumerate(now.device.axes):
-            wanted, side = QCheckBox(axis), QCheckBox("rests at an end")
+            wanted, side = QCheckBox(axis), QCheckBox(translate("inputs", "rests at an end"))
             wanted.setChecked(axis in now.measurable)
-            wanted.setAccessibleName(f"Measure axis {axis}")
+            wanted.setAccessibleName(translate("inputs", "Measure axis {axis}").format(axis=axis))
             side.setChecked(axis in now.one_sided)
-            side.setAccessibleName(f"Axis {axis} rests at an end")
+            side.setAccessibleName(
+                translate("inputs", "Axis {axis} rests at an end").format(axis=axis)
+            )
             self._grid.addWidget(wanted, row, 0)
             self._grid.addWidget(side, row, 1, Qt.AlignmentFlag.AlignLeft)
             self.wanted[axis], self.one_sided[axis] = wanted, side

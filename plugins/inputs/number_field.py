@@ -5,6 +5,7 @@ from PySide6.QtWidgets import QLineEdit, QWidget
 
 from rotemina.app.display import PLAIN_NUMBER
 from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.language import translate
 
 
 class NumberField(QLineEdit):
@@ -39,8 +40,14 @@ class NumberField(QLineEdit):
     ) -> None:
         super().__init__(parent)
         self._unit, self._low, self._high, self._optional = unit, low, high, optional
-        self._bounds = f"{low:g} to {high:g} {unit}".rstrip()
-        self._about = f"{about}: {self._bounds}" + (", or nothing" if optional else "")
+        self._bounds = (
+            translate("inputs", "{low:g} to {high:g} {unit}")
+            .format(low=low, high=high, unit=unit)
+            .rstrip()
+        )
+        self._about = f"{about}: {self._bounds}" + (
+            translate("inputs", ", or nothing") if optional else ""
+        )
         self._value: float | None = None
         self._wrong = ""
         self.setAccessibleName(f"{name}, {unit}" if unit else name)
@@ -71,9 +78,17 @@ class NumberField(QLineEdit):
         if not text and self._optional:
             self._take(None)
         elif PLAIN_NUMBER.fullmatch(text) is None:
-            self._mark(f"{text!r} is no number; type one with a decimal point, {self._bounds}")
+            self._mark(
+                translate(
+                    "inputs", "{text!r} is no number; type one with a decimal point, {bounds}"
+                ).format(text=text, bounds=self._bounds)
+            )
         elif not self._low <= float(text) <= self._high:
-            self._mark(f"{text} {self._unit}".rstrip() + f" is refused: must be {self._bounds}")
+            self._mark(
+                translate("inputs", "{value} is refused: must be {bounds}").format(
+                    value=f"{text} {self._unit}".rstrip(), bounds=self._bounds
+                )
+            )
         else:
             self._take(float(text))
 

@@ -21,6 +21,7 @@ from rotemina.app.motion.teleoperation.devices_view import DevicesView
 from rotemina.app.motion.teleoperation.input_devices import Heard
 from rotemina.app.motion.teleoperation.operator_desk import DeviceView
 from rotemina.app.panel import STALE_S, Area, Panel
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.phase import Tone, set_tone
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
@@ -39,15 +40,15 @@ _MOST_HEARD = 2000  # steps between two frames: some seconds
 class Page(StrEnum):
     """What is in sight while the devices are set up."""
 
-    DEVICES = "Devices"
-    MAPPING = "Mapping"
-    CALIBRATION = "Calibration"
+    DEVICES = marked("inputs", "Devices")
+    MAPPING = marked("inputs", "Mapping")
+    CALIBRATION = marked("inputs", "Calibration")
 
 
 class InputsPanel(Panel):
     """Devices, profile, live bars; while it is set up, mapping and calibration."""
 
-    title = "Input devices"
+    title = marked("panels", "Input devices")
     area = Area.RIGHT
     order = 25
     help_page = "input-mapping.md#in-the-window"
@@ -73,17 +74,19 @@ class InputsPanel(Panel):
         bench = self.workbench
         self.headline = quiet_text()
         self.banner = quiet_text()
-        self.banner.setText(NOTHING_SENT)
+        self.banner.setText(translate("inputs", NOTHING_SENT))
         set_tone(self.banner, Tone.WARNING)
-        self.set_up = QPushButton("Set up …")
+        self.set_up = QPushButton(translate("inputs", "Set up …"))
         self.set_up.setCheckable(True)
-        self.set_up.setToolTip("Map and calibrate; meanwhile nothing is sent but stops")
+        self.set_up.setToolTip(
+            translate("inputs", "Map and calibrate; meanwhile nothing is sent but stops")
+        )
         self.set_up.toggled.connect(self._toggle)
         self.tabs = QTabBar()
-        self.tabs.setAccessibleName("What is set up")
+        self.tabs.setAccessibleName(translate("inputs", "What is set up"))
         self.tabs.setDrawBase(False)
         for page in Page:
-            self.tabs.addTab(page)
+            self.tabs.addTab(translate("inputs", page))
         self.tabs.currentChanged.connect(lambda _: self._turn())
         self.troubles = Troubles()
         self.list = DeviceList()
@@ -219,7 +222,9 @@ class InputsPanel(Panel):
         super().hideEvent(event)
 
     def _toggle(self, on: bool) -> None:
-        self.set_up.setText("Leave the set-up" if on else "Set up …")
+        self.set_up.setText(
+            translate("inputs", "Leave the set-up") if on else translate("inputs", "Set up …")
+        )
         if on:
             self.tabs.setCurrentIndex(list(Page).index(Page.MAPPING))
             self._heard.clear()

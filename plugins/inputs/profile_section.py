@@ -5,35 +5,40 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLineEdit, QToolButton, QVBox
 
 from rotemina.app.motion.teleoperation.devices_view import DevicesView
 from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.inputs.profiles import AUTOMATIC, Offer, ProfileChoice
 from rotemina.plugins.inputs.section import Section, SteadyChoice, button, quiet_text, show_text
 
-_FIRST = "save or discard the changes first"
+_FIRST = marked("inputs", "save or discard the changes first")
 
 
 class ProfileSection(Section):
     """The choice of a profile and, while input devices are set up, what becomes of changes."""
 
     def __init__(self, workbench: Workbench, profiles: ProfileChoice) -> None:
-        super().__init__("Profile")
+        super().__init__(translate("inputs", "Profile"))
         self._workbench = workbench
         self.profiles = profiles
-        self.choice = SteadyChoice("Profile")
+        self.choice = SteadyChoice(translate("inputs", "Profile"))
         self.again = QToolButton()
         self.again.setText("⟳")
-        self.again.setAccessibleName("Look for profiles again")
-        self.again.setToolTip("Look into the folder of profiles again")
+        self.again.setAccessibleName(translate("inputs", "Look for profiles again"))
+        self.again.setToolTip(translate("inputs", "Look into the folder of profiles again"))
         self.add_row(self.choice, self.again)
         self.state = self.add_text()
         self.name = QLineEdit()
-        self.name.setAccessibleName("Name to keep the profile under")
-        self.name.setToolTip("Letters, digits, blanks and ( ) . , + - _; at most 60")
+        self.name.setAccessibleName(translate("inputs", "Name to keep the profile under"))
+        self.name.setToolTip(
+            translate("inputs", "Letters, digits, blanks and ( ) . , + - _; at most 60")
+        )
         self.name.setMaxLength(60)
-        self.save = button("Save", self._ask_save)
-        self.save.setToolTip("Keep the profile under this name, and use it from now on")
-        self.discard = button("Discard", self._discard)
-        self.discard.setToolTip("Go back to the profile as it was chosen")
+        self.save = button(translate("inputs", "Save"), self._ask_save)
+        self.save.setToolTip(
+            translate("inputs", "Keep the profile under this name, and use it from now on")
+        )
+        self.discard = button(translate("inputs", "Discard"), self._discard)
+        self.discard.setToolTip(translate("inputs", "Go back to the profile as it was chosen"))
         self.keeping = QWidget()
         row = QHBoxLayout(self.keeping)
         row.setContentsMargins(0, 0, 0, 0)
@@ -57,17 +62,31 @@ class ProfileSection(Section):
         profiles = self.profiles
         self._fill(profiles.offers)
         self.choice.select(profiles.chosen)
-        allow(self.choice, _FIRST if profiles.changed else None, "What the controls do")
+        allow(
+            self.choice,
+            translate("inputs", _FIRST) if profiles.changed else None,
+            translate("inputs", "What the controls do"),
+        )
         show_text(self.state, _state(view, profiles))
         self.keeping.setVisible(view.setting_up)
         if not view.setting_up:
             self.question.hide()
             return
         self._suggest()
-        nothing = None if view.profile is not None else "there is no profile: map a control first"
-        allow(self.save, nothing, "Keep the profile under this name, and use it from now on")
-        unchanged = None if profiles.changed else "nothing was changed"
-        allow(self.discard, unchanged, "Go back to the profile as it was chosen")
+        nothing = (
+            None
+            if view.profile is not None
+            else translate("inputs", "there is no profile: map a control first")
+        )
+        allow(
+            self.save,
+            nothing,
+            translate("inputs", "Keep the profile under this name, and use it from now on"),
+        )
+        unchanged = None if profiles.changed else translate("inputs", "nothing was changed")
+        allow(
+            self.discard, unchanged, translate("inputs", "Go back to the profile as it was chosen")
+        )
 
     def _suggest(self) -> None:
         """Write a name, unless somebody has written one."""
@@ -107,7 +126,10 @@ class ProfileSection(Section):
         name = self.name.text().strip()
         if self._workbench.ask(lambda: self.profiles.save(name)):
             self._suggested = name
-            self._workbench.notify(Level.GOOD, f"Input devices: profile {name!r} is kept.")
+            self._workbench.notify(
+                Level.GOOD,
+                translate("inputs", "Input devices: profile {name!r} is kept.").format(name=name),
+            )
 
     def _discard(self) -> None:
         self._workbench.ask(self.profiles.discard)
@@ -120,10 +142,12 @@ class _Overwrite(QFrame):
         super().__init__()
         self.setObjectName("question")
         self.text = quiet_text()
-        self.yes = button("Overwrite", self.hide)
-        self.yes.setToolTip("Put this profile in the place of the one of that name")
-        self.no = button("Cancel", self.hide)
-        self.no.setToolTip("Keep nothing")
+        self.yes = button(translate("inputs", "Overwrite"), self.hide)
+        self.yes.setToolTip(
+            translate("inputs", "Put this profile in the place of the one of that name")
+        )
+        self.no = button(translate("inputs", "Cancel"), self.hide)
+        self.no.setToolTip(translate("inputs", "Keep nothing"))
         row = QHBoxLayout()
         row.addWidget(self.yes, 1)
         row.addWidget(self.no, 1)
@@ -135,15 +159,25 @@ class _Overwrite(QFrame):
 
     def ask(self, name: str) -> None:
         """Ask about a name."""
-        self.text.setText(f"There is a profile {name!r} already. Overwrite it?")
+        self.text.setText(
+            translate("inputs", "There is a profile {name!r} already. Overwrite it?").format(
+                name=name
+            )
+        )
         self.show()
         self.no.setFocus()  # what Enter chooses
 
 
 def _state(view: DevicesView, profiles: ProfileChoice) -> str:
     if profiles.changed:
-        where = "save it" if view.setting_up else "set up, and save it"
-        return f"Changed, and not kept: {where}, or it is lost when the program ends."
+        where = (
+            translate("inputs", "save it")
+            if view.setting_up
+            else translate("inputs", "set up, and save it")
+        )
+        return translate(
+            "inputs", "Changed, and not kept: {where}, or it is lost when the program ends."
+        ).format(where=where)
     if profiles.chosen == AUTOMATIC and view.profile is not None:
-        return f"In use: {view.profile.name}"
+        return translate("inputs", "In use: {name}").format(name=view.profile.name)
     return ""

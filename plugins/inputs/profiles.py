@@ -1,4 +1,4 @@
-"""Which profile is used: remembered between starts, changed, kept. Free of Qt."""
+"""Which profile is used: remembered between starts, changed, kept.."""
 
 import re
 from dataclasses import dataclass, replace
@@ -8,6 +8,7 @@ from rotemina.app.motion.teleoperation.input_devices import InputDevices
 from rotemina.app.motion.teleoperation.mapping import check_profile
 from rotemina.app.motion.teleoperation.profile import ListedProfile, Profile, ProfileError
 from rotemina.app.settings import Settings
+from rotemina.app.shell.language import translate
 
 SETTING = "inputs.profile"
 AUTOMATIC = ""  # the setting, where the profile is made for what is plugged in
@@ -64,7 +65,9 @@ class ProfileChoice:
         try:
             self._use(name)
         except ProfileError as error:
-            return f"Input devices: {error}. An automatic profile is used instead."
+            return translate(
+                "inputs", "Input devices: {error}. An automatic profile is used instead."
+            ).format(error=error)
         return None
 
     def look(self) -> tuple[Offer, ...]:
@@ -76,7 +79,7 @@ class ProfileChoice:
     def offers(self) -> tuple[Offer, ...]:
         """What can be chosen, as of the latest look."""
         kept = [self._offer(name, listed) for name, listed in self._listed.items()]
-        return (Offer(AUTOMATIC, "Automatic"), *kept)
+        return (Offer(AUTOMATIC, translate("inputs", "Automatic")), *kept)
 
     def choose(self, name: str) -> None:
         """Use a kept profile, or an automatic one, and remember that.
@@ -131,7 +134,9 @@ class ProfileChoice:
         """
         profile = self._devices.profile
         if profile is None:
-            raise ProfileError("there is no profile to keep: map a control first")
+            raise ProfileError(
+                translate("inputs", "there is no profile to keep: map a control first")
+            )
         named = _named(profile, name)
         path = self._devices.keep(named)
         self.look()
@@ -147,7 +152,7 @@ class ProfileChoice:
         for one in self._devices.view.devices:
             if one.drives:
                 return plain_name(one.device.identity.name)
-        return "Profile"
+        return translate("inputs", "Profile")
 
     def _use(self, name: str) -> None:
         if name == AUTOMATIC:
@@ -156,19 +161,32 @@ class ProfileChoice:
             self.look()
             listed = self._listed.get(name)
             if listed is None:
-                raise ProfileError(f"there is no profile {name!r} any more")
+                raise ProfileError(
+                    translate("inputs", "there is no profile {name!r} any more").format(name=name)
+                )
             if listed.profile is None:
-                raise ProfileError(listed.problem or f"{listed.path}: it cannot be read")
+                raise ProfileError(
+                    listed.problem
+                    or translate("inputs", "{file}: it cannot be read").format(file=listed.path)
+                )
             self._devices.use(listed.profile)
         self.chosen, self.changed = name, False
 
     def _offer(self, name: str, listed: ListedProfile) -> Offer:
         if listed.profile is None:
-            return Offer(name, f"{name} – cannot be used", listed.problem)
+            return Offer(
+                name,
+                translate("inputs", "{name} – cannot be used").format(name=name),
+                listed.problem,
+            )
         try:
             check_profile(listed.profile, self._robot_axes)
         except ProfileError as error:
-            return Offer(name, f"{name} – not for this robot", str(error))
+            return Offer(
+                name,
+                translate("inputs", "{name} – not for this robot").format(name=name),
+                str(error),
+            )
         return Offer(name, name)
 
 
@@ -176,7 +194,7 @@ def plain_name(name: str) -> str:
     """Return a name that a profile may have, as near to this one as can be."""
     plain = re.sub(r"[^\w ().,+-]+", " ", name)
     plain = re.sub(r"\s+", " ", plain)[:_LETTERS].strip(" ().,+-")
-    return plain or "Profile"
+    return plain or translate("inputs", "Profile")
 
 
 def _named(profile: Profile, name: str) -> Profile:
@@ -184,6 +202,9 @@ def _named(profile: Profile, name: str) -> Profile:
         return replace(profile, name=name)
     except ValueError as error:  # pydantic's, which tells several lines
         raise ProfileError(
-            f"{name!r} cannot be the name of a profile: it must begin with a letter or digit and "
-            "have at most 60 letters, digits, blanks and ( ) . , + - _"
+            translate(
+                "inputs",
+                "{name!r} cannot be the name of a profile: it must begin with a letter or "
+                "digit and have at most 60 letters, digits, blanks and ( ) . , + - _",
+            ).format(name=name)
         ) from error

@@ -1,4 +1,4 @@
-"""What screens say of input devices. Free of Qt."""
+"""What screens say of input devices."""
 
 import re
 from collections.abc import Collection, Mapping
@@ -10,40 +10,75 @@ from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.mapping import DEGREES_OF_FREEDOM
 from rotemina.app.motion.teleoperation.operator_desk import DeviceView
 from rotemina.app.motion.teleoperation.profile import Seat
+from rotemina.app.shell.language import marked, translate
 from rotemina.drivers.inputs.hub import InputHub
 
-NOTHING_SENT = "Nothing is sent to the robot while you set up, but stops."
+NOTHING_SENT = marked("inputs", "Nothing is sent to the robot while you set up, but stops.")
 ACTIONS = {
-    Action.STOP: "Stop",
-    Action.EMERGENCY_STOP: "E-stop",
-    Action.DEAD_MAN: "Dead-man",
-    Action.CLUTCH: "Clutch",
-    Action.FINE: "Fine",
-    Action.COARSE: "Coarse",
-    Action.STAGE: "Next mode",
-    Action.LAW: "Next law",
-    Action.STEP_PRESET: "Next preset",
-    Action.RECENTRE: "Re-centre",
-    Action.PENETRATION: "Penetration",
-    Action.TOOL: "Tool on/off",
-    Action.TAKE_OVER: "Take over",
+    Action.STOP: marked("inputs", "Stop"),
+    Action.EMERGENCY_STOP: marked("inputs", "E-stop"),
+    Action.DEAD_MAN: marked("inputs", "Dead-man"),
+    Action.CLUTCH: marked("inputs", "Clutch"),
+    Action.FINE: marked("inputs", "Fine"),
+    Action.COARSE: marked("inputs", "Coarse"),
+    Action.STAGE: marked("inputs", "Next mode"),
+    Action.LAW: marked("inputs", "Next law"),
+    Action.STEP_PRESET: marked("inputs", "Next preset"),
+    Action.RECENTRE: marked("inputs", "Re-centre"),
+    Action.PENETRATION: marked("inputs", "Penetration"),
+    Action.TOOL: marked("inputs", "Tool on/off"),
+    Action.TAKE_OVER: marked("inputs", "Take over"),
 }
 ACTION_TIPS = {
-    Action.STOP: "Stop all axes; works from every device, at any time",
-    Action.EMERGENCY_STOP: "Stop all axes, and latch; works from every device, at any time",
-    Action.DEAD_MAN: "The stick acts only while this is held",
-    Action.CLUTCH: "The stick moves, and the robot does not, while this is held",
-    Action.FINE: "A tenth of the scale while this is held",
-    Action.COARSE: "Ten times the scale while this is held",
-    Action.STAGE: "Micro, nano, and on to the next mode of steering",
-    Action.LAW: "The next scaling law",
-    Action.STEP_PRESET: "The next scale",
-    Action.RECENTRE: "The piezos back to their middle",
-    Action.PENETRATION: "Start the automatic penetration, or stop it",
-    Action.TOOL: "Tool on or off",
-    Action.TAKE_OVER: "Of two seats: this one drives now",
+    Action.STOP: marked("inputs", "Stop all axes; works from every device, at any time"),
+    Action.EMERGENCY_STOP: marked(
+        "inputs", "Stop all axes, and latch; works from every device, at any time"
+    ),
+    Action.DEAD_MAN: marked("inputs", "The stick acts only while this is held"),
+    Action.CLUTCH: marked("inputs", "The stick moves, and the robot does not, while this is held"),
+    Action.FINE: marked("inputs", "A tenth of the scale while this is held"),
+    Action.COARSE: marked("inputs", "Ten times the scale while this is held"),
+    Action.STAGE: marked("inputs", "Micro, nano, and on to the next mode of steering"),
+    Action.LAW: marked("inputs", "The next scaling law"),
+    Action.STEP_PRESET: marked("inputs", "The next scale"),
+    Action.RECENTRE: marked("inputs", "The piezos back to their middle"),
+    Action.PENETRATION: marked("inputs", "Start the automatic penetration, or stop it"),
+    Action.TOOL: marked("inputs", "Tool on or off"),
+    Action.TAKE_OVER: marked("inputs", "Of two seats: this one drives now"),
 }
-_WAYS = {"x": "to the right (+x)", "y": "away from you (+y)", "z": "upwards (+z)"}
+_WAYS = {
+    "x": marked("inputs", "to the right (+x)"),
+    "y": marked("inputs", "away from you (+y)"),
+    "z": marked("inputs", "upwards (+z)"),
+}
+_SEATS = {
+    Seat.TRAINER: marked("inputs", "trainer"),
+    Seat.TRAINEE: marked("inputs", "trainee"),
+}
+#: What the engine says of axes and devices, where it has no values in it.
+_ENGINE = (
+    marked("inputs", "not yet seen at rest: let go of it"),
+    marked("inputs", "has said nothing yet: move it, and let go of it"),
+    marked("inputs", "jitters from end to end: its potentiometer or cable is bad"),
+    marked(
+        "inputs",
+        "has stood at its end from the first moment: free it; if it rests there, calibrate it as "
+        "one-sided",
+    ),
+    marked("inputs", "the trainer has taken over: let go of it first"),
+    marked("inputs", "the trainee has taken over: let go of it first"),
+    marked(
+        "inputs",
+        "the trainer's device is not there: the trainee does not drive alone: let go of it first",
+    ),
+    marked(
+        "inputs",
+        "silent, though it streams: nothing has come from it; replug it, or look at its cable",
+    ),
+    marked("inputs", "no profile is chosen: the input devices do nothing"),
+    marked("inputs", "move the axis now"),
+    marked("inputs", "move the button now"),
+)
 _HID = re.compile(r"hid:([0-9a-f]{4}):([0-9a-f]{4}):")
 
 
@@ -81,20 +116,33 @@ def axis_targets(robot_axes: Collection[str]) -> tuple[str, ...]:
 def target_name(target: str) -> str:
     """Return what an axis drives, as a row of the mapping is called."""
     name = label(target)
-    return f"Stick {name}" if target in DEGREES_OF_FREEDOM else name
+    return (
+        translate("inputs", "Stick {name}").format(name=name)
+        if target in DEGREES_OF_FREEDOM
+        else name
+    )
+
+
+def engine_text(said: str) -> str:
+    """Return what the engine says in the language in use; what is not known stays as it is."""
+    return translate("inputs", said) if said in _ENGINE else said
 
 
 def target_tip(target: str) -> str:
     """Return what that means for the robot."""
     if target in DEGREES_OF_FREEDOM:
-        axes = " or ".join(label(axis) for axis in DEGREES_OF_FREEDOM[target])
-        return f"Moves {axes}, by the mode of steering"
-    return f"Moves {label(target)} directly, whatever the mode"
+        axes = translate("inputs", " or ").join(label(axis) for axis in DEGREES_OF_FREEDOM[target])
+        return translate("inputs", "Moves {axes}, by the mode of steering").format(axes=axes)
+    return translate("inputs", "Moves {target} directly, whatever the mode").format(
+        target=label(target)
+    )
 
 
 def way_of(target: str) -> str:
     """Return which way a stick is to be moved for an axis to grow."""
-    return _WAYS.get(target, f"the way in which {label(target)} is to grow")
+    if target in _WAYS:
+        return translate("inputs", _WAYS[target])
+    return translate("inputs", "the way in which {target} is to grow").format(target=label(target))
 
 
 def entries(view: DevicesView, hub: InputHub) -> tuple[Entry, ...]:
@@ -105,7 +153,7 @@ def entries(view: DevicesView, hub: InputHub) -> tuple[Entry, ...]:
     open_keys = {one.key for one in there}
     problems = hub.problems
     closed = [
-        Entry(one.key, one.name, "cannot be used", problems[one.key])
+        Entry(one.key, one.name, translate("inputs", "cannot be used"), problems[one.key])
         for one in hub.devices
         if one.key not in open_keys and one.key in problems
     ]
@@ -122,7 +170,7 @@ def troubles(view: DevicesView, hub: InputHub) -> tuple[Trouble, ...]:
         )
         for key, problem in hub.problems.items()
     ]
-    return (*found, *(Trouble(problem) for problem in view.problems))
+    return (*found, *(Trouble(engine_text(problem)) for problem in view.problems))
 
 
 def udev_rule(key: str) -> str | None:
@@ -140,19 +188,25 @@ def udev_rule(key: str) -> str | None:
 def headline(view: DevicesView, wrong: int) -> str:
     """Return who drives, and how much is ``wrong``."""
     if view.setting_up:
-        return "Being set up: nothing drives."
-    problems = {0: "", 1: "One problem, see below."}.get(wrong, f"{wrong} problems, see below.")
+        return translate("inputs", "Being set up: nothing drives.")
+    problems = {0: "", 1: translate("inputs", "One problem, see below.")}.get(
+        wrong, translate("inputs", "{wrong} problems, see below.").format(wrong=wrong)
+    )
     return f"{_drivers(view)} {problems}".rstrip()
 
 
 def _drivers(view: DevicesView) -> str:
     if not view.devices:
-        return "No input device is plugged in."
+        return translate("inputs", "No input device is plugged in.")
     driving = [one for one in view.devices if one.drives]
-    names = " and ".join(one.device.identity.name for one in driving)
+    names = translate("inputs", " and ").join(one.device.identity.name for one in driving)
     two = len({one.seat for one in view.devices if one.seat is not None}) > 1
-    seat = f" ({view.driving})" if two else ""
-    return f"{names} may drive{seat}." if names else "No device of the driving seat is there."
+    seat = f" ({_seat(view.driving)})" if two else ""
+    return (
+        translate("inputs", "{names} may drive{seat}.").format(names=names, seat=seat)
+        if names
+        else translate("inputs", "No device of the driving seat is there.")
+    )
 
 
 def control_text(controls: Mapping[str, float | None]) -> str:
@@ -163,6 +217,10 @@ def control_text(controls: Mapping[str, float | None]) -> str:
     )
 
 
+def _seat(seat: Seat) -> str:
+    return translate("inputs", _SEATS[seat])
+
+
 def _entry(one: DeviceView, view: DevicesView) -> Entry:
     identity = one.device.identity
     return Entry(identity.key, identity.name, _standing(one, view), one.problem)
@@ -170,12 +228,22 @@ def _entry(one: DeviceView, view: DevicesView) -> Entry:
 
 def _standing(one: DeviceView, view: DevicesView) -> str:
     if one.problem is not None:
-        return "cannot be used"
+        return translate("inputs", "cannot be used")
     if one.seat is None:
-        return "not in the profile"
+        return translate("inputs", "not in the profile")
     if view.setting_up:
-        return f"{one.seat}, being set up"
+        return translate("inputs", "{seat}, being set up").format(seat=_seat(one.seat))
     if not one.drives:
-        return "trainee, looks on" if one.seat is Seat.TRAINEE else "trainer, may take over"
+        return (
+            translate("inputs", "trainee, looks on")
+            if one.seat is Seat.TRAINEE
+            else translate("inputs", "trainer, may take over")
+        )
     waiting = [axis.control for axis in one.axes if axis.drives and axis.reason is not None]
-    return f"{one.seat}, waits for {', '.join(waiting)}" if waiting else f"{one.seat}, drives"
+    return (
+        translate("inputs", "{seat}, waits for {waiting}").format(
+            seat=_seat(one.seat), waiting=", ".join(waiting)
+        )
+        if waiting
+        else translate("inputs", "{seat}, drives").format(seat=_seat(one.seat))
+    )
