@@ -19,10 +19,9 @@ PLANTS = {
     "zn Preisach": ("foreign", "zn", 9),
 }
 TENTH_HZ = {"thx": 30.0, "thy": 30.0, "zn": 42.0}
-# Where dead zones bend the loop, creep that outlasts the record is a larger constant.
-SHORT_OF = {"zn bent": 2.0}
 MOST_RMS, MOST_RMS_AT_TENTH, MOST_MSE = 0.006, 0.01, 0.005
-LOW = 0.06  # where training begins, nearly: a share of the range
+LOW = 0.06  # where training begins, nearly, and so does every run: a share of the range
+CONSTANT = 1.2  # times the bound, with what creep beyond the record adds
 
 
 def references(axis):
@@ -60,35 +59,41 @@ def test_unseen_references_are_followed(learned):
     wanted = references(plant.axis)
     shares = {}
     for kind, model in trained.models.items():
-        inverse = Inverse(model, 1.0 / RATE_HZ)
-        errors = {n: plant.tracked(inverse, d) for n, d in wanted.items()}
-        shares[kind] = {n: rms(e) / np.ptp(wanted[n]) for n, e in errors.items()}
+        shares[kind] = {n: share_off(plant, model, d) for n, d in wanted.items()}
         cells = " | ".join(f"{100.0 * share:.2f}" for share in shares[kind].values())
         print(f"\n| {name} | {kind} | {cells} |", end="")
     print(f"\n{name}: {trained.why}")
     best = shares[trained.chosen]
     for reference, share in best.items():
         assert share**2 < MOST_MSE, reference
-        most = MOST_RMS_AT_TENTH if reference == "tenth" else MOST_RMS
-        assert share <= SHORT_OF.get(name, 1.0) * most, reference
+        assert share <= (MOST_RMS_AT_TENTH if reference == "tenth" else MOST_RMS), reference
     anfis, modified = (worst(shares[k]) for k in ("anfis", "modified_prandtl_ishlinskii"))
     assert trained.chosen != "anfis" or anfis <= 1.5 * modified
     assert worst(best) < 0.15 * worst(shares["linear"])
 
 
 @pytest.mark.parametrize("reference", ["sine 10 Hz", "corners", "tenth"])
-def test_with_a_known_past_the_bounds_hold_on_every_plant(learned, reference):
-    # The other test begins at rest for ever at the first position: creep of longer times than the
-    # record lasts has moved the axis by a constant there, which no record of half a minute tells.
+def test_an_axis_at_rest_for_ever_elsewhere_adds_a_constant(learned, reference):
+    # Creep of longer times than the record lasts has moved the axis by what no record of half a
+    # minute tells; about its mean the error is as small as from the low end.
     name, plant, trained = learned
     wanted = references(plant.axis)[reference]
+    error = plant.tracked(Inverse(trained.models[trained.chosen], 1.0 / RATE_HZ), wanted)
+    share, about = rms(error) / np.ptp(wanted), float(np.std(error)) / np.ptp(wanted)
+    print(f"\n{name} {reference}, at rest for ever: {100 * share:.2f} %, about its mean", end=" ")
+    print(f"{100.0 * about:.2f} %")
+    most = MOST_RMS_AT_TENTH if reference == "tenth" else MOST_RMS
+    assert about <= most
+    assert share <= CONSTANT * most
+
+
+def share_off(plant, model, wanted):
+    """Rms error over the swing of a reference (n,) that begins after a rise from the low end."""
     rise = np.linspace(0.0, 1.0, 1000)
     rise = LOW + (wanted[0] - LOW) * rise**3 * (10.0 - 15.0 * rise + 6.0 * rise**2)
     whole = np.r_[np.full(2000, LOW), rise, wanted]
-    inverse = Inverse(trained.models[trained.chosen], 1.0 / RATE_HZ)
-    share = rms(plant.tracked(inverse, whole)[3000:]) / np.ptp(wanted)
-    print(f"\n{name} {trained.chosen} {reference}: {100.0 * share:.2f} %")
-    assert share <= (MOST_RMS_AT_TENTH if reference == "tenth" else MOST_RMS)
+    error = plant.tracked(Inverse(model, 1.0 / RATE_HZ), whole)[3000:]
+    return rms(error) / np.ptp(wanted)
 
 
 def rms(values):
