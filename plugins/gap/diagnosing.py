@@ -2,15 +2,14 @@
 
 import os
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from threading import Event
 
-from PySide6.QtCore import QObject, QTimer, Signal, SignalInstance
+from PySide6.QtCore import QObject, QTimer, Signal
 
 from rotemina.app.display import label
 from rotemina.app.shell.background import Background
 from rotemina.plugins.gap.answer import Answer
-from rotemina.plugins.gap.first_look import Look, first_look
 from rotemina.sim.gap.diagnosis import Diagnosis
 from rotemina.sim.gap.progress import Listener, Progress
 from rotemina.sim.gap.report.words import effect_title
@@ -35,19 +34,16 @@ class Diagnosing(QObject):
     Signals
     -------
     progressed(str, float) : what is done now, in words, and the share that is done.
-    stepped(Progress) : a step was begun.
-    looked(Look) : another candidate was looked at, see :mod:`~rotemina.plugins.gap.first_look`.
+    stepped(Progress) : a step was begun, or another candidate tried.
     finished(Answer)
     failed(str)
     """
 
     progressed = Signal(str, float)
     stepped = Signal(object)
-    looked = Signal(object)
     finished = Signal(object)
     failed = Signal(str)
     _heard = Signal(int, object)
-    _saw = Signal(int, object)
 
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
@@ -60,7 +56,6 @@ class Diagnosing(QObject):
         self._clock = QTimer(self, interval=_RETELL_MS)
         self._clock.timeout.connect(self._tell)
         self._heard.connect(self._hear)
-        self._saw.connect(self._see)
 
     @property
     def running(self) -> bool:
@@ -81,16 +76,15 @@ class Diagnosing(QObject):
         self._began_s, self._step = time.monotonic(), None
         self._clock.start()
 
-        def hear(signal: SignalInstance, heard: object) -> None:
-            if stopped.is_set():
-                raise StoppedError
-            signal.emit(number, heard)
+        latest: Progress | None = None
 
         def listen(progress: Progress) -> None:
-            hear(self._heard, progress)
-            looks.follow(progress)
-
-        looks = Looks(robot, records, lambda look: hear(self._saw, look))
+            nonlocal latest
+            if stopped.is_set():
+                raise StoppedError
+            if progress is not latest:  # which comes again before every simulation
+                latest = progress
+                self._heard.emit(number, progress)
 
         def work() -> Answer | None:
             try:
@@ -127,10 +121,6 @@ class Diagnosing(QObject):
             self.stepped.emit(progress)
             self._tell()
 
-    def _see(self, number: int, look: Look) -> None:
-        if self._is_wanted(number):
-            self.looked.emit(look)
-
     def _tell(self) -> None:
         if self._step is not None:
             progress, at_s = self._step
@@ -146,23 +136,6 @@ class Diagnosing(QObject):
         if self._is_wanted(number):
             self.stop()
             self.failed.emit(message)
-
-
-class Looks:
-    """Takes a first look at each axis as soon as the diagnosis comes to it."""
-
-    def __init__(
-        self, robot: Robot, records: Sequence[Record], told: Callable[[Look], None]
-    ) -> None:
-        self._robot, self._records, self._told = robot, records, told
-        self._seen: set[str] = set()
-
-    def follow(self, progress: Progress) -> None:
-        """Look, on the thread that diagnoses, where this axis was not looked at yet."""
-        axis = progress.axis
-        if progress.stage == "screening" and axis is not None and axis not in self._seen:
-            self._seen.add(axis)
-            first_look(self._robot, axis, self._records, self._told)
 
 
 def diagnose(robot: Robot, records: Sequence[Record], listener: Listener) -> Diagnosis:

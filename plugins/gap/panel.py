@@ -184,7 +184,6 @@ class GapPanel(Panel):
         self.axis.activated.connect(lambda _: self._show_axis())
         self.diagnosing.progressed.connect(self._show_progress)
         self.diagnosing.stepped.connect(self.running.show_step)
-        self.diagnosing.looked.connect(self.running.show_look)
         self.diagnosing.finished.connect(self.take_answer)
         self.diagnosing.failed.connect(self._fail)
         self.playing.played.connect(self._use_played)

@@ -1,103 +1,88 @@
-"""While a diagnosis is under way: what is done now, and the candidates as they rank so far."""
+"""While a diagnosis is under way: what is done now, and how the candidates of each axis stand."""
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor
-from PySide6.QtWidgets import QLabel, QSplitter
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QSplitter, QWidget
 
 from rotemina.app.display import label
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
-from rotemina.plugins.gap.first_look import Look, Seen
-from rotemina.plugins.gap.table import Table
+from rotemina.plugins.gap.ranking_view import RankingView
 from rotemina.sim.gap.progress import Progress
-from rotemina.sim.gap.report.quantities import percent
-from rotemina.sim.gap.report.words import effect_title
 
-HEAD = ("candidate so far", "may close", "left [floors]")
 STAGES = {
-    "reading": "The records are read.",
-    "where": "Where does the gap lie: on which axis, at which tap, in which frequencies?",
-    "screening": "A first look at every effect that the axis may have.",
-    "fitting": "The likeliest candidates are fitted to the records, one beside the other.",
-    "deciding": "Which of them stands on data that its fit has not seen?",
-    "drawing": "What was found is drawn.",
+    "reading": marked("gap", "The records are read."),
+    "where": marked(
+        "gap", "Where does the gap lie: on which axis, at which tap, in which frequencies?"
+    ),
+    "screening": marked("gap", "A first look at every effect that the axis may have."),
+    "fitting": marked(
+        "gap", "The likeliest candidates are fitted to the records, one beside the other."
+    ),
+    "deciding": marked("gap", "Which of them stands on data that its fit has not seen?"),
+    "drawing": marked("gap", "What was found is drawn."),
 }
-_WAITING = "No candidate was looked at yet."
-_MEANING = (
-    "On the left: by how much each effect alone might close the gap, at a first look at the "
-    "beginning of each record. The answer rests on whole fits, and may be another."
-)
 
 
 class RunningView(QSplitter):
-    """The ranking so far on the left, what is done now on the right."""
+    """A ranking for each axis on the left, what is done now on the right."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__(Qt.Orientation.Horizontal)
         self._theme = theme
-        self._look: Look | None = None
-        self._fitted: str | None = None
-        self.ranking = Table("Candidates so far, likeliest first", HEAD)
-        self.ranking.setSelectionMode(Table.SelectionMode.NoSelection)
-        self.ranking.setToolTip(_MEANING)
+        self.rankings: dict[str, RankingView] = {}
+        self._row = QHBoxLayout()
+        self._row.setContentsMargins(0, 0, 0, 0)
+        self._row.setSpacing(12)
+        rankings = QWidget()
+        rankings.setLayout(self._row)
         self.text = QLabel()
         self.text.setTextFormat(Qt.TextFormat.PlainText)
         self.text.setWordWrap(True)
         self.text.setAlignment(Qt.AlignmentFlag.AlignTop)
         self.text.setContentsMargins(10, 4, 4, 4)
-        self.addWidget(self.ranking)
+        self.addWidget(rankings)
         self.addWidget(self.text)
-        self.setSizes([480, 460])
+        self.setSizes([640, 300])
 
     def begin(self) -> None:
         """Forget what was shown of the diagnosis before."""
-        self._look = self._fitted = None
-        self.ranking.show_rows([])
+        for view in self.rankings.values():
+            self._row.removeWidget(view)
+            view.deleteLater()
+        self.rankings.clear()
         self.show_step(Progress("reading", None, None, 0.0))
 
     def show_step(self, step: Progress) -> None:
-        """Say what is done now."""
-        if step.stage == "fitting" and step.candidate is not None:
-            self._fitted = step.candidate
-            self._show_ranking()
-        axis = f"Axis {label(step.axis)}.\n" if step.axis is not None else ""
-        looked = _WAITING if self._look is None else _looked(self._look)
-        self.text.setText(f"{axis}{STAGES.get(step.stage, step.stage)}\n\n{looked}\n\n{_MEANING}")
-
-    def show_look(self, look: Look) -> None:
-        """Rank the candidates that were looked at so far."""
-        if self._look is None or self._look.axis != look.axis:
-            self._fitted = None
-        self._look = look
-        self._show_ranking()
+        """Say what is done now, and how candidates stand."""
+        if step.ranking is not None and step.axis is not None:
+            if step.axis not in self.rankings:
+                view = self.rankings[step.axis] = RankingView(self._theme)
+                self._row.addWidget(view)
+            self.rankings[step.axis].show_ranking(step.ranking, _being_fitted(step))
+        lines = [_of_axis(step.axis)] if step.axis is not None else []
+        lines.append(translate("gap", STAGES[step.stage]) if step.stage in STAGES else step.stage)
+        lines += ["", _meaning()] if self.rankings else []
+        self.text.setText("\n".join(lines))
 
     def set_theme(self, theme: Theme) -> None:
         """Change all colours."""
         self._theme = theme
-        self._show_ranking()
-
-    def _show_ranking(self) -> None:
-        look = self._look
-        if look is None:
-            return
-        accent = QColor(self._theme.accent)
-        self.ranking.show_rows(
-            [_row(seen, look, fitted=seen.effect == self._fitted) for seen in look.seen],
-            [accent if seen.effect == self._fitted else None for seen in look.seen],
-        )
+        for view in self.rankings.values():
+            view.set_theme(theme)
 
 
-def _row(seen: Seen, look: Look, *, fitted: bool) -> tuple[str, ...]:
-    name = effect_title(seen.effect)
-    if seen.from_axis is not None:
-        name += f" from {label(seen.from_axis)}"
-    if fitted:
-        name += "  (being fitted)"
-    closes = max(1.0 - (seen.left**2 - 1.0) / max(look.whole**2 - 1.0, 1e-9), 0.0)
-    return name, percent(min(closes, 1.0)), f"{seen.left:.3g}"
+def _being_fitted(step: Progress) -> str | None:
+    return step.candidate if step.stage == "fitting" else None
 
 
-def _looked(look: Look) -> str:
-    return (
-        f"{label(look.axis)}: {look.done} of {look.count} candidates were looked at; "
-        f"its gap is {look.whole:.3g} noise floors, rms."
+def _of_axis(axis: str) -> str:
+    return translate("gap", "Axis {axis}.").format(axis=label(axis))
+
+
+def _meaning() -> str:
+    return translate(
+        "gap",
+        "A bar is the share of the gap that a candidate closes: an outline at a first look, light "
+        "once it is fitted, full once it is judged by data that its fit has not seen. The answer "
+        "also asks which causes are needed beside each other, and may be another.",
     )

@@ -16,15 +16,18 @@ from rotemina.plugins.gap import diagnosing as module
 from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.diagnosing import StoppedError, said
 from rotemina.plugins.gap.proof import new_motion
+from rotemina.plugins.gap.ranking_view import name_of
 from rotemina.plugins.gap.where import warmth
 from rotemina.sim.comparison.comparison import compare
 from rotemina.sim.gap.diagnosis import Experiment
 from rotemina.sim.gap.document import as_json
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.progress import Progress
+from rotemina.sim.gap.standing import Grade, Standings
 from rotemina.sim.records.record import Tap
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.robot.writing import robot_text
 from rotemina.sim.trajectory.dry_run import dry_run
 
@@ -58,14 +61,15 @@ class Stepwise:
     def __init__(self, diagnosis):
         self.diagnosis = diagnosis
         self.steps = threading.Semaphore(0)
-        self.calls, self.threads, self.ends = [], [], []
+        self.calls, self.threads, self.ends, self.rankings = [], [], [], []
 
     def __call__(self, robot, records, listener):
         self.calls.append((robot, records))
         self.threads.append(threading.current_thread())
         try:
             for share in (0.1, 0.5):
-                listener(Progress("fitting", "thx", "hysteresis", share))
+                ranking = self.rankings.pop(0) if self.rankings else None
+                listener(Progress("fitting", "thx", "hysteresis", share, ranking))
                 assert self.steps.acquire(timeout=20.0)
             listener(Progress("deciding", None, None, 0.9))
         except StoppedError:
@@ -207,6 +211,28 @@ def test_a_diagnosis_runs_beside_the_window_and_tells_how_far_it_is(
     assert chosen.answer.diagnosis is stepwise.diagnosis
     assert chosen.start.isEnabled()
     assert chosen.progress.isHidden()
+
+
+def test_candidates_rank_while_a_diagnosis_runs(qtbot, chosen, stepwise):
+    standings = Standings("thx")
+    standings.begin(101.0)
+    standings.add([AxisEffect(axis="thx", id="creep")], 31.0, Grade.LOOK)
+    stepwise.rankings.append(standings.ranking())
+    coupled = AxisEffect(axis="thx", id="cross_coupling", from_axis="thy")
+    standings.add([AxisEffect(axis="thx", id="hysteresis"), coupled], 2.0, Grade.UNSEEN)
+    stepwise.rankings.append(standings.ranking())
+    click(qtbot, chosen.start)
+    qtbot.waitUntil(lambda: list(chosen.running.rankings) == ["thx"], timeout=LONG_MS)
+    view = chosen.running.rankings["thx"]
+    assert view.accessibleName() == "θx: 1 candidate tried: Creep 70 %"
+    stepwise.steps.release()
+    qtbot.waitUntil(lambda: "θx: 2 candidates tried" in view.accessibleName(), timeout=LONG_MS)
+    first, second = (name_of(one) for one in view.ranking.standings)
+    assert (first, second) == ("Cross coupling from θy + Hysteresis", "Creep")
+    assert not view.grab().toImage().isNull()
+    stepwise.steps.release()
+    qtbot.waitUntil(lambda: chosen.answer is not None, timeout=LONG_MS)
+    assert chosen.running.isHidden()
 
 
 def test_stop_works_at_once_and_what_comes_late_is_dropped(qtbot, chosen, stepwise):

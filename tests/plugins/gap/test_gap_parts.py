@@ -1,20 +1,16 @@
-"""What the gap page shows, without a window: first looks, cells of the map, proofs, advice."""
+"""What the gap page shows, without a window: cells of the map, proofs, advice."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from rotemina.plugins.gap import first_look as module
 from rotemina.plugins.gap.advice import advice, readiness
 from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.cell import parts
-from rotemina.plugins.gap.diagnosing import Looks
-from rotemina.plugins.gap.first_look import first_look
 from rotemina.plugins.gap.playing import told
 from rotemina.plugins.gap.proof import new_motion, prove
 from rotemina.sim.gap.diagnosis import Verdict
-from rotemina.sim.gap.progress import Progress
 from rotemina.sim.gap.regimes import Regime
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
@@ -23,65 +19,9 @@ from rotemina.sim.robot.model import AxisEffect
 ROBOT = load_robot("rotemina")
 
 
-class EnoughError(Exception):
-    """What a listener raises that has heard enough."""
-
-
 @pytest.fixture(scope="module")
 def answer(diagnosis, record):
     return Answer.of(diagnosis, ["day one.csv"], [record])
-
-
-# --- first looks ------------------------------------------------------------------------------
-
-
-@pytest.fixture
-def few(monkeypatch):
-    """Let few candidates be looked at: all of them take their time."""
-    wanted = {"gain_error", "hysteresis", "thermal_drift"}
-    every = module.scouts
-    monkeypatch.setattr(
-        module, "scouts", lambda *given: [one for one in every(*given) if one.id in wanted]
-    )
-
-
-@pytest.mark.usefixtures("few")
-def test_a_first_look_ranks_what_is_there_first(record):
-    looks = []
-    first_look(ROBOT, "thx", [record], looks.append)
-    last = looks[-1]
-    assert last.done == last.count == len(looks)
-    assert last.seen[0].effect == "hysteresis"
-    assert last.seen[0].left < 0.1 * last.whole
-    left = [seen.left for seen in last.seen]
-    assert left == sorted(left)
-    assert len({(seen.effect, seen.from_axis) for seen in last.seen}) == len(last.seen)
-
-
-@pytest.mark.usefixtures("few")
-def test_a_first_look_ends_when_its_listener_has_heard_enough(record):
-    def enough(_look):
-        raise EnoughError
-
-    with pytest.raises(EnoughError):
-        first_look(ROBOT, "thx", [record], enough)
-
-
-def test_an_axis_that_records_do_not_measure_is_not_looked_at(record):
-    looks = []
-    first_look(ROBOT, "x", [record], looks.append)
-    assert looks == []
-
-
-def test_each_axis_is_looked_at_once_when_the_diagnosis_comes_to_it(record, monkeypatch):
-    from rotemina.plugins.gap import diagnosing
-
-    axes = []
-    monkeypatch.setattr(diagnosing, "first_look", lambda _robot, axis, *_: axes.append(axis))
-    looks = Looks(ROBOT, [record], lambda _: None)
-    for stage, axis in (("where", None), ("screening", "thx"), ("fitting", "thx")) * 2:
-        looks.follow(Progress(stage, axis, None, 0.1))
-    assert axes == ["thx"]
 
 
 # --- cells of the map -------------------------------------------------------------------------
