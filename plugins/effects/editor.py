@@ -13,12 +13,14 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.display import label
+from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.effects.field import ParameterField, SteadyChoice, tip
 from rotemina.plugins.effects.quantity import Quantity
+from rotemina.plugins.effects.words import effect_summary, effect_title, formulation_name
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.robot.model import Robot
 
-NOTHING = "Add an effect, and tune it here while the simulator runs."
+NOTHING = marked("effects", "Add an effect, and tune it here while the simulator runs.")
 LEAST_HEIGHT = 10  # of the fields, which scroll: a notice must not make the window taller
 
 
@@ -42,18 +44,20 @@ class Editor(QWidget):
         self._robot = robot
         self._shown: object = None
         self.fields: dict[str, ParameterField] = {}
-        self.title = QLabel(NOTHING)
+        self.title = QLabel(translate("effects", NOTHING))
         self.title.setTextFormat(Qt.TextFormat.PlainText)
         self.formulation = SteadyChoice()
-        self.formulation.setAccessibleName("Formulation")
-        self.formulation.setToolTip("Which equations the effect has; they stand below")
+        self.formulation.setAccessibleName(translate("effects", "Formulation"))
+        self.formulation.setToolTip(
+            translate("effects", "Which equations the effect has; they stand below")
+        )
         self.formulation.activated.connect(
             lambda: self.formulation_chosen.emit(self.formulation.currentData())
         )
-        self._from = QLabel("from")
+        self._from = QLabel(translate("effects", "from"))
         self.source = SteadyChoice()
-        self.source.setAccessibleName("The axis that the effect comes from")
-        self.source.setToolTip("The axis that the effect comes from")
+        self.source.setAccessibleName(translate("effects", "The axis that the effect comes from"))
+        self.source.setToolTip(translate("effects", "The axis that the effect comes from"))
         self.source.activated.connect(lambda: self.source_chosen.emit(self.source.currentData()))
         self.equation = QLabel()
         self.equation.setTextFormat(Qt.TextFormat.PlainText)
@@ -105,15 +109,19 @@ class Editor(QWidget):
         self.title.style().unpolish(self.title)
         self.title.style().polish(self.title)
         if one is None:
-            self.title.setText(NOTHING)
+            self.title.setText(translate("effects", NOTHING))
             self.title.setToolTip("")
             return
-        self.title.setText(f"{label(one.asked.axis)}: {one.effect.title}")
-        self.title.setToolTip(tip(one.effect.summary))
+        self.title.setText(f"{label(one.asked.axis)}: {effect_title(one.effect)}")
+        self.title.setToolTip(tip(effect_summary(one.effect)))
         self.equation.setText(" ".join(one.formulation.equation.split()))
         self.equation.setToolTip(tip(one.formulation.equation, one.formulation.source))
         names = [formulation.name for formulation in one.effect.formulations]
-        _offer(self.formulation, [(spoken(name), name) for name in names], one.formulation.name)
+        _offer(
+            self.formulation,
+            [(formulation_name(name), name) for name in names],
+            one.formulation.name,
+        )
         self.formulation.setEnabled(len(names) > 1)
         others = [name for name in self._robot.axes if name != one.asked.axis]
         _offer(self.source, [(label(name), name) for name in others], one.asked.from_axis)
@@ -139,11 +147,6 @@ class Editor(QWidget):
                 self.fields[parameter.name] = field
         grid.setRowStretch(grid.rowCount(), 1)
         self._scroll.setWidget(content)
-
-
-def spoken(name: str) -> str:
-    """Return the name of a formulation as people write it."""
-    return name.replace("_", " ")
 
 
 def _offer(choice: SteadyChoice, items: list[tuple[str, str]], chosen: str | None) -> None:

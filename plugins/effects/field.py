@@ -14,7 +14,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from rotemina.app.shell.language import translate
 from rotemina.plugins.effects.quantity import SLIDER_STEPS, Quantity, ValueRefusedError
+from rotemina.plugins.effects.words import spoken
 
 
 def tip(*lines: str) -> str:
@@ -55,12 +57,13 @@ class ParameterField(QObject):
         self.name, self.quantity = name, quantity
         self._value = quantity.preset
         self._refused = ""
+        preset = quantity.text(quantity.preset)
         about = tip(
-            f"{name.replace('_', ' ')}: {quantity.meaning}",
-            f"Must be {quantity.range_text}",
-            f"Preset {quantity.text(quantity.preset)}",
+            f"{spoken(name)}: {quantity.meaning}",
+            translate("effects", "Must be {range}").format(range=quantity.range_text),
+            translate("effects", "Preset {value}").format(value=preset),
         )
-        self._title = QLabel(name.replace("_", " "))
+        self._title = QLabel(spoken(name))
         self._title.setTextFormat(Qt.TextFormat.PlainText)
         self.edit = QLineEdit()
         self.edit.setFixedWidth(92)
@@ -78,8 +81,12 @@ class ParameterField(QObject):
         self.slider.setVisible(quantity.bounded)
         self.reset = QToolButton()
         self.reset.setText("↺")
-        self.reset.setAccessibleName(f"{name} back to its preset")
-        self.reset.setToolTip(tip(f"Back to the preset, {quantity.text(quantity.preset)}"))
+        self.reset.setAccessibleName(
+            translate("effects", "{name} back to its preset").format(name=name)
+        )
+        self.reset.setToolTip(
+            tip(translate("effects", "Back to the preset, {value}").format(value=preset))
+        )
         self.reset.clicked.connect(lambda: self._take(quantity.preset))
         for widget in (self._title, self.edit, self._unit, self.slider):
             widget.setToolTip(about)

@@ -6,6 +6,7 @@ from PySide6.QtCore import QElapsedTimer, QObject, QTimer, Signal
 
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import CommandRefused, Connection, Event, SessionState
+from rotemina.app.shell.language import translate
 from rotemina.sim.errors import InputError
 from rotemina.sim.robot.model import AxisEffect
 
@@ -75,7 +76,7 @@ class LiveEffects(QObject):
         elif now == self._sent:
             self._end(Standing.APPLIED)
         elif state.connection is not Connection.CONNECTED:
-            self._end(Standing.REFUSED, state.locked or "not connected")
+            self._end(Standing.REFUSED, state.locked or translate("effects", "not connected"))
         elif self._was_done(state):
             self._not_taken()
         elif self._clock.elapsed() >= LONG_MS:
@@ -117,7 +118,10 @@ class LiveEffects(QObject):
     def _not_taken(self) -> None:
         """Send once more what a stop swept out of the queue; tell of what was refused."""
         if self._told or self._tries > 1:
-            self._end(Standing.REFUSED, self._told or "the simulator did not take the change")
+            self._end(
+                Standing.REFUSED,
+                self._told or translate("effects", "the simulator did not take the change"),
+            )
             return
         self._wanted = self._wanted or self._sent
         self._sent = None

@@ -6,9 +6,15 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QMenu
 
 from rotemina.app.display import label
+from rotemina.app.shell.language import translate
 from rotemina.plugins.effects.chain import candidates
-from rotemina.plugins.effects.editor import spoken
 from rotemina.plugins.effects.field import tip
+from rotemina.plugins.effects.words import (
+    effect_summary,
+    effect_title,
+    formulation_name,
+    stage_name,
+)
 from rotemina.sim.effects.formulation import Effect, Formulation
 from rotemina.sim.robot.model import Robot
 
@@ -23,7 +29,7 @@ def fill(
         _add_axis(_submenu(menu, label(axis)), robot, axis, effects, add)
     if broken:
         menu.addSeparator()
-        left_out = _submenu(menu, f"Left out ({len(broken)})")
+        left_out = _submenu(menu, translate("effects", "Left out ({n})").format(n=len(broken)))
         for effect_id, reason in broken.items():
             action = _line(left_out, effect_id)
             action.setToolTip(tip(reason))
@@ -37,19 +43,20 @@ def _add_axis(
         effect = effects[effect_id]
         if effect.stage is not stage:
             stage = effect.stage
-            _line(menu, stage.capitalize())
+            _line(menu, stage_name(stage).capitalize())
         _add_effect(menu, axis, effect, names, add)
 
 
 def _add_effect(menu: QMenu, axis: str, effect: Effect, names: list[str], add: Add) -> None:
     formulations = [f for f in effect.formulations if f.name in names]
-    several = _submenu(menu, f"   {effect.title}") if len(formulations) > 1 else None
+    title = f"   {effect_title(effect)}"
+    several = _submenu(menu, title) if len(formulations) > 1 else None
     if several is not None:
-        several.menuAction().setToolTip(tip(effect.summary))
+        several.menuAction().setToolTip(tip(effect_summary(effect)))
     for formulation in formulations:
-        text = f"   {effect.title}" if several is None else spoken(formulation.name)
+        text = title if several is None else formulation_name(formulation.name)
         action = (several or menu).addAction(_literal(text))
-        action.setToolTip(tip(effect.summary, formulation.equation))
+        action.setToolTip(tip(effect_summary(effect), formulation.equation))
         action.triggered.connect(lambda _=False, chosen=formulation: add(axis, effect, chosen))
 
 

@@ -20,13 +20,15 @@ from PySide6.QtWidgets import (
 from rotemina.app.display import label
 from rotemina.app.motion.state import Connection, SessionState
 from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.effects.chain import Chain, with_formulation, with_value
-from rotemina.plugins.effects.editor import Editor, spoken
+from rotemina.plugins.effects.editor import Editor
 from rotemina.plugins.effects.field import tip
 from rotemina.plugins.effects.live import Effects, LiveEffects, Standing
 from rotemina.plugins.effects.menu import fill
 from rotemina.plugins.effects.table import EffectTable
+from rotemina.plugins.effects.words import effect_title, spoken
 from rotemina.sim.effects.formulation import Effect, Formulation
 from rotemina.sim.effects.registry import all_effects
 from rotemina.sim.errors import InputError
@@ -34,18 +36,18 @@ from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.robot.writing import write_robot
 
-REAL_MACHINE = (
+REAL_MACHINE = marked(
+    "effects",
     "Effects belong to the simulator. A real machine has its own: connect to the simulator to "
-    "switch and tune any."
+    "switch and tune any.",
 )
 MOST_PAST = 100  # lists that can be brought back
-FILES = "Robot files (*.toml)"
 
 
 class EffectsPanel(Panel):
     """The list of effects in place, and the fields of the chosen one."""
 
-    title = "Effects"
+    title = marked("panels", "Effects")
     area = Area.BOTTOM
     order = 40
     help_page = "effects.md#in-the-window"
@@ -73,18 +75,38 @@ class EffectsPanel(Panel):
     # --- parts ------------------------------------------------------------------------------------
 
     def _make_buttons(self) -> None:
-        self.add = QPushButton("Add effect")
-        self.add.setToolTip("Choose an axis, an effect that it may have, and its formulation")
-        self.up = _button("▲", "Let the signal meet this effect earlier within its stage")
-        self.down = _button("▼", "Let the signal meet this effect later within its stage")
-        self.remove = _button("Remove", "Take this effect away")
-        self.undo = _button("Undo", "Take back the last change of this list")
+        self.add = QPushButton(translate("effects", "Add effect"))
+        self.add.setToolTip(
+            translate("effects", "Choose an axis, an effect that it may have, and its formulation")
+        )
+        self.up = _button(
+            "▲", translate("effects", "Let the signal meet this effect earlier within its stage")
+        )
+        self.down = _button(
+            "▼", translate("effects", "Let the signal meet this effect later within its stage")
+        )
+        self.remove = _button(
+            translate("effects", "Remove"), translate("effects", "Take this effect away")
+        )
+        self.undo = _button(
+            translate("effects", "Undo"),
+            translate("effects", "Take back the last change of this list"),
+        )
         self.all_off = _button(
-            "All off", "Compare with the nominal machine: no effect acts until this is released"
+            translate("effects", "All off"),
+            translate(
+                "effects", "Compare with the nominal machine: no effect acts until this is released"
+            ),
         )
         self.all_off.setCheckable(True)
-        self.load = _button("Load …", "Take the effects of a robot file in place of these")
-        self.save = _button("Save robot …", "Write a robot file of this robot with these effects")
+        self.load = _button(
+            translate("effects", "Load …"),
+            translate("effects", "Take the effects of a robot file in place of these"),
+        )
+        self.save = _button(
+            translate("effects", "Save robot …"),
+            translate("effects", "Write a robot file of this robot with these effects"),
+        )
 
     def _lay_out(self) -> None:
         buttons = QHBoxLayout()
@@ -113,8 +135,10 @@ class EffectsPanel(Panel):
         fill(menu, self.workbench.robot, effects, broken, self.add_effect)
         self.add.setMenu(menu)
         self.left_out.setVisible(bool(broken))
-        self.left_out.setText(f"{len(broken)} left out")
-        self.left_out.setToolTip(tip("Effects that cannot be loaded:", *broken.values()))
+        self.left_out.setText(translate("effects", "{n} left out").format(n=len(broken)))
+        self.left_out.setToolTip(
+            tip(translate("effects", "Effects that cannot be loaded:"), *broken.values())
+        )
 
     def _connect(self) -> None:
         self.up.clicked.connect(lambda: self._move(-1))
@@ -179,7 +203,7 @@ class EffectsPanel(Panel):
 
     def _refuse(self, name: str, reason: str) -> None:
         one = self.chain.effects[self.place]
-        where = f"{label(one.asked.axis)} {one.effect.title}, {spoken(name)}"
+        where = f"{label(one.asked.axis)} {effect_title(one.effect)}, {spoken(name)}"
         self.workbench.notify(Level.ERROR, f"{where}: {reason}", about=self)
 
     def _undo(self) -> None:
@@ -204,33 +228,45 @@ class EffectsPanel(Panel):
         def work() -> Chain:
             effects = load_robot(path).effects
             if not effects:
-                raise InputError(f"{path}: the robot file has no effects; these stay")
+                text = translate("effects", "{path}: the robot file has no effects; these stay")
+                raise InputError(text.format(path=path))
             return Chain.of(self.workbench.robot, effects)
 
         def done(chain: Chain) -> None:
             self.place = 0
             self._use(chain)
 
-        self.workbench.work("load effects", f"Reading {path.name} …", work, done)
+        self.workbench.work(
+            "load effects",
+            translate("effects", "Reading {name} …").format(name=path.name),
+            work,
+            done,
+        )
 
     def save_robot(self, path: Path) -> None:
         """Write a robot file of the robot with its effects, over one that is there."""
         robot = replace(self.workbench.robot, effects=self.chain.asked)
         self.workbench.work(
             "save robot",
-            f"Writing {path.name} …",
+            translate("effects", "Writing {name} …").format(name=path.name),
             lambda: write_robot(robot, path, overwrite=True),
-            lambda _: self.workbench.notify(Level.GOOD, f"Saved {path}"),
+            lambda _: self.workbench.notify(
+                Level.GOOD, translate("effects", "Saved {path}").format(path=path)
+            ),
         )
 
     def _ask_load(self) -> None:
-        dialog = self._file_dialog("Load effects from a robot file", self.load_effects)
+        dialog = self._file_dialog(
+            translate("effects", "Load effects from a robot file"), self.load_effects
+        )
         dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
         dialog.show()
 
     def _ask_save(self) -> None:
         """Ask where to; the dialog asks again before a file is replaced."""
-        dialog = self._file_dialog("Save the robot with its effects", self.save_robot)
+        dialog = self._file_dialog(
+            translate("effects", "Save the robot with its effects"), self.save_robot
+        )
         dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
         dialog.setDefaultSuffix("toml")
         dialog.selectFile("robot.toml")
@@ -239,7 +275,12 @@ class EffectsPanel(Panel):
     def _file_dialog(self, title: str, use: Callable[[Path], None]) -> QFileDialog:
         """Return a dialog beside which the window, and its stop button, can still be used."""
         settings = self.workbench.settings
-        dialog = QFileDialog(self, title, settings.get("files.folder", ""), FILES)
+        dialog = QFileDialog(
+            self,
+            title,
+            settings.get("files.folder", ""),
+            translate("effects", "Robot files (*.toml)"),
+        )
         dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         dialog.fileSelected.connect(
@@ -300,11 +341,14 @@ class EffectsPanel(Panel):
     def _show_standing(self) -> None:
         self._mark_fields()
         if self._real:
-            self._say(REAL_MACHINE)
+            self._say(translate("effects", REAL_MACHINE))
         elif self.live.standing is Standing.REFUSED:
-            self._say(f"Not applied: {self.live.reason}", bad=True)
+            self._say(
+                translate("effects", "Not applied: {reason}").format(reason=self.live.reason),
+                bad=True,
+            )
         elif self.live.standing is Standing.PREPARING:
-            self._say("preparing …")
+            self._say(translate("effects", "preparing …"))
         else:
             self._say(self._count())
 
@@ -320,10 +364,18 @@ class EffectsPanel(Panel):
 
     def _count(self) -> str:
         if not len(self.chain):
-            return "No effects: the simulator is the nominal machine."
+            return translate("effects", "No effects: the simulator is the nominal machine.")
         on = sum(one.enabled for one in self.chain.asked)
-        state = "all off" if self.all_off.isChecked() else f"{on} on"
-        return f"{len(self.chain)} effect{'s' if len(self.chain) > 1 else ''}, {state}"
+        state = (
+            translate("effects", "all off")
+            if self.all_off.isChecked()
+            else translate("effects", "{n} on").format(n=on)
+        )
+        one, more = (
+            translate("effects", "1 effect, {state}"),
+            translate("effects", "{n} effects, {state}"),
+        )
+        return (more if len(self.chain) > 1 else one).format(n=len(self.chain), state=state)
 
     def _say(self, text: str, *, bad: bool = False) -> None:
         self.status.setText(text)

@@ -1,9 +1,10 @@
-"""How the parameters of effects are shown: units, digits, and places on a slider. Free of Qt."""
+"""How the parameters of effects are shown: units, digits, places on a slider; no widgets."""
 
 import math
 from dataclasses import dataclass
 
 from rotemina.app.display import PLAIN_NUMBER
+from rotemina.app.shell.language import translate
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import Parameter
 from rotemina.sim.units import drawing_unit, per_si, symbol
@@ -68,8 +69,9 @@ class Quantity:
     def range_text(self) -> str:
         """Bounds as a sentence has them."""
         if math.isinf(self.high):
-            return f"at least {self.text(self.low)}"
-        return f"between {self.number(self.low)} and {self.text(self.high)}"
+            return translate("effects", "at least {low}").format(low=self.text(self.low))
+        text = translate("effects", "between {low} and {high}")
+        return text.format(low=self.number(self.low), high=self.text(self.high))
 
     def value(self, text: str) -> float:
         """Return the value (SI) that a text with the shown unit means.
@@ -80,12 +82,17 @@ class Quantity:
             If it is no plain number, or out of bounds.
         """
         if PLAIN_NUMBER.fullmatch(text.strip()) is None:
-            unit = f" in {self.unit}" if self.unit else ""
-            raise ValueRefusedError(f"{text!r} is no number; type one{unit} with a decimal point")
+            told = translate("effects", "{text} is no number; type one with a decimal point")
+            if self.unit:
+                told = translate(
+                    "effects", "{text} is no number; type one in {unit} with a decimal point"
+                )
+            raise ValueRefusedError(told.format(text=repr(text), unit=self.unit))
         value = self._snapped(float(text) / self.per_si)
         if not self.low <= value <= self.high or math.isinf(value):
             typed = f"{text.strip()} {self.unit}".rstrip()
-            raise ValueRefusedError(f"{typed} is refused: must be {self.range_text}")
+            told = translate("effects", "{value} is refused: must be {range}")
+            raise ValueRefusedError(told.format(value=typed, range=self.range_text))
         return value
 
     # --- slider -----------------------------------------------------------------------------------

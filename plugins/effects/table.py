@@ -5,13 +5,25 @@ from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableWidget, QTableWidgetItem
 
 from rotemina.app.display import label
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.effects.chain import Chain
-from rotemina.plugins.effects.editor import spoken
 from rotemina.plugins.effects.field import tip
+from rotemina.plugins.effects.words import (
+    effect_summary,
+    effect_title,
+    formulation_name,
+    stage_name,
+)
 from rotemina.sim.effects.attachment import Attached
 
-COLUMNS = ("On", "Axis", "Stage", "Effect", "Formulation")
+COLUMNS = (
+    marked("effects", "On"),
+    marked("effects", "Axis"),
+    marked("effects", "Stage"),
+    marked("effects", "Effect"),
+    marked("effects", "Formulation"),
+)
 _CHECKS = {True: Qt.CheckState.Checked, False: Qt.CheckState.Unchecked}
 
 
@@ -29,8 +41,8 @@ class EffectTable(QTableWidget):
 
     def __init__(self) -> None:
         super().__init__(0, len(COLUMNS))
-        self.setAccessibleName("Effects in place")
-        self.setHorizontalHeaderLabels(list(COLUMNS))
+        self.setAccessibleName(translate("effects", "Effects in place"))
+        self.setHorizontalHeaderLabels([translate("effects", column) for column in COLUMNS])
         self.verticalHeader().hide()
         self.verticalHeader().setDefaultSectionSize(24)
         self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
@@ -53,12 +65,12 @@ class EffectTable(QTableWidget):
             for column, text in enumerate(("", *_texts(one))):
                 item = QTableWidgetItem(text)
                 item.setForeground(QColor(theme.text if acts else theme.quiet))
-                item.setToolTip(tip(one.effect.summary))
+                item.setToolTip(tip(effect_summary(one.effect)))
                 self.setItem(row, column, item)
             switch = self.item(row, 0)
             switch.setFlags(switch.flags() | Qt.ItemFlag.ItemIsUserCheckable)
             switch.setCheckState(_CHECKS[one.asked.enabled])
-            switch.setToolTip(tip("Whether the effect acts"))
+            switch.setToolTip(tip(translate("effects", "Whether the effect acts")))
         if 0 <= place < len(chain):
             self.setCurrentCell(place, max(self.currentColumn(), 0))
         self.blockSignals(False)
@@ -69,7 +81,13 @@ class EffectTable(QTableWidget):
 
 
 def _texts(one: Attached) -> tuple[str, ...]:
-    formulation = spoken(one.formulation.name)
+    formulation = formulation_name(one.formulation.name)
     if one.asked.from_axis is not None:
-        formulation += f", from {label(one.asked.from_axis)}"
-    return label(one.asked.axis), str(one.effect.stage), one.effect.title, formulation
+        text = translate("effects", "{formulation}, from {axis}")
+        formulation = text.format(formulation=formulation, axis=label(one.asked.from_axis))
+    return (
+        label(one.asked.axis),
+        stage_name(one.effect.stage),
+        effect_title(one.effect),
+        formulation,
+    )

@@ -9,7 +9,7 @@
     </message>
     <message>
         <source>all lines</source>
-        <translation>alle Leitungen</translation>
+        <translation>alle</translation>
     </message>
     <message>
         <source>line {n}</source>
@@ -21,7 +21,7 @@
     </message>
     <message>
         <source>board {n}</source>
-        <translation>Steuerkarte {n}</translation>
+        <translation>Karte {n}</translation>
     </message>
     <message>
         <source>lose</source>
@@ -29,11 +29,11 @@
     </message>
     <message>
         <source>double</source>
-        <translation>verdoppeln</translation>
+        <translation>doppeln</translation>
     </message>
     <message>
         <source>corrupt</source>
-        <translation>verfälschen</translation>
+        <translation>stören</translation>
     </message>
     <message>
         <source>add</source>
@@ -45,11 +45,11 @@
     </message>
     <message>
         <source>to board</source>
-        <translation>zur Steuerkarte</translation>
+        <translation>zur Karte</translation>
     </message>
     <message>
         <source>to program</source>
-        <translation>zum Programm</translation>
+        <translation>zum PC</translation>
     </message>
     <message>
         <source>Bytes</source>
@@ -97,7 +97,7 @@
     </message>
     <message>
         <source>Board</source>
-        <translation>Steuerkarte</translation>
+        <translation>Karte</translation>
     </message>
     <message>
         <source>A board begins anew; it does not know where its steppers are</source>
@@ -137,7 +137,7 @@
     </message>
     <message>
         <source>Stepper</source>
-        <translation>Schrittmotor</translation>
+        <translation>Stepper</translation>
     </message>
     <message>
         <source>It stays behind its command</source>
@@ -317,7 +317,7 @@
     </message>
     <message>
         <source>Clear fault</source>
-        <translation>Fehler quittieren</translation>
+        <translation>Quittieren</translation>
     </message>
     <message>
         <source>Copy</source>

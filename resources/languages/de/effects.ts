@@ -1,0 +1,698 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="de" sourcelanguage="en">
+<context>
+    <name>effects</name>
+    <message>
+        <source>Add an effect, and tune it here while the simulator runs.</source>
+        <translation>Einen Effekt hinzufügen und hier einstellen, während der Simulator läuft.</translation>
+    </message>
+    <message>
+        <source>Formulation</source>
+        <translation>Ansatz</translation>
+    </message>
+    <message>
+        <source>Which equations the effect has; they stand below</source>
+        <translation>Welche Gleichungen der Effekt hat; sie stehen darunter</translation>
+    </message>
+    <message>
+        <source>from</source>
+        <translation>von</translation>
+    </message>
+    <message>
+        <source>The axis that the effect comes from</source>
+        <translation>Die Achse, von der der Effekt kommt</translation>
+    </message>
+    <message>
+        <source>Must be {range}</source>
+        <translation>Muss {range} sein</translation>
+    </message>
+    <message>
+        <source>Preset {value}</source>
+        <translation>Vorgabe {value}</translation>
+    </message>
+    <message>
+        <source>{name} back to its preset</source>
+        <translation>{name} zurück auf die Vorgabe</translation>
+    </message>
+    <message>
+        <source>Back to the preset, {value}</source>
+        <translation>Zurück auf die Vorgabe, {value}</translation>
+    </message>
+    <message>
+        <source>not connected</source>
+        <translation>nicht verbunden</translation>
+    </message>
+    <message>
+        <source>the simulator did not take the change</source>
+        <translation>der Simulator hat die Änderung nicht übernommen</translation>
+    </message>
+    <message>
+        <source>Left out ({n})</source>
+        <translation>Ausgelassen ({n})</translation>
+    </message>
+    <message>
+        <source>Effects belong to the simulator. A real machine has its own: connect to the simulator to switch and tune any.</source>
+        <translation>Effekte gehören zum Simulator. Eine echte Maschine hat ihre eigenen: mit dem Simulator verbinden, um Effekte zu schalten und einzustellen.</translation>
+    </message>
+    <message>
+        <source>Add effect</source>
+        <translation>Hinzufügen</translation>
+    </message>
+    <message>
+        <source>Choose an axis, an effect that it may have, and its formulation</source>
+        <translation>Eine Achse, einen möglichen Effekt und seinen Ansatz wählen</translation>
+    </message>
+    <message>
+        <source>Let the signal meet this effect earlier within its stage</source>
+        <translation>Diesen Effekt innerhalb seiner Stufe früher wirken lassen</translation>
+    </message>
+    <message>
+        <source>Let the signal meet this effect later within its stage</source>
+        <translation>Diesen Effekt innerhalb seiner Stufe später wirken lassen</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Entfernen</translation>
+    </message>
+    <message>
+        <source>Take this effect away</source>
+        <translation>Diesen Effekt wegnehmen</translation>
+    </message>
+    <message>
+        <source>Undo</source>
+        <translation>Rückgängig</translation>
+    </message>
+    <message>
+        <source>Take back the last change of this list</source>
+        <translation>Die letzte Änderung dieser Liste zurücknehmen</translation>
+    </message>
+    <message>
+        <source>All off</source>
+        <translation>Alle aus</translation>
+    </message>
+    <message>
+        <source>Compare with the nominal machine: no effect acts until this is released</source>
+        <translation>Vergleich mit der nominellen Maschine: kein Effekt wirkt, bis dies gelöst wird</translation>
+    </message>
+    <message>
+        <source>Load …</source>
+        <translation>Laden …</translation>
+    </message>
+    <message>
+        <source>Take the effects of a robot file in place of these</source>
+        <translation>Die Effekte einer Roboterdatei anstelle dieser nehmen</translation>
+    </message>
+    <message>
+        <source>Save robot …</source>
+        <translation>Speichern …</translation>
+    </message>
+    <message>
+        <source>Write a robot file of this robot with these effects</source>
+        <translation>Eine Roboterdatei dieses Roboters mit diesen Effekten schreiben</translation>
+    </message>
+    <message>
+        <source>{n} left out</source>
+        <translation>{n} ausgelassen</translation>
+    </message>
+    <message>
+        <source>Effects that cannot be loaded:</source>
+        <translation>Effekte, die sich nicht laden lassen:</translation>
+    </message>
+    <message>
+        <source>{path}: the robot file has no effects; these stay</source>
+        <translation>{path}: die Roboterdatei hat keine Effekte; diese bleiben</translation>
+    </message>
+    <message>
+        <source>Reading {name} …</source>
+        <translation>{name} wird gelesen …</translation>
+    </message>
+    <message>
+        <source>Writing {name} …</source>
+        <translation>{name} wird geschrieben …</translation>
+    </message>
+    <message>
+        <source>Saved {path}</source>
+        <translation>Gespeichert: {path}</translation>
+    </message>
+    <message>
+        <source>Load effects from a robot file</source>
+        <translation>Effekte aus einer Roboterdatei laden</translation>
+    </message>
+    <message>
+        <source>Save the robot with its effects</source>
+        <translation>Den Roboter mit seinen Effekten speichern</translation>
+    </message>
+    <message>
+        <source>Robot files (*.toml)</source>
+        <translation>Roboterdateien (*.toml)</translation>
+    </message>
+    <message>
+        <source>Not applied: {reason}</source>
+        <translation>Nicht übernommen: {reason}</translation>
+    </message>
+    <message>
+        <source>preparing …</source>
+        <translation>wird vorbereitet …</translation>
+    </message>
+    <message>
+        <source>No effects: the simulator is the nominal machine.</source>
+        <translation>Keine Effekte: die nominelle Maschine.</translation>
+    </message>
+    <message>
+        <source>all off</source>
+        <translation>alle aus</translation>
+    </message>
+    <message>
+        <source>{n} on</source>
+        <translation>{n} an</translation>
+    </message>
+    <message>
+        <source>1 effect, {state}</source>
+        <translation>1 Effekt, {state}</translation>
+    </message>
+    <message>
+        <source>{n} effects, {state}</source>
+        <translation>{n} Effekte, {state}</translation>
+    </message>
+    <message>
+        <source>at least {low}</source>
+        <translation>mindestens {low}</translation>
+    </message>
+    <message>
+        <source>between {low} and {high}</source>
+        <translation>zwischen {low} und {high}</translation>
+    </message>
+    <message>
+        <source>{text} is no number; type one with a decimal point</source>
+        <translation>{text} ist keine Zahl; eine mit Dezimalpunkt eingeben</translation>
+    </message>
+    <message>
+        <source>{text} is no number; type one in {unit} with a decimal point</source>
+        <translation>{text} ist keine Zahl; eine in {unit} mit Dezimalpunkt eingeben</translation>
+    </message>
+    <message>
+        <source>{value} is refused: must be {range}</source>
+        <translation>{value} wird abgelehnt: muss {range} sein</translation>
+    </message>
+    <message>
+        <source>On</source>
+        <translation>An</translation>
+    </message>
+    <message>
+        <source>Axis</source>
+        <translation>Achse</translation>
+    </message>
+    <message>
+        <source>Stage</source>
+        <translation>Stufe</translation>
+    </message>
+    <message>
+        <source>Effect</source>
+        <translation>Effekt</translation>
+    </message>
+    <message>
+        <source>Effects in place</source>
+        <translation>Vorhandene Effekte</translation>
+    </message>
+    <message>
+        <source>Whether the effect acts</source>
+        <translation>Ob der Effekt wirkt</translation>
+    </message>
+    <message>
+        <source>{formulation}, from {axis}</source>
+        <translation>{formulation}, von {axis}</translation>
+    </message>
+    <message>
+        <source>electronics</source>
+        <translation>Elektronik</translation>
+    </message>
+    <message>
+        <source>actuator</source>
+        <translation>Aktor</translation>
+    </message>
+    <message>
+        <source>mechanics</source>
+        <translation>Mechanik</translation>
+    </message>
+    <message>
+        <source>sensor</source>
+        <translation>Sensor</translation>
+    </message>
+    <message>
+        <source>Amplifier lag</source>
+        <translation>Verstärkerverzögerung</translation>
+    </message>
+    <message>
+        <source>Phase and gain both fall with frequency; a tap at u shows it.</source>
+        <translation>Phase und Verstärkung fallen mit der Frequenz; ein Abgriff bei u zeigt es.</translation>
+    </message>
+    <message>
+        <source>Delay</source>
+        <translation>Totzeit</translation>
+    </message>
+    <message>
+        <source>The phase grows with frequency while the gain stays 1.</source>
+        <translation>Die Phase wächst mit der Frequenz, die Verstärkung bleibt 1.</translation>
+    </message>
+    <message>
+        <source>Quantization</source>
+        <translation>Quantisierung</translation>
+    </message>
+    <message>
+        <source>The response comes in steps, which the mechanics filter.</source>
+        <translation>Die Antwort kommt in Stufen, die die Mechanik filtert.</translation>
+    </message>
+    <message>
+        <source>Saturation</source>
+        <translation>Sättigung</translation>
+    </message>
+    <message>
+        <source>The output cannot reach the command, only near the ends of the range.</source>
+        <translation>Der Ausgang erreicht den Sollwert nicht, nur nahe den Bereichsenden.</translation>
+    </message>
+    <message>
+        <source>Slew limit</source>
+        <translation>Anstiegsbegrenzung</translation>
+    </message>
+    <message>
+        <source>Only large and fast motion suffers; it becomes a triangle.</source>
+        <translation>Nur große und schnelle Bewegung leidet; sie wird zum Dreieck.</translation>
+    </message>
+    <message>
+        <source>Creep</source>
+        <translation>Kriechen</translation>
+    </message>
+    <message>
+        <source>Goes on after a move, in proportion to it and with its sign, by the log of time.</source>
+        <translation>Geht nach einer Bewegung weiter, proportional zu ihr und mit ihrem Vorzeichen, mit dem Logarithmus der Zeit.</translation>
+    </message>
+    <message>
+        <source>Gain error</source>
+        <translation>Verstärkungsfehler</translation>
+    </message>
+    <message>
+        <source>Proportional to the command, without memory.</source>
+        <translation>Proportional zum Sollwert, ohne Gedächtnis.</translation>
+    </message>
+    <message>
+        <source>Hysteresis</source>
+        <translation>Hysterese</translation>
+    </message>
+    <message>
+        <source>Loops whose width grows faster than their amplitude, at any pace; odd distortion.</source>
+        <translation>Schleifen, deren Breite schneller wächst als ihre Amplitude, bei jedem Tempo; ungerade Verzerrung.</translation>
+    </message>
+    <message>
+        <source>Lost steps</source>
+        <translation>Schrittverluste</translation>
+    </message>
+    <message>
+        <source>Permanent jumps by multiples of four full steps, at high load.</source>
+        <translation>Bleibende Sprünge um Vielfache von vier Vollschritten, bei hoher Last.</translation>
+    </message>
+    <message>
+        <source>Microstep error</source>
+        <translation>Mikroschrittfehler</translation>
+    </message>
+    <message>
+        <source>Periodic in the commanded position, every four full steps; the mechanics filter it.</source>
+        <translation>Periodisch in der Sollposition, alle vier Vollschritte; die Mechanik filtert ihn.</translation>
+    </message>
+    <message>
+        <source>Static nonlinearity</source>
+        <translation>Statische Nichtlinearität</translation>
+    </message>
+    <message>
+        <source>A curve of the command, without memory, filtered by the mechanics.</source>
+        <translation>Eine Kennlinie des Sollwerts, ohne Gedächtnis, von der Mechanik gefiltert.</translation>
+    </message>
+    <message>
+        <source>Backlash</source>
+        <translation>Umkehrspiel</translation>
+    </message>
+    <message>
+        <source>A dead band at each reversal, as wide at any amplitude and speed.</source>
+        <translation>Ein Totband bei jeder Umkehr, gleich breit bei jeder Amplitude und Geschwindigkeit.</translation>
+    </message>
+    <message>
+        <source>Contact</source>
+        <translation>Kontakt</translation>
+    </message>
+    <message>
+        <source>A stop or a membrane: acts beyond a position alone.</source>
+        <translation>Ein Anschlag oder eine Membran: wirkt nur jenseits einer Position.</translation>
+    </message>
+    <message>
+        <source>Cross coupling</source>
+        <translation>Übersprechen</translation>
+    </message>
+    <message>
+        <source>Follows the motion of another axis.</source>
+        <translation>Folgt der Bewegung einer anderen Achse.</translation>
+    </message>
+    <message>
+        <source>Flexible mode</source>
+        <translation>Elastische Mode</translation>
+    </message>
+    <message>
+        <source>A peak or a dip where the model has none.</source>
+        <translation>Eine Spitze oder Senke, wo das Modell keine hat.</translation>
+    </message>
+    <message>
+        <source>Friction</source>
+        <translation>Reibung</translation>
+    </message>
+    <message>
+        <source>Spikes at reversals, stick-slip at low speed; damps ringing.</source>
+        <translation>Spitzen bei Umkehr, Ruckgleiten bei kleiner Geschwindigkeit; dämpft Nachschwingen.</translation>
+    </message>
+    <message>
+        <source>Lead screw error</source>
+        <translation>Spindelfehler</translation>
+    </message>
+    <message>
+        <source>Periodic in position, once a turn: its frequency grows with speed.</source>
+        <translation>Periodisch in der Position, einmal je Umdrehung: die Frequenz wächst mit der Geschwindigkeit.</translation>
+    </message>
+    <message>
+        <source>Resonance mismatch</source>
+        <translation>Resonanzabweichung</translation>
+    </message>
+    <message>
+        <source>Frequency or damping off: seen near the resonance alone.</source>
+        <translation>Frequenz oder Dämpfung falsch: nur nahe der Resonanz zu sehen.</translation>
+    </message>
+    <message>
+        <source>Stiffness nonlinearity</source>
+        <translation>Nichtlineare Steifigkeit</translation>
+    </message>
+    <message>
+        <source>A bowed static curve, and a resonance that moves with position.</source>
+        <translation>Eine gebogene statische Kennlinie und eine Resonanz, die mit der Position wandert.</translation>
+    </message>
+    <message>
+        <source>Thermal drift</source>
+        <translation>Thermische Drift</translation>
+    </message>
+    <message>
+        <source>Grows without motion and settles, whatever the command.</source>
+        <translation>Wächst ohne Bewegung und klingt ab, unabhängig vom Sollwert.</translation>
+    </message>
+    <message>
+        <source>Vibration</source>
+        <translation>Schwingung</translation>
+    </message>
+    <message>
+        <source>Periodic in time, whatever the position and the command.</source>
+        <translation>Periodisch in der Zeit, unabhängig von Position und Sollwert.</translation>
+    </message>
+    <message>
+        <source>Clock skew</source>
+        <translation>Taktabweichung</translation>
+    </message>
+    <message>
+        <source>A lag of the reading that grows along the record.</source>
+        <translation>Ein Rückstand des Messwerts, der über die Aufzeichnung wächst.</translation>
+    </message>
+    <message>
+        <source>Encoder interpolation error</source>
+        <translation>Interpolationsfehler</translation>
+    </message>
+    <message>
+        <source>Periodic in position with the grating&apos;s period, on the reading alone.</source>
+        <translation>Periodisch in der Position mit der Gitterperiode, nur im Messwert.</translation>
+    </message>
+    <message>
+        <source>Sensor drift</source>
+        <translation>Sensordrift</translation>
+    </message>
+    <message>
+        <source>The reading wanders slowly, at rest too; the reference does not.</source>
+        <translation>Der Messwert wandert langsam, auch in Ruhe; die Referenz nicht.</translation>
+    </message>
+    <message>
+        <source>Sensor gain error</source>
+        <translation>Sensorverstärkungsfehler</translation>
+    </message>
+    <message>
+        <source>The reading is off in proportion to the position; the motion is not.</source>
+        <translation>Der Messwert ist proportional zur Position falsch; die Bewegung nicht.</translation>
+    </message>
+    <message>
+        <source>Sensor lag</source>
+        <translation>Sensorverzögerung</translation>
+    </message>
+    <message>
+        <source>Phase and gain of the reading fall with frequency; those of the motion do not.</source>
+        <translation>Phase und Verstärkung des Messwerts fallen mit der Frequenz; die der Bewegung nicht.</translation>
+    </message>
+    <message>
+        <source>Sensor noise</source>
+        <translation>Sensorrauschen</translation>
+    </message>
+    <message>
+        <source>White scatter of the reading beyond the declared, without memory.</source>
+        <translation>Weiße Streuung des Messwerts über die angegebene hinaus, ohne Gedächtnis.</translation>
+    </message>
+    <message>
+        <source>Sensor nonlinearity</source>
+        <translation>Sensornichtlinearität</translation>
+    </message>
+    <message>
+        <source>The reading follows a bent curve without memory; the motion does not.</source>
+        <translation>Der Messwert folgt einer krummen Kennlinie ohne Gedächtnis; die Bewegung nicht.</translation>
+    </message>
+    <message>
+        <source>Sensor outliers</source>
+        <translation>Sensorausreißer</translation>
+    </message>
+    <message>
+        <source>Single samples far off: spikes, or readings that drop out.</source>
+        <translation>Einzelne Werte weit daneben: Ausreißer oder Messwerte, die ausfallen.</translation>
+    </message>
+    <message>
+        <source>Sensor quantization</source>
+        <translation>Sensorquantisierung</translation>
+    </message>
+    <message>
+        <source>Steps of the reading, sharp at any speed: no mechanics filters them.</source>
+        <translation>Stufen des Messwerts, scharf bei jeder Geschwindigkeit: keine Mechanik filtert sie.</translation>
+    </message>
+    <message>
+        <source>appendage</source>
+        <translation>Anhang</translation>
+    </message>
+    <message>
+        <source>bouc wen</source>
+        <translation>Bouc-Wen</translation>
+    </message>
+    <message>
+        <source>bow and cubic</source>
+        <translation>Bogen und kubisch</translation>
+    </message>
+    <message>
+        <source>compliant</source>
+        <translation>nachgiebig</translation>
+    </message>
+    <message>
+        <source>compliant screw</source>
+        <translation>nachgiebige Spindel</translation>
+    </message>
+    <message>
+        <source>constant rate</source>
+        <translation>konstante Rate</translation>
+    </message>
+    <message>
+        <source>cubic</source>
+        <translation>kubisch</translation>
+    </message>
+    <message>
+        <source>cubic quintic</source>
+        <translation>kubisch-quintisch</translation>
+    </message>
+    <message>
+        <source>detuned</source>
+        <translation>verstimmt</translation>
+    </message>
+    <message>
+        <source>dropouts held</source>
+        <translation>Ausfälle gehalten</translation>
+    </message>
+    <message>
+        <source>dropouts to zero</source>
+        <translation>Ausfälle auf null</translation>
+    </message>
+    <message>
+        <source>event</source>
+        <translation>Ereignis</translation>
+    </message>
+    <message>
+        <source>exponential</source>
+        <translation>exponentiell</translation>
+    </message>
+    <message>
+        <source>first order</source>
+        <translation>erster Ordnung</translation>
+    </message>
+    <message>
+        <source>flicker</source>
+        <translation>Flicker</translation>
+    </message>
+    <message>
+        <source>hard</source>
+        <translation>hart</translation>
+    </message>
+    <message>
+        <source>harmonics</source>
+        <translation>Oberwellen</translation>
+    </message>
+    <message>
+        <source>logarithmic</source>
+        <translation>logarithmisch</translation>
+    </message>
+    <message>
+        <source>lugre</source>
+        <translation>LuGre</translation>
+    </message>
+    <message>
+        <source>mode</source>
+        <translation>Mode</translation>
+    </message>
+    <message>
+        <source>modes</source>
+        <translation>Moden</translation>
+    </message>
+    <message>
+        <source>modified prandtl ishlinskii</source>
+        <translation>modifiziertes Prandtl-Ishlinskii</translation>
+    </message>
+    <message>
+        <source>moving</source>
+        <translation>bewegt</translation>
+    </message>
+    <message>
+        <source>overload</source>
+        <translation>Überlast</translation>
+    </message>
+    <message>
+        <source>parallel</source>
+        <translation>parallel</translation>
+    </message>
+    <message>
+        <source>polynomial</source>
+        <translation>Polynom</translation>
+    </message>
+    <message>
+        <source>prandtl ishlinskii</source>
+        <translation>Prandtl-Ishlinskii</translation>
+    </message>
+    <message>
+        <source>progressive</source>
+        <translation>progressiv</translation>
+    </message>
+    <message>
+        <source>proportional</source>
+        <translation>proportional</translation>
+    </message>
+    <message>
+        <source>random walk</source>
+        <translation>Zufallsweg</translation>
+    </message>
+    <message>
+        <source>relative</source>
+        <translation>relativ</translation>
+    </message>
+    <message>
+        <source>rigid</source>
+        <translation>starr</translation>
+    </message>
+    <message>
+        <source>screw</source>
+        <translation>Spindel</translation>
+    </message>
+    <message>
+        <source>second order</source>
+        <translation>zweiter Ordnung</translation>
+    </message>
+    <message>
+        <source>series</source>
+        <translation>Reihe</translation>
+    </message>
+    <message>
+        <source>soft</source>
+        <translation>weich</translation>
+    </message>
+    <message>
+        <source>spikes</source>
+        <translation>Ausreißer</translation>
+    </message>
+    <message>
+        <source>spring</source>
+        <translation>Feder</translation>
+    </message>
+    <message>
+        <source>springs</source>
+        <translation>Federn</translation>
+    </message>
+    <message>
+        <source>static</source>
+        <translation>statisch</translation>
+    </message>
+    <message>
+        <source>stop</source>
+        <translation>Anschlag</translation>
+    </message>
+    <message>
+        <source>stribeck</source>
+        <translation>Stribeck</translation>
+    </message>
+    <message>
+        <source>ten plays</source>
+        <translation>zehn Spiele</translation>
+    </message>
+    <message>
+        <source>third order</source>
+        <translation>dritter Ordnung</translation>
+    </message>
+    <message>
+        <source>tone</source>
+        <translation>Ton</translation>
+    </message>
+    <message>
+        <source>transport</source>
+        <translation>Transport</translation>
+    </message>
+    <message>
+        <source>two harmonics</source>
+        <translation>zwei Oberwellen</translation>
+    </message>
+    <message>
+        <source>two tones</source>
+        <translation>zwei Töne</translation>
+    </message>
+    <message>
+        <source>uniform</source>
+        <translation>gleichförmig</translation>
+    </message>
+    <message>
+        <source>viscous</source>
+        <translation>viskos</translation>
+    </message>
+    <message>
+        <source>warm up</source>
+        <translation>Aufwärmen</translation>
+    </message>
+    <message>
+        <source>white</source>
+        <translation>weiß</translation>
+    </message>
+</context>
+<context>
+    <name>panels</name>
+    <message>
+        <source>Effects</source>
+        <translation>Effekte</translation>
+    </message>
+</context>
+</TS>
