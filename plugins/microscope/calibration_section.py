@@ -9,6 +9,7 @@ from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.sight import Activity, Sight
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.microscope.section import Section, button, show_text
 from rotemina.plugins.microscope.standing import against_moving
@@ -19,11 +20,12 @@ from rotemina.plugins.microscope.words import (
     stage_text,
 )
 
-_GUIDE = (
+_GUIDE = marked(
+    "microscope",
     "1. Bring the tip into the middle of the picture and into focus.\n"
     "2. Choose the objective under Camera: it has a calibration of its own.\n"
     "3. Calibrate the micro stage, then the nano stage: the tip goes small ways about where it is "
-    "and comes back."
+    "and comes back.",
 )
 
 
@@ -31,25 +33,30 @@ class CalibrationSection(Section):
     """One button a stage, progress, residuals, and what is kept for the objective."""
 
     def __init__(self, workbench: Workbench, microscope: Microscope) -> None:
-        super().__init__("Calibration")
+        super().__init__(translate("microscope", "Calibration"))
         self._workbench, self._microscope = workbench, microscope
         guide = self.add_text()
-        guide.setText(_GUIDE)
-        self.whole = QCheckBox("the whole picture moves")
+        guide.setText(translate("microscope", _GUIDE))
+        self.whole = QCheckBox(translate("microscope", "the whole picture moves"))
         self.whole.setToolTip(
             plain_tip(
-                "Without a pipette in sight, where stage and specimen move together: the picture "
-                "itself is followed"
+                translate(
+                    "microscope",
+                    "Without a pipette in sight, where stage and specimen move together: the "
+                    "picture itself is followed",
+                )
             )
         )
         self.column.addWidget(self.whole)
-        self.micro = button("Micro stage", lambda: self._begin(MICRO))
-        self.nano = button("Nano stage", lambda: self._begin(NANO))
+        self.micro = button(translate("microscope", "Micro stage"), lambda: self._begin(MICRO))
+        self.nano = button(translate("microscope", "Nano stage"), lambda: self._begin(NANO))
         self.add_row(self.micro, self.nano)
-        self.abort = button("Abort", lambda: workbench.ask(microscope.stop))
+        self.abort = button(
+            translate("microscope", "Abort"), lambda: workbench.ask(microscope.stop)
+        )
         self.progress = QProgressBar()
         self.progress.setTextVisible(False)
-        self.progress.setAccessibleName("Progress of the calibration")
+        self.progress.setAccessibleName(translate("microscope", "Progress of the calibration"))
         self.add_row(self.progress, self.abort)
         self.said = self.add_text()
         self.residuals = self.add_text()
@@ -59,12 +66,28 @@ class CalibrationSection(Section):
     def refresh(self, sight: Sight, state: SessionState) -> None:
         """Show how it goes, and what is known."""
         why = against_moving(sight, state)
-        allow(self.micro, why, "Move x and y by 40 µm about where they are, and look")
-        allow(self.nano, why, "Move the tip by 15 µm with the piezos about where it is, and look")
+        allow(
+            self.micro,
+            why,
+            translate("microscope", "Move x and y by 40 µm about where they are, and look"),
+        )
+        allow(
+            self.nano,
+            why,
+            translate(
+                "microscope", "Move the tip by 15 µm with the piezos about where it is, and look"
+            ),
+        )
         running = sight.activity is Activity.CALIBRATION
         for widget in (self.progress, self.abort):
             _show(widget, running)
-        allow(self.abort, None, "Stop the machine where it is, and keep what was calibrated before")
+        allow(
+            self.abort,
+            None,
+            translate(
+                "microscope", "Stop the machine where it is, and keep what was calibrated before"
+            ),
+        )
         self._show_status(sight.calibrating)
         show_text(self.known, "\n".join(_known(sight)))
 
@@ -88,13 +111,22 @@ def _known(sight: Sight) -> list[str]:
         return [sight.calibration_problem]
     calibration = sight.calibration
     if calibration is None:
-        return [f"Nothing is kept for objective {sight.objective!r}."] if sight.objective else []
+        return (
+            [
+                translate("microscope", "Nothing is kept for objective {objective!r}.").format(
+                    objective=sight.objective
+                )
+            ]
+            if sight.objective
+            else []
+        )
     lines = [stage_text(MICRO, calibration.micro), stage_text(NANO, calibration.nano)]
     focus = calibration.focus
     if focus is not None:
         lines.append(
-            f"focus: sharpest at {1e6 * focus.sharpest:.2f} ± {1e6 * focus.uncertainty:.2f} µm of "
-            f"{focus.axis}"
+            translate(
+                "microscope", "focus: sharpest at {place:.2f} ± {doubt:.2f} µm of {axis}"
+            ).format(place=1e6 * focus.sharpest, doubt=1e6 * focus.uncertainty, axis=focus.axis)
         )
     return lines
 

@@ -1,8 +1,9 @@
-"""What was typed for a camera, made into settings. Free of Qt."""
+"""What was typed for a camera, made into settings.."""
 
 from dataclasses import dataclass
 
 from rotemina.app.display import PLAIN_NUMBER
+from rotemina.app.shell.language import marked, translate
 from rotemina.drivers.cameras.errors import CameraSettingError
 from rotemina.drivers.cameras.frame import Region
 from rotemina.drivers.cameras.settings import (
@@ -12,7 +13,7 @@ from rotemina.drivers.cameras.settings import (
     Trigger,
 )
 
-WHOLE = "whole"
+WHOLE = marked("microscope", "whole")
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,11 +51,11 @@ def settings_of(texts: CameraTexts) -> CameraSettings:
     CameraSettingError
         If something is no number, or no region.
     """
-    exposure_ms = _number("exposure", texts.exposure, "ms")
+    exposure_ms = _number(translate("microscope", "exposure"), texts.exposure, "ms")
     return CameraSettings(
         exposure_s=None if exposure_ms is None else 1e-3 * exposure_ms,
-        gain=_number("gain", texts.gain, ""),
-        rate_hz=_number("rate", texts.rate, "Hz"),
+        gain=_number(translate("microscope", "gain"), texts.gain, ""),
+        rate_hz=_number(translate("microscope", "rate"), texts.rate, "Hz"),
         region=_region(texts.region),
         pixel_type=PixelType(texts.pixel_type) if texts.pixel_type else None,
         trigger=Trigger(texts.trigger),
@@ -65,7 +66,7 @@ def settings_of(texts: CameraTexts) -> CameraSettings:
 def region_text(region: Region | None) -> str:
     """Return a region as it is typed."""
     if region is None:
-        return WHOLE
+        return translate("microscope", WHOLE)
     return f"{region.left} {region.top} {region.width} {region.height}"
 
 
@@ -77,8 +78,12 @@ def pixel_types(can: CameraDescription) -> tuple[PixelType, ...]:
 def bounds_text(bounds: tuple[float, float] | None, scale: float, unit: str) -> str:
     """Return what may be typed, in words."""
     if bounds is None:
-        return "this camera does not let it be set"
-    return f"{scale * bounds[0]:g} to {scale * bounds[1]:g} {unit}".rstrip()
+        return translate("microscope", "this camera does not let it be set")
+    return (
+        translate("microscope", "{low:g} to {high:g} {unit}")
+        .format(low=scale * bounds[0], high=scale * bounds[1], unit=unit)
+        .rstrip()
+    )
 
 
 def _text(value: float | None) -> str:
@@ -90,18 +95,25 @@ def _number(name: str, text: str, unit: str) -> float | None:
     if not plain:
         return None
     if not PLAIN_NUMBER.fullmatch(plain):
-        raise CameraSettingError(f"{name}: {text.strip()!r} is no number; write one, {unit or '1'}")
+        raise CameraSettingError(
+            translate("microscope", "{name}: {text!r} is no number; write one, {unit}").format(
+                name=name, text=text.strip(), unit=unit or "1"
+            )
+        )
     return float(plain)
 
 
 def _region(text: str) -> Region | None:
     plain = text.strip().lower()
-    if plain in ("", WHOLE):
+    if plain in ("", WHOLE, translate("microscope", WHOLE)):
         return None
     parts = plain.replace(",", " ").replace("×", " ").split()
     if len(parts) != 4 or not all(part.isdecimal() and len(part) < 7 for part in parts):
         raise CameraSettingError(
-            f"region: {text.strip()!r}: write {WHOLE}, or four whole numbers: first column, first "
-            "row, width and height, px"
+            translate(
+                "microscope",
+                "region: {text!r}: write {whole}, or four whole numbers: first column, first "
+                "row, width and height, px",
+            ).format(text=text.strip(), whole=translate("microscope", WHOLE))
         )
     return Region(*map(int, parts))

@@ -7,6 +7,7 @@ from rotemina.app.cameras.feed import FeedState
 from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.sight import Sight
 from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.cameras.settings import CameraDescription, CameraSettings, Trigger
 from rotemina.plugins.microscope.camera_form import (
@@ -18,6 +19,7 @@ from rotemina.plugins.microscope.camera_form import (
     settings_of,
     texts_of,
 )
+from rotemina.plugins.microscope.engine_words import spoken
 from rotemina.plugins.microscope.picture_view import PictureView
 from rotemina.plugins.microscope.section import Section, SteadyChoice, button, show_text
 
@@ -28,28 +30,44 @@ class CameraSection(Section):
     """Cameras that are there, another one by its address, and the objective."""
 
     def __init__(self, workbench: Workbench, microscope: Microscope) -> None:
-        super().__init__("Camera")
+        super().__init__(translate("microscope", "Camera"))
         self._workbench, self._microscope = workbench, microscope
-        self.choice = SteadyChoice("Camera")
+        self.choice = SteadyChoice(translate("microscope", "Camera"))
         self.address = QLineEdit()
-        self.address.setPlaceholderText("or, say, opencv:film.avi")
-        self.address.setAccessibleName("Source and address of another camera")
+        self.address.setPlaceholderText(translate("microscope", "or, say, opencv:film.avi"))
+        self.address.setAccessibleName(
+            translate("microscope", "Source and address of another camera")
+        )
         self.address.setToolTip(
             plain_tip(
-                "A camera that is not listed: its source, a colon, and a file, folder, stream or "
-                "number, such as opencv:film.avi or sequence:/data/pictures"
+                translate(
+                    "microscope",
+                    "A camera that is not listed: its source, a colon, and a file, folder, stream "
+                    "or number, such as opencv:film.avi or sequence:/data/pictures",
+                )
             )
         )
-        self.open = button("Open", self._open, "Open this camera; the one that is open is closed")
+        self.open = button(
+            translate("microscope", "Open"),
+            self._open,
+            translate("microscope", "Open this camera; the one that is open is closed"),
+        )
         self.open.setProperty("primary", True)
         self.close_button = button(
-            "Close", lambda: workbench.ask(microscope.close_camera), "Let go of the camera"
+            translate("microscope", "Close"),
+            lambda: workbench.ask(microscope.close_camera),
+            translate("microscope", "Let go of the camera"),
         )
-        self.objective = SteadyChoice("Objective")
+        self.objective = SteadyChoice(translate("microscope", "Objective"))
         self.objective.setEditable(True)
         self.objective.setInsertPolicy(SteadyChoice.InsertPolicy.NoInsert)
         self.objective.setToolTip(
-            plain_tip("The objective in use: each has a calibration of its own; write a new name")
+            plain_tip(
+                translate(
+                    "microscope",
+                    "The objective in use: each has a calibration of its own; write a new name",
+                )
+            )
         )
         edit = self.objective.lineEdit()
         assert edit is not None
@@ -58,7 +76,7 @@ class CameraSection(Section):
         self.column.addWidget(self.choice)
         self.column.addWidget(self.address)
         self.add_row(self.open, self.close_button)
-        title = QLabel("Objective")
+        title = QLabel(translate("microscope", "Objective"))
         title.setBuddy(self.objective)
         self.add_row(title, self.objective)
         self.said = self.add_text()
@@ -73,10 +91,18 @@ class CameraSection(Section):
         if not edit.hasFocus() and edit.text() != sight.objective:
             edit.setText(sight.objective)
         nothing = not listed and not self.address.text().strip()
-        why = "no camera is listed, and no address is written" if nothing else None
-        allow(self.open, why, "Open this camera; the one that is open is closed")
-        closed = "no camera is open" if sight.feed.state in _OPEN else None
-        allow(self.close_button, closed, "Let go of the camera")
+        why = (
+            translate("microscope", "no camera is listed, and no address is written")
+            if nothing
+            else None
+        )
+        allow(
+            self.open,
+            why,
+            translate("microscope", "Open this camera; the one that is open is closed"),
+        )
+        closed = translate("microscope", "no camera is open") if sight.feed.state in _OPEN else None
+        allow(self.close_button, closed, translate("microscope", "Let go of the camera"))
         problems = [f"{source}: {why}" for source, why in sight.camera_problems.items()]
         show_text(self.said, "\n".join([one for one in (sight.truth, *problems) if one]))
 
@@ -97,7 +123,7 @@ class SettingsSection(Section):
     """Exposure, gain, region, kind of pixels and trigger, as far as the camera has them."""
 
     def __init__(self, workbench: Workbench, microscope: Microscope, view: PictureView) -> None:
-        super().__init__("Settings of the camera")
+        super().__init__(translate("microscope", "Settings of the camera"))
         self._workbench, self._microscope, self._view = workbench, microscope, view
         self._shown: CameraSettings | None = None
         self._can: CameraDescription | None = None
@@ -107,28 +133,49 @@ class SettingsSection(Section):
         rows.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
         rows.setLabelAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         self.exposure, self.gain, self.rate, self.region = (QLineEdit() for _ in range(4))
-        self.pixel_type, self.trigger = SteadyChoice("Kind of pixels"), SteadyChoice("Trigger")
-        self.repeat = QCheckBox("begin again at the end")
-        self.repeat.setToolTip(plain_tip("Of a file or a sequence of pictures"))
+        self.pixel_type, self.trigger = (
+            SteadyChoice(translate("microscope", "Kind of pixels")),
+            SteadyChoice(translate("microscope", "Trigger")),
+        )
+        self.repeat = QCheckBox(translate("microscope", "begin again at the end"))
+        self.repeat.setToolTip(
+            plain_tip(translate("microscope", "Of a file or a sequence of pictures"))
+        )
         for text, field in (
-            ("Exposure [ms]", self.exposure),
-            ("Gain", self.gain),
-            ("Rate [Hz]", self.rate),
-            ("Region [px]", self.region),
-            ("Pixels", self.pixel_type),
-            ("Trigger", self.trigger),
+            (translate("microscope", "Exposure [ms]"), self.exposure),
+            (translate("microscope", "Gain"), self.gain),
+            (translate("microscope", "Rate [Hz]"), self.rate),
+            (translate("microscope", "Region [px]"), self.region),
+            (translate("microscope", "Pixels"), self.pixel_type),
+            (translate("microscope", "Trigger"), self.trigger),
         ):
             field.setAccessibleName(text)
-            field.setToolTip(plain_tip(f"{text}; its limits are the camera's, which is not open"))
+            field.setToolTip(
+                plain_tip(
+                    translate(
+                        "microscope", "{text}; its limits are the camera's, which is not open"
+                    ).format(text=text)
+                )
+            )
             field.setMinimumWidth(60)
             rows.addRow(text, field)
         rows.addRow(self.repeat)
         self.column.addWidget(self.form)
-        self.apply = button("Set", self._apply, "Set the camera so; what it refuses is said below")
-        self.cut = button("Region in sight", self._cut, "Read out only what is in sight now")
+        self.apply = button(
+            translate("microscope", "Set"),
+            self._apply,
+            translate("microscope", "Set the camera so; what it refuses is said below"),
+        )
+        self.cut = button(
+            translate("microscope", "Region in sight"),
+            self._cut,
+            translate("microscope", "Read out only what is in sight now"),
+        )
         self.add_row(self.apply, self.cut)
         self.shoot = button(
-            "Take a picture", lambda: workbench.ask(microscope.trigger), "Trigger the camera once"
+            translate("microscope", "Take a picture"),
+            lambda: workbench.ask(microscope.trigger),
+            translate("microscope", "Trigger the camera once"),
         )
         self.column.addWidget(self.shoot)
         self.problem = self.add_text()
@@ -141,12 +188,26 @@ class SettingsSection(Section):
         feed = sight.feed
         can = feed.description
         self.form.setEnabled(can is not None)
-        why = "no camera is open" if can is None else None
-        allow(self.apply, why, "Set the camera so; what it refuses is said below")
-        no_frame = why or ("there is no picture yet" if feed.frame is None else None)
-        allow(self.cut, no_frame, "Read out only what is in sight now: smaller pictures, faster")
-        waits = why or (None if feed.settings.trigger is Trigger.SOFTWARE else "it runs freely")
-        allow(self.shoot, waits, "Trigger the camera once")
+        why = translate("microscope", "no camera is open") if can is None else None
+        allow(
+            self.apply,
+            why,
+            translate("microscope", "Set the camera so; what it refuses is said below"),
+        )
+        no_frame = why or (
+            translate("microscope", "there is no picture yet") if feed.frame is None else None
+        )
+        allow(
+            self.cut,
+            no_frame,
+            translate("microscope", "Read out only what is in sight now: smaller pictures, faster"),
+        )
+        waits = why or (
+            None
+            if feed.settings.trigger is Trigger.SOFTWARE
+            else translate("microscope", "it runs freely")
+        )
+        allow(self.shoot, waits, translate("microscope", "Trigger the camera once"))
         show_text(self.problem, feed.problem)
         if can is None:
             self._can = self._shown = None
@@ -165,19 +226,28 @@ class SettingsSection(Section):
         ):
             field.setText(text)
             field.setEnabled(bounds is not None)
-            field.setPlaceholderText("as it is" if bounds is not None else "cannot be set")
+            field.setPlaceholderText(
+                translate("microscope", "as it is")
+                if bounds is not None
+                else translate("microscope", "cannot be set")
+            )
             field.setToolTip(plain_tip(bounds_text(bounds, scale, unit)))
         self.region.setText(texts.region)
         self.region.setToolTip(
             plain_tip(
-                f"{WHOLE}, or first column, first row, width and height of the sensor's "
-                f"{can.width} × {can.height} px"
+                translate(
+                    "microscope",
+                    "{whole}, or first column, first row, width and height of the sensor's "
+                    "{width} × {height} px",
+                ).format(whole=translate("microscope", WHOLE), width=can.width, height=can.height)
             )
         )
         _offer(
-            self.pixel_type, [(one.value, one.value) for one in pixel_types(can)], texts.pixel_type
+            self.pixel_type,
+            [(spoken(one), one.value) for one in pixel_types(can)],
+            texts.pixel_type,
         )
-        _offer(self.trigger, [(one.value, one.value) for one in can.triggers], texts.trigger)
+        _offer(self.trigger, [(spoken(one), one.value) for one in can.triggers], texts.trigger)
         self.repeat.setChecked(texts.repeat)
 
     def _apply(self) -> None:

@@ -8,6 +8,7 @@ from PySide6.QtCore import QObject, Signal
 from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.sight import Sight
 from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.microscope.overlays import ghost_text
 from rotemina.plugins.microscope.picture_view import Hand, PictureView
@@ -50,7 +51,9 @@ class Hands(QObject):
 
     def against(self, sight: Sight, state: SessionState) -> dict[Hand, str | None]:
         """Return why a mode cannot be switched on now; one that is on can be switched off."""
-        none = None if sight.feed.frame is not None else "there is no picture"
+        none = (
+            None if sight.feed.frame is not None else translate("microscope", "there is no picture")
+        )
         reasons = dict.fromkeys(Hand, none)
         reasons[Hand.MOVE] = against_clicking(sight, state)
         reasons[self._view.hand] = None
@@ -134,7 +137,9 @@ class Hands(QObject):
             self._forget()
         elif sight.planned.confirm:
             self._confirmed = confirmed
-            self.asks.emit(f"Move the tip {ghost_text(sight)}?")
+            self.asks.emit(
+                translate("microscope", "Move the tip {how}?").format(how=ghost_text(sight))
+            )
         else:
             self._make(go)
 
@@ -148,7 +153,9 @@ class Hands(QObject):
         """Tell whether the machine may move by this picture, and say why not."""
         why = against_clicking(self._microscope.sight, self._workbench.session.snapshot())
         if why is not None:
-            self._workbench.refused.emit(f"nothing is moved: {why}")
+            self._workbench.refused.emit(
+                translate("microscope", "nothing is moved: {why}").format(why=why)
+            )
         return why is None
 
     def _forget(self) -> None:

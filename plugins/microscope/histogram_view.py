@@ -5,6 +5,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.microscope.contrast import BINS
 
@@ -30,8 +31,12 @@ class HistogramView(QWidget):
         self._held: int | None = None
         self.setMinimumHeight(70)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setAccessibleName("Histogram with the levels of black and white")
-        self.setToolTip("Drag a handle: the number that becomes black, or white")
+        self.setAccessibleName(
+            translate("microscope", "Histogram with the levels of black and white")
+        )
+        self.setToolTip(
+            translate("microscope", "Drag a handle: the number that becomes black, or white")
+        )
 
     def show_counts(self, counts: np.ndarray, span: tuple[float, float]) -> None:
         """Show another picture's; a handle that is held stays."""

@@ -1,4 +1,4 @@
-"""Pictures and films of the microscope kept as files. Free of Qt."""
+"""Pictures and films of the microscope kept as files.."""
 
 from collections.abc import Callable
 from datetime import datetime
@@ -11,6 +11,7 @@ from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.sight import Sight
 from rotemina.app.motion.recording.session_recorder import SessionRecorder
 from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.language import translate
 from rotemina.drivers.cameras.frame import Frame
 from rotemina.plugins.microscope.contrast import Contrast, as_rgb, levels, shown
 
@@ -49,7 +50,9 @@ def write_pictures(
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise MicroscopeError(
-            f"{folder}: the folder cannot be made ({error.strerror or error})"
+            translate("microscope", "{folder}: the folder cannot be made ({reason})").format(
+                folder=folder, reason=error.strerror or error
+            )
         ) from error
     tiff, png = folder / f"{name}.tif", folder / f"{name}.png"
     write_tiff(tiff, frame, about)
@@ -103,10 +106,14 @@ class Filming:
             If no file can be made.
         """
         if self.video is not None:
-            raise MicroscopeError("a video is being recorded; end it first")
+            raise MicroscopeError(
+                translate("microscope", "a video is being recorded; end it first")
+            )
         frame = sight.feed.frame
         if frame is None:
-            raise MicroscopeError("there is no picture to record; open a camera first")
+            raise MicroscopeError(
+                translate("microscope", "there is no picture to record; open a camera first")
+            )
         now = self._now()
         recording = "" if recorder is None else recorder.writer.path.name
         name = now.strftime(STAMP) if recorder is None else recorder.writer.path.stem
@@ -140,7 +147,7 @@ class Filming:
         """
         video, self.video = self.video, None
         if video is None:
-            raise MicroscopeError("no video is being recorded")
+            raise MicroscopeError(translate("microscope", "no video is being recorded"))
         self._leave()
         return video
 
@@ -159,16 +166,30 @@ class Filming:
 
 def summary(path: Path, status: VideoStatus) -> str:
     """Return what has become of a film, in words."""
-    text = f"Saved {path}: {status.pictures} pictures of {status.lasts_s:.1f} s"
-    return f"{text}, {status.dropped} left out" if status.dropped else text
+    text = translate("microscope", "Saved {path}: {pictures} pictures of {seconds:.1f} s").format(
+        path=path, pictures=status.pictures, seconds=status.lasts_s
+    )
+    return (
+        translate("microscope", "{text}, {dropped} left out").format(
+            text=text, dropped=status.dropped
+        )
+        if status.dropped
+        else text
+    )
 
 
 def progress(status: VideoStatus) -> str:
     """Return how a film does, in words."""
-    text = (
-        f"{status.pictures} pictures, {status.lasts_s:.0f} s, {status.bytes_written / 1e6:.0f} MB"
+    text = translate(
+        "microscope", "{pictures} pictures, {seconds:.0f} s, {megabytes:.0f} MB"
+    ).format(pictures=status.pictures, seconds=status.lasts_s, megabytes=status.bytes_written / 1e6)
+    return (
+        translate("microscope", "{text}, {dropped} left out").format(
+            text=text, dropped=status.dropped
+        )
+        if status.dropped
+        else text
     )
-    return f"{text}, {status.dropped} left out" if status.dropped else text
 
 
 def _free(folder: Path, name: str) -> Path:

@@ -10,6 +10,7 @@ from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.sight import Sight
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.microscope.keeping import (
     STAMP,
@@ -32,26 +33,33 @@ class KeepingSection(Section):
     _told = Signal(str)
 
     def __init__(self, workbench: Workbench, microscope: Microscope, view: PictureView) -> None:
-        super().__init__("Keep")
+        super().__init__(translate("microscope", "Keep"))
         self._workbench, self._view = workbench, view
         data = workbench.operation.data
         self._pictures = data / "pictures"
         self._told.connect(lambda text: workbench.notify(Level.WARNING, text, about=self))
         self.filming = Filming(microscope, data / "videos", self._told.emit)
-        self.snapshot = button("Snapshot", self._snap)
-        self.record = button("● Video", self._toggle)
+        self.snapshot = button(translate("microscope", "Snapshot"), self._snap)
+        self.record = button(translate("microscope", "● Video"), self._toggle)
         self.add_row(self.snapshot, self.record)
         self.said = self.add_text()
-        self.follows = QCheckBox("video with each recording")
+        self.follows = QCheckBox(translate("microscope", "video with each recording"))
         self.follows.setToolTip(
-            plain_tip("Begin and end a video with the session's recording (panel Recorder)")
+            plain_tip(
+                translate(
+                    "microscope",
+                    "Begin and end a video with the session's recording (panel Recorder)",
+                )
+            )
         )
         self.follows.setChecked(bool(workbench.settings.get(FOLLOWS, False)))
         self.filming.follows = self.follows.isChecked()
         self.follows.toggled.connect(self._follow)
         self.column.addWidget(self.follows)
         self._where = self.add_text()
-        self._where.setText(f"Files go to pictures and videos in {data}.")
+        self._where.setText(
+            translate("microscope", "Files go to pictures and videos in {data}.").format(data=data)
+        )
         self._sight, self._state = Sight(), workbench.session.snapshot()
         workbench.closing.connect(self._close)
 
@@ -73,11 +81,21 @@ class KeepingSection(Section):
         if status is not None and status.failure:
             self._end()
             status = None
-        none = "there is no picture" if sight.feed.frame is None else None
-        allow(self.snapshot, none, "Keep this picture: its numbers as TIFF, what is seen as PNG")
+        none = translate("microscope", "there is no picture") if sight.feed.frame is None else None
+        allow(
+            self.snapshot,
+            none,
+            translate("microscope", "Keep this picture: its numbers as TIFF, what is seen as PNG"),
+        )
         on = status is not None
-        self.record.setText("■ End video" if on else "● Video")
-        tip = "End the video" if on else "Record every picture, with its time, as a BigTIFF"
+        self.record.setText(
+            translate("microscope", "■ End video") if on else translate("microscope", "● Video")
+        )
+        tip = (
+            translate("microscope", "End the video")
+            if on
+            else translate("microscope", "Record every picture, with its time, as a BigTIFF")
+        )
         allow(self.record, None if on else none, tip)
         show_text(self.said, progress(status) if status is not None else "")
 
@@ -92,11 +110,16 @@ class KeepingSection(Section):
         contrast, name = self._view.contrast, now.strftime(STAMP)
 
         def done(paths: tuple[object, object]) -> None:
-            self._workbench.notify(Level.GOOD, f"Saved {paths[0]} and {name}.png")
+            self._workbench.notify(
+                Level.GOOD,
+                translate("microscope", "Saved {tiff} and {png}.png").format(
+                    tiff=paths[0], png=name
+                ),
+            )
 
         self._workbench.work(
             f"snapshot {name}",
-            "Writing a picture …",
+            translate("microscope", "Writing a picture …"),
             lambda: write_pictures(self._pictures, frame, contrast, about, name),
             done,
         )
@@ -118,7 +141,12 @@ class KeepingSection(Section):
             level = Level.WARNING if status.failure or status.dropped else Level.GOOD
             self._workbench.notify(level, summary(video.path, status))
 
-        self._workbench.work(f"end of {video.path.name}", "Ending the video …", video.close, done)
+        self._workbench.work(
+            f"end of {video.path.name}",
+            translate("microscope", "Ending the video …"),
+            video.close,
+            done,
+        )
 
     def _follow(self, on: bool) -> None:
         self.filming.follows = on

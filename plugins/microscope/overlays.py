@@ -1,4 +1,4 @@
-"""What is drawn over the picture, in its pixels. Free of Qt."""
+"""What is drawn over the picture, in its pixels.."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -7,6 +7,8 @@ import numpy as np
 
 from rotemina.app.microscope.click_run import Visit
 from rotemina.app.microscope.sight import Activity, Sight, TipState
+from rotemina.app.shell.language import translate
+from rotemina.plugins.microscope.engine_words import spoken
 from rotemina.plugins.microscope.readout import measured_text
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.trajectory.wording import readable
@@ -80,7 +82,14 @@ def shapes(sight: Sight, shown: frozenset[Layer]) -> list[Shape]:
     """Return everything that is to be drawn, what lies beneath first."""
     found: list[Shape] = []
     if Layer.NANO in shown and sight.nano_limits is not None:
-        found.append(Stroke(Look.NANO, sight.nano_limits, closed=True, label="nano range"))
+        found.append(
+            Stroke(
+                Look.NANO,
+                sight.nano_limits,
+                closed=True,
+                label=translate("microscope", "nano range"),
+            )
+        )
     if Layer.CELL in shown:
         found += _cell(sight)
     if Layer.PATH in shown and sight.path is not None and len(sight.path) > 1:
@@ -100,7 +109,9 @@ def ghost_text(sight: Sight) -> str:
     plan = sight.planned
     if plan is None:
         return ""
-    text = f"{readable(plan.distance, 'm')} with the {plan.stage} stage"
+    text = translate("microscope", "{distance} with the {stage} stage").format(
+        distance=readable(plan.distance, "m"), stage=spoken(plan.stage)
+    )
     return f"{text}, ± {plan.uncertainty_px:.1f} px"
 
 
@@ -130,7 +141,16 @@ def _tip(sight: Sight) -> list[Shape]:
         way = np.array([np.cos(tip.direction), np.sin(tip.direction)])
         body = np.array([tip.pixel, tip.pixel + _BODY_PX * way])
         found.append(Stroke(look, body, dashed=True))
-    return [*found, Cross(look, tip.pixel, "tip" if look is Look.TIP else "tip lost")]
+    return [
+        *found,
+        Cross(
+            look,
+            tip.pixel,
+            translate("microscope", "tip")
+            if look is Look.TIP
+            else translate("microscope", "tip lost"),
+        ),
+    ]
 
 
 def _cell(sight: Sight) -> list[Shape]:

@@ -16,11 +16,13 @@ from rotemina.app.microscope.sight import Sight
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.controls import ElidedLabel
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.cameras.frame import Frame
 from rotemina.plugins.microscope.calibration_section import CalibrationSection
 from rotemina.plugins.microscope.camera_section import CameraSection, SettingsSection
+from rotemina.plugins.microscope.engine_words import spoken
 from rotemina.plugins.microscope.hands import Hands
 from rotemina.plugins.microscope.keeping_section import KeepingSection
 from rotemina.plugins.microscope.move_section import MoveSection, TargetSection
@@ -31,14 +33,22 @@ from rotemina.plugins.microscope.readout import cursor_text
 from rotemina.plugins.microscope.top_bar import TopBar
 from rotemina.plugins.microscope.vision_section import CellSection, FocusSection, TipSection
 
-TOOLS = ("Camera", "Picture", "Calibrate", "Move", "Vision", "Keep", "– no tools –")
+TOOLS = (
+    marked("microscope", "Camera"),
+    marked("microscope", "Picture"),
+    marked("microscope", "Calibrate"),
+    marked("microscope", "Move"),
+    marked("microscope", "Vision"),
+    marked("microscope", "Keep"),
+    marked("microscope", "– no tools –"),
+)
 _WIDTH = 250  # of the tools, px
 
 
 class MicroscopePanel(Panel):
     """The picture as large as there is room, and one page of tools at its side."""
 
-    title = "Microscope"
+    title = marked("panels", "Microscope")
     area = Area.CENTRE
     order = 15
     help_page = "microscope.md#in-the-window"
@@ -50,8 +60,8 @@ class MicroscopePanel(Panel):
         self._awaited = False  # whether a picture that came in is yet to be taken notice of
         self.view = PictureView(workbench.theme)
         self.hands = Hands(workbench, self.microscope, self.view)
-        self.bar = TopBar(self.view, TOOLS)
-        self.question = Question("Move", self.hands.answer)
+        self.bar = TopBar(self.view, tuple(translate("microscope", tool) for tool in TOOLS))
+        self.question = Question(translate("microscope", "Move"), self.hands.answer)
         self.readout = ElidedLabel()
         self.readout.setProperty("quiet", True)
         self._make_sections()
@@ -165,7 +175,9 @@ class MicroscopePanel(Panel):
     def _show_readout(self) -> None:
         sight, hand = self.view.sight, self.view.hand
         said = cursor_text(sight, self.view.cursor_at)
-        mode = "" if hand is Hand.PAN else f"{hand.value}: Esc ends it   "
+        mode = ""
+        if hand is not Hand.PAN:
+            mode = translate("microscope", "{mode}: Esc ends it   ").format(mode=spoken(hand))
         self.readout.show_text(mode + said)
 
     def _choose_page(self, page: int) -> None:

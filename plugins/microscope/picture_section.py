@@ -8,14 +8,15 @@ from PySide6.QtWidgets import QCheckBox, QLabel, QSlider
 from rotemina.app.microscope.sight import Sight
 from rotemina.app.settings import Settings
 from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.microscope.contrast import GAMMA, Contrast, Table, histogram
+from rotemina.plugins.microscope.engine_words import spoken
 from rotemina.plugins.microscope.histogram_view import HistogramView
 from rotemina.plugins.microscope.overlays import Layer
 from rotemina.plugins.microscope.picture_view import PictureView
 from rotemina.plugins.microscope.section import Section, SteadyChoice, button
 
-_GAMMA_TIP = f"{GAMMA[0]:g} to {GAMMA[1]:g}; 1: as light is; less brightens what is dark"
 _STEPS = 100.0  # of the slider, from the least gamma to the greatest, by its logarithm
 
 
@@ -23,25 +24,31 @@ class PictureSection(Section):
     """Contrast by hand or by itself, and the histogram that it is read from."""
 
     def __init__(self, view: PictureView, theme: Theme) -> None:
-        super().__init__("Contrast")
+        super().__init__(translate("microscope", "Contrast"))
         self._view = view
         self.histogram = HistogramView(theme)
         self.histogram.moved.connect(self._set_levels)
-        self.auto = QCheckBox("levels by themselves")
-        self.auto.setToolTip(plain_tip("Black and white at 0.1 and 99.9 % of the pixels"))
+        self.auto = QCheckBox(translate("microscope", "levels by themselves"))
+        self.auto.setToolTip(
+            plain_tip(translate("microscope", "Black and white at 0.1 and 99.9 % of the pixels"))
+        )
         self.auto.setChecked(True)
         self.auto.toggled.connect(lambda on: self._change(auto=on))
-        self.whole = button("Whole range", lambda: self._set_levels(0.0, 1.0))
-        self.whole.setToolTip(plain_tip("Black at 0, white at the largest number"))
+        self.whole = button(
+            translate("microscope", "Whole range"), lambda: self._set_levels(0.0, 1.0)
+        )
+        self.whole.setToolTip(
+            plain_tip(translate("microscope", "Black at 0, white at the largest number"))
+        )
         self.gamma = QSlider(Qt.Orientation.Horizontal)
         self.gamma.setRange(0, int(_STEPS))
         self.gamma.setValue(int(_STEPS / 2))
-        self.gamma.setAccessibleName("Gamma")
+        self.gamma.setAccessibleName(translate("microscope", "Gamma"))
         self.gamma.valueChanged.connect(lambda step: self._change(gamma=_gamma(step)))
         self._gamma_text = QLabel()
-        self.table = SteadyChoice("Colours")
+        self.table = SteadyChoice(translate("microscope", "Colours"))
         for table in Table:
-            self.table.addItem(table.value, table)
+            self.table.addItem(spoken(table), table)
         self.table.currentIndexChanged.connect(
             lambda _: self._change(table=self.table.currentData())
         )
@@ -74,19 +81,30 @@ class PictureSection(Section):
             low, high = self._view.span  # by hand from where it is
             contrast = replace(contrast, low=low, high=high)
         self._view.set_contrast(contrast)
-        self._gamma_text.setText(f"gamma {contrast.gamma:.2f}")
-        self.gamma.setToolTip(plain_tip(_GAMMA_TIP))
+        self._gamma_text.setText(
+            translate("microscope", "gamma {gamma:.2f}").format(gamma=contrast.gamma)
+        )
+        tip = translate(
+            "microscope", "{low:g} to {high:g}; 1: as light is; less brightens what is dark"
+        )
+        self.gamma.setToolTip(plain_tip(tip.format(low=GAMMA[0], high=GAMMA[1])))
 
 
 class LayerSection(Section):
     """What is shown over the picture."""
 
     def __init__(self, view: PictureView, settings: Settings) -> None:
-        super().__init__("Over the picture")
+        super().__init__(translate("microscope", "Over the picture"))
         self.boxes: dict[Layer, QCheckBox] = {}
         for layer in Layer:
-            box = QCheckBox(layer.value)
-            box.setToolTip(plain_tip(f"Show over the picture: {layer.value}"))
+            box = QCheckBox(spoken(layer))
+            box.setToolTip(
+                plain_tip(
+                    translate("microscope", "Show over the picture: {layer}").format(
+                        layer=spoken(layer)
+                    )
+                )
+            )
             key = f"microscope.layer.{layer.name.lower()}"
             box.setChecked(bool(settings.get(key, layer in view.layers)))
             view.set_layer(layer, box.isChecked())

@@ -20,6 +20,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from rotemina.app.microscope.sight import Sight
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.drivers.cameras.frame import Frame, Region
 from rotemina.plugins.microscope import painting
@@ -87,7 +88,7 @@ class PictureView(QWidget):
         self.setMinimumSize(160, 120)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
-        self.setAccessibleName("Picture of the microscope")
+        self.setAccessibleName(translate("microscope", "Picture of the microscope"))
         self.setToolTip("")
 
     @property

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel
 
+from rotemina.app.shell.language import translate
 from rotemina.plugins.microscope.section import button
 
 
@@ -17,9 +18,13 @@ class Question(QFrame):
         self.text = QLabel()
         self.text.setTextFormat(Qt.TextFormat.PlainText)
         self.text.setWordWrap(True)
-        self.yes = button(yes, lambda: answer(True), "Make the move")
+        self.yes = button(yes, lambda: answer(True), translate("microscope", "Make the move"))
         self.yes.setProperty("primary", True)
-        self.no = button("Cancel", lambda: answer(False), "Make no move")
+        self.no = button(
+            translate("microscope", "Cancel"),
+            lambda: answer(False),
+            translate("microscope", "Make no move"),
+        )
         for one in (self.yes, self.no):
             one.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         row = QHBoxLayout(self)

@@ -1,4 +1,4 @@
-"""What is under the cursor, and angles and lengths in words. Free of Qt."""
+"""What is under the cursor, and angles and lengths in words.."""
 
 from math import degrees
 
@@ -6,6 +6,7 @@ import numpy as np
 
 from rotemina.app.microscope.measurements import tip_in_plane
 from rotemina.app.microscope.sight import Measured, Sight
+from rotemina.app.shell.language import translate
 from rotemina.drivers.cameras.frame import Frame
 from rotemina.sim.trajectory.wording import readable
 
@@ -26,7 +27,11 @@ def cursor_text(sight: Sight, place: tuple[float, float] | None) -> str:
         parts.append(f"x {1e6 * place_m[0]:.2f}, y {1e6 * place_m[1]:.2f} µm")
     elif sight.pixel_m is not None:
         across, down = (1e6 * sight.pixel_m * one for one in place)
-        parts.append(f"{across:.1f}, {down:.1f} µm from the corner")
+        parts.append(
+            translate("microscope", "{across:.1f}, {down:.1f} µm from the corner").format(
+                across=across, down=down
+            )
+        )
     return "   ".join(parts)
 
 
@@ -35,7 +40,9 @@ def value_text(frame: Frame, column: int, row: int) -> str:
     value = frame.pixels[row, column]
     if frame.colour:
         return "RGB " + " ".join(str(int(one)) for one in value)
-    return f"{int(value)} of {frame.largest}"
+    return translate("microscope", "{number} of {largest}").format(
+        number=int(value), largest=frame.largest
+    )
 
 
 def measured_text(line: Measured) -> str:
@@ -45,5 +52,7 @@ def measured_text(line: Measured) -> str:
         length = f"{readable(line.length_m, 'm')} ({length})"
     text = f"{length}, {degrees(line.angle):.1f}°"
     if line.to_body is not None:
-        text += f", {degrees(line.to_body):.1f}° to the pipette"
+        text += translate("microscope", ", {angle:.1f}° to the pipette").format(
+            angle=degrees(line.to_body)
+        )
     return text

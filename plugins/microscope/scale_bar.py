@@ -1,9 +1,10 @@
-"""A scale bar of a round length. Free of Qt."""
+"""A scale bar of a round length.."""
 
 from math import floor, log10
 from typing import NamedTuple
 
 from rotemina.app.microscope.sight import ScaleSource
+from rotemina.app.shell.language import translate
 
 _WIDEST = 0.3  # of the widget
 _STEPS = (5.0, 2.0, 1.0)
@@ -23,10 +24,12 @@ def scale_bar(pixel_m: float | None, source: ScaleSource, zoom: float, width: fl
     room = _WIDEST * width / zoom
     if pixel_m is None:
         count = max(_round_down(room), 1.0)
-        return Bar(count * zoom, f"{count:g} px", "not calibrated")
+        return Bar(count * zoom, f"{count:g} px", translate("microscope", "not calibrated"))
     length_m = _round_down(room * pixel_m)
     unit, name = next((one for one in _UNITS if length_m >= 0.9999 * one[0]), _UNITS[-1])
-    remark = "by the robot file" if source is ScaleSource.ROBOT_FILE else ""
+    remark = (
+        translate("microscope", "by the robot file") if source is ScaleSource.ROBOT_FILE else ""
+    )
     return Bar(length_m / pixel_m * zoom, f"{length_m / unit:.4g} {name}", remark)
 
 

@@ -1,11 +1,13 @@
-"""How the camera is doing, in words over the picture. Free of Qt."""
+"""How the camera is doing, in words over the picture.."""
 
 from dataclasses import dataclass
 
 from rotemina.app.cameras.feed import FeedState, FeedView
 from rotemina.app.microscope.sight import Activity, Sight, TipState
 from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.language import marked, translate
 from rotemina.drivers.samples import DeviceState
+from rotemina.plugins.microscope.engine_words import spoken
 
 TONES = {
     FeedState.CLOSED: "quiet",
@@ -18,13 +20,13 @@ TONES = {
     FeedState.LOST: "danger",
 }
 TITLES = {
-    FeedState.CLOSED: "No camera",
-    FeedState.OPENING: "Opening …",
-    FeedState.WAITING: "Waiting for a trigger",
-    FeedState.STALLED: "STALLED",
-    FeedState.FROZEN: "FROZEN",
-    FeedState.BLACK: "BLACK",
-    FeedState.LOST: "LOST",
+    FeedState.CLOSED: marked("microscope", "No camera"),
+    FeedState.OPENING: marked("microscope", "Opening …"),
+    FeedState.WAITING: marked("microscope", "Waiting for a trigger"),
+    FeedState.STALLED: marked("microscope", "STALLED"),
+    FeedState.FROZEN: marked("microscope", "FROZEN"),
+    FeedState.BLACK: marked("microscope", "BLACK"),
+    FeedState.LOST: marked("microscope", "LOST"),
 }
 
 
@@ -55,34 +57,52 @@ def standing(view: FeedView) -> Standing:
     """Return what is to be said of a camera's moment."""
     state, tone = view.state, TONES[view.state]
     if state is FeedState.LIVE and view.frame is None:
-        return Standing("busy", "opened", "Waiting for the first picture")
+        return Standing(
+            "busy",
+            translate("microscope", "opened"),
+            translate("microscope", "Waiting for the first picture"),
+        )
     if state is FeedState.LIVE:
         # One picture has no rate yet.
-        parts = ["live", *([f"{view.rate_hz:.0f} Hz"] if view.rate_hz > 0.0 else [])]
+        parts = [
+            translate("microscope", "live"),
+            *([f"{view.rate_hz:.0f} Hz"] if view.rate_hz > 0.0 else []),
+        ]
         return Standing(tone, " · ".join((*parts, age(view.age_s))))
-    badge = f"{state.value} · {age(view.age_s)}" if view.frame is not None else state.value
+    badge = spoken(state)
+    if view.frame is not None:
+        badge = f"{badge} · {age(view.age_s)}"
     if state is FeedState.WAITING:
-        title = "" if view.frame is not None else TITLES[state]
+        title = "" if view.frame is not None else translate("microscope", TITLES[state])
         return Standing(tone, badge, title)
-    reason = view.reason
+    reason = spoken(view.reason)
     if state is FeedState.CLOSED:
-        reason = "Choose a camera under Tools, Camera, and open it."
-    return Standing(tone, badge, TITLES[state], reason, veiled=state is not FeedState.OPENING)
+        reason = translate("microscope", "Choose a camera under Tools, Camera, and open it.")
+    title = translate("microscope", TITLES[state])
+    return Standing(tone, badge, title, reason, veiled=state is not FeedState.OPENING)
 
 
 def age(age_s: float | None) -> str:
     """Return an age as text, which does not flicker below a tenth of a second."""
     if age_s is None:
         return "–"
-    return f"{1e3 * age_s:.0f} ms old" if age_s < 1.0 else f"{age_s:.1f} s old"
+    return (
+        translate("microscope", "{ms:.0f} ms old").format(ms=1e3 * age_s)
+        if age_s < 1.0
+        else translate("microscope", "{s:.1f} s old").format(s=age_s)
+    )
 
 
 def against_aiming(sight: Sight) -> str | None:
     """Return why a place in the picture is no place to go to; None if it is."""
     if sight.feed.state is not FeedState.LIVE or sight.feed.frame is None:
-        return f"the picture is not live: {sight.feed.state.value}"
+        return translate("microscope", "the picture is not live: {state}").format(
+            state=spoken(sight.feed.state)
+        )
     if sight.calibration is None:
-        return sight.calibration_problem or "this camera and objective are not calibrated yet"
+        return sight.calibration_problem or translate(
+            "microscope", "this camera and objective are not calibrated yet"
+        )
     return None
 
 
@@ -90,18 +110,25 @@ def against_clicking(sight: Sight, state: SessionState) -> str | None:
     """Return why no click may move anything now; None if it may."""
     why = against_aiming(sight) or against_moving(sight, state)
     if why is None and sight.tip.state is not TipState.TRACKED:
-        why = "the tip is not tracked; click it with Tip, or switch tracking on under Vision"
+        why = translate(
+            "microscope",
+            "the tip is not tracked; click it with Tip, or switch tracking on under Vision",
+        )
     return why
 
 
 def against_moving(sight: Sight, state: SessionState) -> str | None:
     """Return why nothing may be moved by the picture now; None if it may."""
     if sight.feed.state is not FeedState.LIVE or sight.feed.frame is None:
-        return f"the picture is not live: {sight.feed.state.value}"
+        return translate("microscope", "the picture is not live: {state}").format(
+            state=spoken(sight.feed.state)
+        )
     if sight.activity is not Activity.NONE:
-        return f"{sight.activity.value} is under way"
+        return translate("microscope", "{activity} is under way").format(
+            activity=spoken(sight.activity)
+        )
     if state.locked is not None:
-        return f"motion is locked: {state.locked}"
+        return translate("microscope", "motion is locked: {locked}").format(locked=state.locked)
     if state.activity is not DeviceState.IDLE:
-        return "the machine is not at rest"
+        return translate("microscope", "the machine is not at rest")
     return None

@@ -4,15 +4,31 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QWidget
 
 from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.microscope.picture_view import Hand, PictureView
 from rotemina.plugins.microscope.section import SteadyChoice, button
 
 HANDS = {
-    Hand.MOVE: ("Move", "Click or drag: the tip goes there. Esc, or any stop, ends this"),
-    Hand.MARK: ("Mark", "Click: mark a target to be visited; nothing moves"),
-    Hand.MEASURE: ("Measure", "Drag a line: its length and angles; nothing moves"),
-    Hand.TIP: ("Tip", "Click near the pipette's tip: track it from there; nothing moves"),
-    Hand.CELL: ("Cell", "Click into a cell: find its outline; nothing moves"),
+    Hand.MOVE: (
+        marked("microscope", "Move"),
+        marked("microscope", "Click or drag: the tip goes there. Esc, or any stop, ends this"),
+    ),
+    Hand.MARK: (
+        marked("microscope", "Mark"),
+        marked("microscope", "Click: mark a target to be visited; nothing moves"),
+    ),
+    Hand.MEASURE: (
+        marked("microscope", "Measure"),
+        marked("microscope", "Drag a line: its length and angles; nothing moves"),
+    ),
+    Hand.TIP: (
+        marked("microscope", "Tip"),
+        marked("microscope", "Click near the pipette's tip: track it from there; nothing moves"),
+    ),
+    Hand.CELL: (
+        marked("microscope", "Cell"),
+        marked("microscope", "Click into a cell: find its outline; nothing moves"),
+    ),
 }
 
 
@@ -33,18 +49,26 @@ class TopBar(QWidget):
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(4)
         for hand, (text, tip) in HANDS.items():
-            made = QPushButton(text)
+            made = QPushButton(translate("microscope", text))
             made.setCheckable(True)
-            made.setToolTip(plain_tip(tip))
+            made.setToolTip(plain_tip(translate("microscope", tip)))
             made.clicked.connect(lambda on, hand=hand: self.chosen.emit(hand if on else Hand.PAN))
             self.buttons[hand] = made
             row.addWidget(made)
         row.addStretch(1)
         self.zoom = QLabel()
         self.zoom.setProperty("quiet", True)
-        self.fit = button("Fit", view.show_fitted, "Show all of the picture (F)")
-        self.one = button("1:1", view.show_one_to_one, "A pixel is one of the screen's (1)")
-        self.tools = SteadyChoice("Tools beside the picture")
+        self.fit = button(
+            translate("microscope", "Fit"),
+            view.show_fitted,
+            translate("microscope", "Show all of the picture (F)"),
+        )
+        self.one = button(
+            "1:1",
+            view.show_one_to_one,
+            translate("microscope", "A pixel is one of the screen's (1)"),
+        )
+        self.tools = SteadyChoice(translate("microscope", "Tools beside the picture"))
         for name in tools:
             self.tools.addItem(name)
         for widget in (self.zoom, self.fit, self.one, self.tools):
@@ -59,4 +83,4 @@ class TopBar(QWidget):
     def refresh(self, against: dict[Hand, str | None]) -> None:
         """Lock what cannot be done now, with the reason."""
         for hand, made in self.buttons.items():
-            allow(made, against.get(hand), HANDS[hand][1])
+            allow(made, against.get(hand), translate("microscope", HANDS[hand][1]))

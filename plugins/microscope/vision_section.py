@@ -8,7 +8,9 @@ from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.sight import Activity, Sight, TipState
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.plugins.microscope.engine_words import spoken
 from rotemina.plugins.microscope.section import Section, SteadyChoice, button, show_text
 from rotemina.plugins.microscope.standing import against_moving
 from rotemina.plugins.microscope.words import (
@@ -26,19 +28,28 @@ class TipSection(Section):
     """Tracking on or off, and what it says."""
 
     def __init__(self, workbench: Workbench, microscope: Microscope) -> None:
-        super().__init__("Tip")
-        self.track = QCheckBox("track the tip")
+        super().__init__(translate("microscope", "Tip"))
+        self.track = QCheckBox(translate("microscope", "track the tip"))
         self.track.setToolTip(
-            plain_tip("Find the pipette's tip in every picture; Tip, above, shows where it is")
+            plain_tip(
+                translate(
+                    "microscope",
+                    "Find the pipette's tip in every picture; Tip, above, shows where it is",
+                )
+            )
         )
         self.track.clicked.connect(lambda on: workbench.ask(lambda: microscope.track(on)))
         self.background = button(
-            "Take background",
+            translate("microscope", "Take background"),
             lambda: workbench.ask(microscope.take_background),
-            "Keep what lies beneath, with the tip out of the way",
+            translate("microscope", "Keep what lies beneath, with the tip out of the way"),
         )
-        self.drift = QCheckBox("watch the drift")
-        self.drift.setToolTip(plain_tip("By how much the background has moved since it was taken"))
+        self.drift = QCheckBox(translate("microscope", "watch the drift"))
+        self.drift.setToolTip(
+            plain_tip(
+                translate("microscope", "By how much the background has moved since it was taken")
+            )
+        )
         self.drift.clicked.connect(lambda on: workbench.ask(lambda: microscope.watch_drift(on)))
         self.column.addWidget(self.track)
         self.said = self.add_text()
@@ -52,15 +63,30 @@ class TipSection(Section):
         if self.track.isChecked() != on:
             self.track.setChecked(on)
         looked, passed = sight.frames_looked_at, sight.frames_passed_over
-        figures = f"\n{looked} pictures looked at, {passed} passed over" if on else ""
+        figures = (
+            translate("microscope", "\n{looked} pictures looked at, {passed} passed over").format(
+                looked=looked, passed=passed
+            )
+            if on
+            else ""
+        )
         show_text(self.said, tip_text(sight.tip) + figures)
-        none = None if sight.feed.frame is not None else "there is no picture"
-        about = "taken" if sight.background else "not taken yet"
+        none = (
+            None if sight.feed.frame is not None else translate("microscope", "there is no picture")
+        )
+        about = (
+            translate("microscope", "taken")
+            if sight.background
+            else translate("microscope", "not taken yet")
+        )
         allow(
             self.background,
             none,
-            "Keep what lies beneath, with the tip out of the way, so that a cell misleads nobody; "
-            f"{about}",
+            translate(
+                "microscope",
+                "Keep what lies beneath, with the tip out of the way, so that a cell "
+                "misleads nobody; {about}",
+            ).format(about=about),
         )
         if self.drift.isChecked() != sight.drift.watched:
             self.drift.setChecked(sight.drift.watched)
@@ -71,45 +97,61 @@ class CellSection(Section):
     """The outline of a cell, and how far its membrane is."""
 
     def __init__(self, workbench: Workbench, microscope: Microscope) -> None:
-        super().__init__("Cell")
+        super().__init__(translate("microscope", "Cell"))
         self._guide = self.add_text()
-        self._guide.setText("Cell, above the picture, outlines the cell that is clicked.")
+        self._guide.setText(
+            translate("microscope", "Cell, above the picture, outlines the cell that is clicked.")
+        )
         self.said = self.add_text()
         self.forget = button(
-            "Forget the cell",
+            translate("microscope", "Forget the cell"),
             lambda: workbench.ask(microscope.forget_cell),
-            "Take the outline away",
+            translate("microscope", "Take the outline away"),
         )
         self.column.addWidget(self.forget)
 
     def refresh(self, sight: Sight) -> None:
         """Show size and distance."""
         show_text(self.said, cell_text(sight))
-        none = "no cell is outlined" if sight.cell.outline is None else None
-        allow(self.forget, none, "Take the outline away")
+        none = (
+            translate("microscope", "no cell is outlined") if sight.cell.outline is None else None
+        )
+        allow(self.forget, none, translate("microscope", "Take the outline away"))
 
 
 class FocusSection(Section):
     """Autofocus with the microscope's drive, or with an axis of the machine."""
 
     def __init__(self, workbench: Workbench, microscope: Microscope) -> None:
-        super().__init__("Focus")
+        super().__init__(translate("microscope", "Focus"))
         self._workbench, self._microscope = workbench, microscope
         self._sight = Sight()
-        self.place = SteadyChoice("What is focused with")
+        self.place = SteadyChoice(translate("microscope", "What is focused with"))
         self.reach = QLineEdit(f"{1e6 * _PRESET_M:g}")
-        self.reach.setAccessibleName("How far to search each way, µm")
-        self.reach.setToolTip(plain_tip("How far to search each way from where it is, above 0 µm"))
+        self.reach.setAccessibleName(translate("microscope", "How far to search each way, µm"))
+        self.reach.setToolTip(
+            plain_tip(
+                translate("microscope", "How far to search each way from where it is, above 0 µm")
+            )
+        )
         self.search = button(
-            "Autofocus", self._autofocus, "Look for the sharpest place, and stay there"
+            translate("microscope", "Autofocus"),
+            self._autofocus,
+            translate("microscope", "Look for the sharpest place, and stay there"),
         )
         self.column.addWidget(self.place)
         self.add_row(self.reach, self.search)
         self.goal = QLineEdit()
-        self.goal.setPlaceholderText("focus at, µm")
-        self.goal.setAccessibleName("Place of the focus drive, µm")
-        self.goal.setToolTip(plain_tip("Where the drive is to go, µm, within its own range"))
-        self.move = button("Move focus", self._move, "Move the focus drive of the microscope")
+        self.goal.setPlaceholderText(translate("microscope", "focus at, µm"))
+        self.goal.setAccessibleName(translate("microscope", "Place of the focus drive, µm"))
+        self.goal.setToolTip(
+            plain_tip(translate("microscope", "Where the drive is to go, µm, within its own range"))
+        )
+        self.move = button(
+            translate("microscope", "Move focus"),
+            self._move,
+            translate("microscope", "Move the focus drive of the microscope"),
+        )
         self.goal.returnPressed.connect(self._move)
         self.add_row(self.goal, self.move)
         self.said = self.add_text()
@@ -124,12 +166,32 @@ class FocusSection(Section):
                 self.place.addItem(name, name)
         for row, one in enumerate(sight.focus_places):
             self.place.setItemText(row, focus_name(one))
-        none = None if names else "nothing can be focused with: open a camera, connect the machine"
+        none = (
+            None
+            if names
+            else translate(
+                "microscope", "nothing can be focused with: open a camera, connect the machine"
+            )
+        )
         why = none or against_moving(sight, state)
-        allow(self.search, why, "Look for the sharpest place, and stay there")
-        drive = None if "focus" in names else "this camera has no focus drive"
-        busy = None if sight.activity is Activity.NONE else f"{sight.activity.value} is under way"
-        allow(self.move, drive or busy, "Move the focus drive of the microscope")
+        allow(
+            self.search, why, translate("microscope", "Look for the sharpest place, and stay there")
+        )
+        drive = (
+            None if "focus" in names else translate("microscope", "this camera has no focus drive")
+        )
+        busy = (
+            None
+            if sight.activity is Activity.NONE
+            else translate("microscope", "{activity} is under way").format(
+                activity=spoken(sight.activity)
+            )
+        )
+        allow(
+            self.move,
+            drive or busy,
+            translate("microscope", "Move the focus drive of the microscope"),
+        )
         show_text(self.said, focus_text(sight.focusing))
 
     def _autofocus(self) -> None:
@@ -137,7 +199,7 @@ class FocusSection(Section):
         chosen = next((one for one in self._sight.focus_places if one.name == name), None)
 
         def begin() -> None:
-            reach_m = _micrometres("how far to search", self.reach.text())
+            reach_m = _micrometres(translate("microscope", "how far to search"), self.reach.text())
             if chosen is None or chosen.place is None:
                 self._microscope.autofocus(name)
                 return
@@ -151,12 +213,18 @@ class FocusSection(Section):
 
     def _move(self) -> None:
         self._workbench.ask(
-            lambda: self._microscope.move_focus(_micrometres("focus", self.goal.text()))
+            lambda: self._microscope.move_focus(
+                _micrometres(translate("microscope", "focus"), self.goal.text())
+            )
         )
 
 
 def _micrometres(name: str, text: str) -> float:
     plain = text.strip().replace(",", ".")
     if not PLAIN_NUMBER.fullmatch(plain):
-        raise MicroscopeError(f"{name}: {text.strip()!r} is no number; write one in µm")
+        raise MicroscopeError(
+            translate("microscope", "{name}: {text!r} is no number; write one in µm").format(
+                name=name, text=text.strip()
+            )
+        )
     return 1e-6 * float(plain)

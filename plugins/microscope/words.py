@@ -1,4 +1,4 @@
-"""What the panel says of calibration, moves, focus, tip and cell. Free of Qt."""
+"""What the panel says of calibration, moves, focus, tip and cell.."""
 
 from math import degrees
 
@@ -10,35 +10,47 @@ from rotemina.app.microscope.click_run import Visit, VisitStatus
 from rotemina.app.microscope.focus_run import FocusStatus, Search
 from rotemina.app.microscope.sight import DriftSeen, FocusPlace, Sight, TipSeen, TipState
 from rotemina.app.microscope.targets import Target
+from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.microscope.engine_words import spoken
 from rotemina.plugins.microscope.overlays import membrane_text
 from rotemina.sim.trajectory.wording import readable
 from rotemina.sim.vision.calibration import Geometry, StageFit
 
 ENDED = (Phase.DONE, Phase.FAILED)
 _PHASES = {
-    Phase.LOOKING: "moves a little, and looks",
-    Phase.RETURNING: "goes back to where it began",
-    Phase.DONE: "calibrated",
-    Phase.FAILED: "failed",
+    Phase.LOOKING: marked("microscope", "moves a little, and looks"),
+    Phase.RETURNING: marked("microscope", "goes back to where it began"),
+    Phase.DONE: marked("microscope", "calibrated"),
+    Phase.FAILED: marked("microscope", "failed"),
 }
 
 
 def stage_text(name: str, stage: StageCalibration | None) -> str:
     """Return what is known of a stage, in a few lines."""
     if stage is None:
-        return f"{name}: not calibrated"
+        return translate("microscope", "{name}: not calibrated").format(name=spoken(name))
     found, when = stage.map.geometry, stage.date[:16].replace("T", " ")
-    return f"{name}: {geometry_text(found)}, residual {stage.residual_px:.2f} px, of {when}"
+    return translate("microscope", "{name}: {found}, residual {residual:.2f} px, of {when}").format(
+        name=spoken(name), found=geometry_text(found), residual=stage.residual_px, when=when
+    )
 
 
 def geometry_text(found: Geometry) -> str:
     """Return pixel sizes, rotation, handedness and skew with their uncertainties."""
     sizes = " × ".join(f"{1e9 * size:.2f}" for size in found.pixel_size)
     doubts = max(1e9 * one for one in found.pixel_size_uncertainty)
-    hand = "" if found.handedness > 0 else ", mirrored"
-    return (
-        f"{sizes} ± {doubts:.2f} nm/px, turned {degrees(found.rotation):.3f} ± "
-        f"{degrees(found.rotation_uncertainty):.3f}°, skew {degrees(found.skew):.3f}°{hand}"
+    hand = "" if found.handedness > 0 else translate("microscope", ", mirrored")
+    return translate(
+        "microscope",
+        "{sizes} ± {doubts:.2f} nm/px, turned {rotation:.3f} ± {doubt:.3f}°, skew "
+        "{skew:.3f}°{hand}",
+    ).format(
+        sizes=sizes,
+        doubts=doubts,
+        rotation=degrees(found.rotation),
+        doubt=degrees(found.rotation_uncertainty),
+        skew=degrees(found.skew),
+        hand=hand,
     )
 
 
@@ -46,11 +58,13 @@ def calibration_text(status: CalibrationStatus | None) -> str:
     """Return how the latest calibration goes on, or went."""
     if status is None:
         return ""
-    text = f"{_PHASES[status.phase]}: look {status.done} of {status.moves}"
+    text = translate("microscope", "{phase}: look {done} of {moves}").format(
+        phase=translate("microscope", _PHASES[status.phase]), done=status.done, moves=status.moves
+    )
     if status.phase in ENDED:
-        text = _PHASES[status.phase]
+        text = translate("microscope", _PHASES[status.phase])
     if status.reason:
-        text = f"{text}: {status.reason}"
+        text = f"{text}: {spoken(status.reason)}"
     return text
 
 
@@ -60,7 +74,8 @@ def residual_lines(fit: StageFit | None) -> list[str]:
         return []
     sizes = np.linalg.norm(fit.residuals, axis=1)
     return [
-        f"move {number}: {size:.2f} px" + ("" if kept else ", left out")
+        translate("microscope", "move {number}: {size:.2f} px").format(number=number, size=size)
+        + ("" if kept else translate("microscope", ", left out"))
         for number, (size, kept) in enumerate(zip(sizes, fit.kept, strict=True), start=1)
     ]
 
@@ -70,26 +85,39 @@ def visit_text(status: VisitStatus | None) -> str:
     if status is None:
         return ""
     if status.visit is Visit.FAILED:
-        return f"Failed: {status.reason}"
-    miss = "" if status.miss is None else f", {np.linalg.norm(status.miss):.2f} px off"
-    head = "Arrived" if status.visit is Visit.ARRIVED else "Under way"
-    many = "" if status.corrections == 1 else "s"
-    return f"{head}{miss}, {status.corrections} correction{many}"
+        return translate("microscope", "Failed: {reason}").format(reason=spoken(status.reason))
+    miss = (
+        ""
+        if status.miss is None
+        else translate("microscope", ", {miss:.2f} px off").format(miss=np.linalg.norm(status.miss))
+    )
+    head = (
+        translate("microscope", "Arrived")
+        if status.visit is Visit.ARRIVED
+        else translate("microscope", "Under way")
+    )
+    many = (
+        translate("microscope", "1 correction")
+        if status.corrections == 1
+        else translate("microscope", "{n} corrections").format(n=status.corrections)
+    )
+    return f"{head}{miss}, {many}"
 
 
 def target_text(number: int, target: Target) -> str:
     """Return a line of the list of targets."""
     text = f"{number}   {target.column:.0f}, {target.row:.0f} px"
     if target.visit is not None:
-        text = f"{text}   {target.visit.value}"
+        text = f"{text}   {spoken(target.visit)}"
     return f"{text}: {target.note}" if target.note else text
 
 
 def tip_text(tip: TipSeen) -> str:
     """Return where the tip is and how surely, or why it is not seen."""
     if tip.state is TipState.OFF:
-        return "off"
-    lines = [tip.state.value if not tip.reason else f"{tip.state.value}: {tip.reason}"]
+        return translate("microscope", "off")
+    state = spoken(tip.state)
+    lines = [state if not tip.reason else f"{state}: {spoken(tip.reason)}"]
     if tip.state is not TipState.TRACKED:
         return lines[0]
     if tip.pixel is not None:
@@ -103,8 +131,14 @@ def tip_text(tip: TipSeen) -> str:
     if tip.depth is not None:
         sign = "" if tip.depth.sign_known else "±"
         distance = f"{sign}{1e6 * tip.depth.distance:.2f}"
-        lines.append(f"{distance} ± {1e6 * tip.depth.uncertainty:.2f} µm from focus")
-    lines.append(f"quality {100.0 * tip.quality:.0f} %")
+        lines.append(
+            translate("microscope", "{distance} ± {uncertainty:.2f} µm from focus").format(
+                distance=distance, uncertainty=1e6 * tip.depth.uncertainty
+            )
+        )
+    lines.append(
+        translate("microscope", "quality {quality:.0f} %").format(quality=100.0 * tip.quality)
+    )
     return "\n".join(lines)
 
 
@@ -118,7 +152,13 @@ def cell_text(sight: Sight) -> str:
     if sight.pixel_m is not None:
         size = f"{2e6 * long * sight.pixel_m:.1f} × {2e6 * short * sight.pixel_m:.1f} µm"
     ahead = membrane_text(sight)
-    return f"{size}\nmembrane: {ahead} from head on" if ahead else size
+    return (
+        translate("microscope", "{size}\nmembrane: {ahead} from head on").format(
+            size=size, ahead=ahead
+        )
+        if ahead
+        else size
+    )
 
 
 def drift_text(seen: DriftSeen) -> str:
@@ -126,9 +166,11 @@ def drift_text(seen: DriftSeen) -> str:
     if not seen.watched:
         return ""
     if seen.drift is None:
-        return seen.reason or "watching"
+        return seen.reason or translate("microscope", "watching")
     right, down = seen.drift.shift
-    return f"{right:.2f}, {down:.2f} px since the background was taken"
+    return translate(
+        "microscope", "{right:.2f}, {down:.2f} px since the background was taken"
+    ).format(right=right, down=down)
 
 
 def focus_text(status: FocusStatus | None) -> str:
@@ -136,14 +178,22 @@ def focus_text(status: FocusStatus | None) -> str:
     if status is None:
         return ""
     if status.search is Search.FAILED:
-        return f"Failed: {status.reason}"
+        return translate("microscope", "Failed: {reason}").format(reason=spoken(status.reason))
     if status.peak is None:
-        return f"{len(status.places)} places looked at"
+        return translate("microscope", "{places} places looked at").format(
+            places=len(status.places)
+        )
     peak = status.peak
-    return f"Sharpest at {1e6 * peak.place:.2f} ± {1e6 * peak.uncertainty:.2f} µm"
+    return translate("microscope", "Sharpest at {place:.2f} ± {doubt:.2f} µm").format(
+        place=1e6 * peak.place, doubt=1e6 * peak.uncertainty
+    )
 
 
 def focus_name(place: FocusPlace) -> str:
     """Return something that can be focused with, by name and place."""
-    name = "focus drive" if place.name == "focus" else f"axis {place.name}"
+    name = (
+        translate("microscope", "focus drive")
+        if place.name == "focus"
+        else translate("microscope", "axis {name}").format(name=place.name)
+    )
     return name if place.place is None else f"{name}: {readable(place.place, 'm')}"

@@ -1,0 +1,1071 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="de" sourcelanguage="en">
+<context>
+    <name>microscope</name>
+    <message>
+        <source>1. Bring the tip into the middle of the picture and into focus.
+2. Choose the objective under Camera: it has a calibration of its own.
+3. Calibrate the micro stage, then the nano stage: the tip goes small ways about where it is and comes back.</source>
+        <translation>1. Spitze in die Bildmitte und in den Fokus bringen.
+2. Objektiv unter Kamera wählen: jedes hat eine eigene Kalibrierung.
+3. Mikrotisch, dann Nanotisch kalibrieren: die Spitze fährt kleine Wege um ihren Ort und kommt zurück.</translation>
+    </message>
+    <message>
+        <source>Calibration</source>
+        <translation>Kalibrierung</translation>
+    </message>
+    <message>
+        <source>the whole picture moves</source>
+        <translation>das ganze Bild bewegt sich</translation>
+    </message>
+    <message>
+        <source>Without a pipette in sight, where stage and specimen move together: the picture itself is followed</source>
+        <translation>Ohne Pipette im Bild, wenn Tisch und Probe sich gemeinsam bewegen: das Bild selbst wird verfolgt</translation>
+    </message>
+    <message>
+        <source>Micro stage</source>
+        <translation>Mikrotisch</translation>
+    </message>
+    <message>
+        <source>Nano stage</source>
+        <translation>Nanotisch</translation>
+    </message>
+    <message>
+        <source>Abort</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Progress of the calibration</source>
+        <translation>Fortschritt der Kalibrierung</translation>
+    </message>
+    <message>
+        <source>Move x and y by 40 µm about where they are, and look</source>
+        <translation>x und y um 40 µm um ihren Ort bewegen und hinsehen</translation>
+    </message>
+    <message>
+        <source>Move the tip by 15 µm with the piezos about where it is, and look</source>
+        <translation>Die Spitze mit den Piezos um 15 µm um ihren Ort bewegen und hinsehen</translation>
+    </message>
+    <message>
+        <source>Stop the machine where it is, and keep what was calibrated before</source>
+        <translation>Maschine anhalten, wo sie ist; die frühere Kalibrierung bleibt</translation>
+    </message>
+    <message>
+        <source>Nothing is kept for objective {objective!r}.</source>
+        <translation>Für Objektiv {objective!r} ist nichts gespeichert.</translation>
+    </message>
+    <message>
+        <source>focus: sharpest at {place:.2f} ± {doubt:.2f} µm of {axis}</source>
+        <translation>Fokus: am schärfsten bei {place:.2f} ± {doubt:.2f} µm von {axis}</translation>
+    </message>
+    <message>
+        <source>whole</source>
+        <translation>ganz</translation>
+    </message>
+    <message>
+        <source>exposure</source>
+        <translation>Belichtung</translation>
+    </message>
+    <message>
+        <source>gain</source>
+        <translation>Verstärkung</translation>
+    </message>
+    <message>
+        <source>rate</source>
+        <translation>Bildrate</translation>
+    </message>
+    <message>
+        <source>this camera does not let it be set</source>
+        <translation>bei dieser Kamera nicht einstellbar</translation>
+    </message>
+    <message>
+        <source>{low:g} to {high:g} {unit}</source>
+        <translation>{low:g} bis {high:g} {unit}</translation>
+    </message>
+    <message>
+        <source>{name}: {text!r} is no number; write one, {unit}</source>
+        <translation>{name}: {text!r} ist keine Zahl; eine eingeben, {unit}</translation>
+    </message>
+    <message>
+        <source>region: {text!r}: write {whole}, or four whole numbers: first column, first row, width and height, px</source>
+        <translation>Ausschnitt: {text!r}: {whole} oder vier ganze Zahlen eingeben: erste Spalte, erste Zeile, Breite und Höhe, px</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Kamera</translation>
+    </message>
+    <message>
+        <source>or, say, opencv:film.avi</source>
+        <translation>oder etwa opencv:film.avi</translation>
+    </message>
+    <message>
+        <source>Source and address of another camera</source>
+        <translation>Quelle und Adresse einer anderen Kamera</translation>
+    </message>
+    <message>
+        <source>A camera that is not listed: its source, a colon, and a file, folder, stream or number, such as opencv:film.avi or sequence:/data/pictures</source>
+        <translation>Eine nicht gelistete Kamera: Quelle, Doppelpunkt und Datei, Ordner, Stream oder Nummer, etwa opencv:film.avi oder sequence:/data/pictures</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>Öffnen</translation>
+    </message>
+    <message>
+        <source>Open this camera; the one that is open is closed</source>
+        <translation>Diese Kamera öffnen; die offene wird geschlossen</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Schließen</translation>
+    </message>
+    <message>
+        <source>Let go of the camera</source>
+        <translation>Kamera freigeben</translation>
+    </message>
+    <message>
+        <source>Objective</source>
+        <translation>Objektiv</translation>
+    </message>
+    <message>
+        <source>The objective in use: each has a calibration of its own; write a new name</source>
+        <translation>Das Objektiv in Gebrauch: jedes hat eine eigene Kalibrierung; ein neuer Name lässt sich eingeben</translation>
+    </message>
+    <message>
+        <source>no camera is listed, and no address is written</source>
+        <translation>keine Kamera gelistet und keine Adresse eingegeben</translation>
+    </message>
+    <message>
+        <source>no camera is open</source>
+        <translation>keine Kamera offen</translation>
+    </message>
+    <message>
+        <source>Settings of the camera</source>
+        <translation>Kameraeinstellungen</translation>
+    </message>
+    <message>
+        <source>Kind of pixels</source>
+        <translation>Art der Pixel</translation>
+    </message>
+    <message>
+        <source>Trigger</source>
+        <translation>Auslöser</translation>
+    </message>
+    <message>
+        <source>begin again at the end</source>
+        <translation>am Ende neu beginnen</translation>
+    </message>
+    <message>
+        <source>Of a file or a sequence of pictures</source>
+        <translation>Bei einer Datei oder Bildfolge</translation>
+    </message>
+    <message>
+        <source>Exposure [ms]</source>
+        <translation>Belichtung [ms]</translation>
+    </message>
+    <message>
+        <source>Gain</source>
+        <translation>Verstärkung</translation>
+    </message>
+    <message>
+        <source>Rate [Hz]</source>
+        <translation>Rate [Hz]</translation>
+    </message>
+    <message>
+        <source>Region [px]</source>
+        <translation>Ausschnitt [px]</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>Pixel</translation>
+    </message>
+    <message>
+        <source>{text}; its limits are the camera&apos;s, which is not open</source>
+        <translation>{text}; die Grenzen gibt die Kamera vor, sie ist nicht offen</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>Setzen</translation>
+    </message>
+    <message>
+        <source>Set the camera so; what it refuses is said below</source>
+        <translation>Kamera so einstellen; was sie ablehnt, steht unten</translation>
+    </message>
+    <message>
+        <source>Region in sight</source>
+        <translation>Sichtbares</translation>
+    </message>
+    <message>
+        <source>Read out only what is in sight now</source>
+        <translation>Nur den sichtbaren Ausschnitt auslesen</translation>
+    </message>
+    <message>
+        <source>Take a picture</source>
+        <translation>Bild aufnehmen</translation>
+    </message>
+    <message>
+        <source>Trigger the camera once</source>
+        <translation>Kamera einmal auslösen</translation>
+    </message>
+    <message>
+        <source>there is no picture yet</source>
+        <translation>noch kein Bild</translation>
+    </message>
+    <message>
+        <source>Read out only what is in sight now: smaller pictures, faster</source>
+        <translation>Nur den sichtbaren Ausschnitt auslesen: kleinere Bilder, schneller</translation>
+    </message>
+    <message>
+        <source>it runs freely</source>
+        <translation>sie läuft frei</translation>
+    </message>
+    <message>
+        <source>as it is</source>
+        <translation>unverändert</translation>
+    </message>
+    <message>
+        <source>cannot be set</source>
+        <translation>nicht einstellbar</translation>
+    </message>
+    <message>
+        <source>{whole}, or first column, first row, width and height of the sensor&apos;s {width} × {height} px</source>
+        <translation>{whole}, oder erste Spalte, erste Zeile, Breite und Höhe der {width} × {height} px des Sensors</translation>
+    </message>
+    <message>
+        <source>closed</source>
+        <translation>geschlossen</translation>
+    </message>
+    <message>
+        <source>opening</source>
+        <translation>wird geöffnet</translation>
+    </message>
+    <message>
+        <source>live</source>
+        <translation>live</translation>
+    </message>
+    <message>
+        <source>waiting for a trigger</source>
+        <translation>wartet auf Auslöser</translation>
+    </message>
+    <message>
+        <source>stalled</source>
+        <translation>stockt</translation>
+    </message>
+    <message>
+        <source>frozen</source>
+        <translation>eingefroren</translation>
+    </message>
+    <message>
+        <source>black</source>
+        <translation>schwarz</translation>
+    </message>
+    <message>
+        <source>lost</source>
+        <translation>verloren</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>nichts</translation>
+    </message>
+    <message>
+        <source>calibration</source>
+        <translation>Kalibrierung</translation>
+    </message>
+    <message>
+        <source>click</source>
+        <translation>Klick</translation>
+    </message>
+    <message>
+        <source>visit of a target</source>
+        <translation>Zielfahrt</translation>
+    </message>
+    <message>
+        <source>autofocus</source>
+        <translation>Autofokus</translation>
+    </message>
+    <message>
+        <source>off</source>
+        <translation>aus</translation>
+    </message>
+    <message>
+        <source>searched</source>
+        <translation>gesucht</translation>
+    </message>
+    <message>
+        <source>tracked</source>
+        <translation>verfolgt</translation>
+    </message>
+    <message>
+        <source>under way</source>
+        <translation>unterwegs</translation>
+    </message>
+    <message>
+        <source>arrived</source>
+        <translation>erreicht</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>gescheitert</translation>
+    </message>
+    <message>
+        <source>micro</source>
+        <translation>Mikro</translation>
+    </message>
+    <message>
+        <source>nano</source>
+        <translation>Nano</translation>
+    </message>
+    <message>
+        <source>mono8</source>
+        <translation>mono8</translation>
+    </message>
+    <message>
+        <source>mono16</source>
+        <translation>mono16</translation>
+    </message>
+    <message>
+        <source>colour</source>
+        <translation>Farbe</translation>
+    </message>
+    <message>
+        <source>free-running</source>
+        <translation>frei laufend</translation>
+    </message>
+    <message>
+        <source>software</source>
+        <translation>Software</translation>
+    </message>
+    <message>
+        <source>grey</source>
+        <translation>grau</translation>
+    </message>
+    <message>
+        <source>grey, inverted</source>
+        <translation>grau, invertiert</translation>
+    </message>
+    <message>
+        <source>viridis</source>
+        <translation>viridis</translation>
+    </message>
+    <message>
+        <source>grey, saturated red</source>
+        <translation>grau, gesättigt rot</translation>
+    </message>
+    <message>
+        <source>crosshair</source>
+        <translation>Fadenkreuz</translation>
+    </message>
+    <message>
+        <source>tip</source>
+        <translation>Spitze</translation>
+    </message>
+    <message>
+        <source>targets</source>
+        <translation>Ziele</translation>
+    </message>
+    <message>
+        <source>path</source>
+        <translation>Bahn</translation>
+    </message>
+    <message>
+        <source>range of the nano stage</source>
+        <translation>Bereich des Nanotischs</translation>
+    </message>
+    <message>
+        <source>cell</source>
+        <translation>Zelle</translation>
+    </message>
+    <message>
+        <source>measure</source>
+        <translation>Messen</translation>
+    </message>
+    <message>
+        <source>pan</source>
+        <translation>Schieben</translation>
+    </message>
+    <message>
+        <source>move</source>
+        <translation>Bewegen</translation>
+    </message>
+    <message>
+        <source>mark</source>
+        <translation>Markieren</translation>
+    </message>
+    <message>
+        <source>the picture is black; check lamp, shutter, lens cap and exposure</source>
+        <translation>das Bild ist schwarz; Lampe, Verschluss, Kappe und Belichtung prüfen</translation>
+    </message>
+    <message>
+        <source>there is no picture; open a camera and wait for the first one</source>
+        <translation>kein Bild; eine Kamera öffnen und das erste abwarten</translation>
+    </message>
+    <message>
+        <source>the calibration was stopped</source>
+        <translation>die Kalibrierung wurde angehalten</translation>
+    </message>
+    <message>
+        <source>it was stopped</source>
+        <translation>angehalten</translation>
+    </message>
+    <message>
+        <source>there is no picture</source>
+        <translation>kein Bild</translation>
+    </message>
+    <message>
+        <source>Move the tip {how}?</source>
+        <translation>Spitze bewegen: {how}?</translation>
+    </message>
+    <message>
+        <source>nothing is moved: {why}</source>
+        <translation>nichts wird bewegt: {why}</translation>
+    </message>
+    <message>
+        <source>Histogram with the levels of black and white</source>
+        <translation>Histogramm mit Schwarz- und Weißpegel</translation>
+    </message>
+    <message>
+        <source>Drag a handle: the number that becomes black, or white</source>
+        <translation>Einen Griff ziehen: der Wert, der schwarz oder weiß wird</translation>
+    </message>
+    <message>
+        <source>{folder}: the folder cannot be made ({reason})</source>
+        <translation>{folder}: der Ordner lässt sich nicht anlegen ({reason})</translation>
+    </message>
+    <message>
+        <source>a video is being recorded; end it first</source>
+        <extracomment>Whether films begin and end with recordings.</extracomment>
+        <translation>ein Video läuft; zuerst beenden</translation>
+    </message>
+    <message>
+        <source>there is no picture to record; open a camera first</source>
+        <translation>kein Bild zum Aufnehmen; zuerst eine Kamera öffnen</translation>
+    </message>
+    <message>
+        <source>no video is being recorded</source>
+        <translation>kein Video läuft</translation>
+    </message>
+    <message>
+        <source>Saved {path}: {pictures} pictures of {seconds:.1f} s</source>
+        <translation>{path} gespeichert: {pictures} Bilder aus {seconds:.1f} s</translation>
+    </message>
+    <message>
+        <source>{text}, {dropped} left out</source>
+        <translation>{text}, {dropped} ausgelassen</translation>
+    </message>
+    <message>
+        <source>{pictures} pictures, {seconds:.0f} s, {megabytes:.0f} MB</source>
+        <translation>{pictures} Bilder, {seconds:.0f} s, {megabytes:.0f} MB</translation>
+    </message>
+    <message>
+        <source>Keep</source>
+        <translation>Sichern</translation>
+    </message>
+    <message>
+        <source>Snapshot</source>
+        <translation>Schnappschuss</translation>
+    </message>
+    <message>
+        <source>● Video</source>
+        <translation>● Video</translation>
+    </message>
+    <message>
+        <source>video with each recording</source>
+        <translation>Video zu jeder Aufnahme</translation>
+    </message>
+    <message>
+        <source>Begin and end a video with the session&apos;s recording (panel Recorder)</source>
+        <translation>Ein Video mit der Aufnahme der Sitzung beginnen und beenden (Fenster Recorder)</translation>
+    </message>
+    <message>
+        <source>Files go to pictures and videos in {data}.</source>
+        <translation>Dateien kommen nach pictures und videos in {data}.</translation>
+    </message>
+    <message>
+        <source>Keep this picture: its numbers as TIFF, what is seen as PNG</source>
+        <translation>Dieses Bild sichern: Rohwerte als TIFF, Ansicht als PNG</translation>
+    </message>
+    <message>
+        <source>■ End video</source>
+        <translation>■ Video beenden</translation>
+    </message>
+    <message>
+        <source>End the video</source>
+        <translation>Video beenden</translation>
+    </message>
+    <message>
+        <source>Record every picture, with its time, as a BigTIFF</source>
+        <translation>Jedes Bild mit Zeitpunkt als BigTIFF aufnehmen</translation>
+    </message>
+    <message>
+        <source>Saved {tiff} and {png}.png</source>
+        <translation>{tiff} und {png}.png gespeichert</translation>
+    </message>
+    <message>
+        <source>Writing a picture …</source>
+        <translation>Bild wird geschrieben …</translation>
+    </message>
+    <message>
+        <source>Ending the video …</source>
+        <translation>Video wird beendet …</translation>
+    </message>
+    <message>
+        <source>nano, else micro</source>
+        <translation>Nano, sonst Mikro</translation>
+    </message>
+    <message>
+        <source>Click to move</source>
+        <translation>Klick zum Bewegen</translation>
+    </message>
+    <message>
+        <source>Move, above the picture, lets a click or a drag send the tip there. Esc, or any stop, ends that.</source>
+        <translation>Mit „Bewegen“ über dem Bild fährt die Spitze zum Klick oder Zugende. Esc oder jeder Halt beendet das.</translation>
+    </message>
+    <message>
+        <source>Stage that a click moves</source>
+        <translation>Tisch, den ein Klick bewegt</translation>
+    </message>
+    <message>
+        <source>The stage that a click moves; nano where it reaches</source>
+        <translation>Der Tisch, den ein Klick bewegt; Nano, soweit es reicht</translation>
+    </message>
+    <message>
+        <source>Go back</source>
+        <translation>Zurück</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Halt</translation>
+    </message>
+    <message>
+        <source>the machine is not at rest</source>
+        <translation>die Maschine ruht nicht</translation>
+    </message>
+    <message>
+        <source>Return to where the machine rested before its latest move</source>
+        <translation>Zurück zum Ruheort vor der letzten Bewegung</translation>
+    </message>
+    <message>
+        <source>nothing is under way</source>
+        <translation>nichts ist unterwegs</translation>
+    </message>
+    <message>
+        <source>Stop the machine where it is</source>
+        <translation>Maschine anhalten, wo sie ist</translation>
+    </message>
+    <message>
+        <source>Targets</source>
+        <translation>Ziele</translation>
+    </message>
+    <message>
+        <source>Targets, in order</source>
+        <translation>Ziele, der Reihe nach</translation>
+    </message>
+    <message>
+        <source>Visit next</source>
+        <translation>Nächstes anfahren</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Entfernen</translation>
+    </message>
+    <message>
+        <source>Clear</source>
+        <translation>Leeren</translation>
+    </message>
+    <message>
+        <source>no target is marked; mark some with Mark, above the picture</source>
+        <translation>kein Ziel markiert; mit „Markieren“ über dem Bild setzen</translation>
+    </message>
+    <message>
+        <source>every target has been visited</source>
+        <translation>alle Ziele wurden angefahren</translation>
+    </message>
+    <message>
+        <source>Send the tip to the first target that was not visited</source>
+        <translation>Spitze zum ersten noch nicht angefahrenen Ziel fahren</translation>
+    </message>
+    <message>
+        <source>no target is chosen</source>
+        <translation>kein Ziel gewählt</translation>
+    </message>
+    <message>
+        <source>the tip is on its way to a target</source>
+        <translation>die Spitze ist unterwegs zu einem Ziel</translation>
+    </message>
+    <message>
+        <source>Forget the chosen target</source>
+        <translation>Gewähltes Ziel verwerfen</translation>
+    </message>
+    <message>
+        <source>Forget all targets</source>
+        <translation>Alle Ziele verwerfen</translation>
+    </message>
+    <message>
+        <source>nano range</source>
+        <translation>Nano-Bereich</translation>
+    </message>
+    <message>
+        <source>{distance} with the {stage} stage</source>
+        <translation>{distance} mit dem {stage}-Tisch</translation>
+    </message>
+    <message>
+        <source>tip lost</source>
+        <translation>Spitze verloren</translation>
+    </message>
+    <message>
+        <source>Picture</source>
+        <translation>Bild</translation>
+    </message>
+    <message>
+        <source>Calibrate</source>
+        <translation>Kalibrieren</translation>
+    </message>
+    <message>
+        <source>Move</source>
+        <translation>Bewegen</translation>
+    </message>
+    <message>
+        <source>Vision</source>
+        <translation>Erkennen</translation>
+    </message>
+    <message>
+        <source>– no tools –</source>
+        <translation>– ohne –</translation>
+    </message>
+    <message>
+        <source>{mode}: Esc ends it   </source>
+        <translation>{mode}: Esc beendet   </translation>
+    </message>
+    <message>
+        <source>Contrast</source>
+        <translation>Kontrast</translation>
+    </message>
+    <message>
+        <source>levels by themselves</source>
+        <translation>Pegel automatisch</translation>
+    </message>
+    <message>
+        <source>Black and white at 0.1 and 99.9 % of the pixels</source>
+        <translation>Schwarz und Weiß bei 0.1 und 99.9 % der Pixel</translation>
+    </message>
+    <message>
+        <source>Whole range</source>
+        <translation>Ganzer Bereich</translation>
+    </message>
+    <message>
+        <source>Black at 0, white at the largest number</source>
+        <translation>Schwarz bei 0, Weiß beim größten Wert</translation>
+    </message>
+    <message>
+        <source>Gamma</source>
+        <translation>Gamma</translation>
+    </message>
+    <message>
+        <source>Colours</source>
+        <translation>Farben</translation>
+    </message>
+    <message>
+        <source>gamma {gamma:.2f}</source>
+        <translation>Gamma {gamma:.2f}</translation>
+    </message>
+    <message>
+        <source>{low:g} to {high:g}; 1: as light is; less brightens what is dark</source>
+        <translation>{low:g} bis {high:g}; 1: wie das Licht; weniger hellt Dunkles auf</translation>
+    </message>
+    <message>
+        <source>Over the picture</source>
+        <translation>Über dem Bild</translation>
+    </message>
+    <message>
+        <source>Show over the picture: {layer}</source>
+        <translation>Über dem Bild zeigen: {layer}</translation>
+    </message>
+    <message>
+        <source>Picture of the microscope</source>
+        <translation>Bild des Mikroskops</translation>
+    </message>
+    <message>
+        <source>Make the move</source>
+        <translation>Bewegung ausführen</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Make no move</source>
+        <translation>Nicht bewegen</translation>
+    </message>
+    <message>
+        <source>{across:.1f}, {down:.1f} µm from the corner</source>
+        <translation>{across:.1f}, {down:.1f} µm von der Ecke</translation>
+    </message>
+    <message>
+        <source>{number} of {largest}</source>
+        <translation>{number} von {largest}</translation>
+    </message>
+    <message>
+        <source>, {angle:.1f}° to the pipette</source>
+        <translation>, {angle:.1f}° zur Pipette</translation>
+    </message>
+    <message>
+        <source>not calibrated</source>
+        <translation>nicht kalibriert</translation>
+    </message>
+    <message>
+        <source>by the robot file</source>
+        <translation>laut Roboterdatei</translation>
+    </message>
+    <message>
+        <source>No camera</source>
+        <translation>Keine Kamera</translation>
+    </message>
+    <message>
+        <source>Opening …</source>
+        <translation>Wird geöffnet …</translation>
+    </message>
+    <message>
+        <source>Waiting for a trigger</source>
+        <translation>Wartet auf Auslöser</translation>
+    </message>
+    <message>
+        <source>STALLED</source>
+        <translation>STOCKT</translation>
+    </message>
+    <message>
+        <source>FROZEN</source>
+        <translation>EINGEFROREN</translation>
+    </message>
+    <message>
+        <source>BLACK</source>
+        <translation>SCHWARZ</translation>
+    </message>
+    <message>
+        <source>LOST</source>
+        <translation>VERLOREN</translation>
+    </message>
+    <message>
+        <source>opened</source>
+        <translation>geöffnet</translation>
+    </message>
+    <message>
+        <source>Waiting for the first picture</source>
+        <translation>Wartet auf das erste Bild</translation>
+    </message>
+    <message>
+        <source>Choose a camera under Tools, Camera, and open it.</source>
+        <translation>Unter Kamera, neben dem Bild, eine wählen und öffnen.</translation>
+    </message>
+    <message>
+        <source>{ms:.0f} ms old</source>
+        <translation>{ms:.0f} ms alt</translation>
+    </message>
+    <message>
+        <source>{s:.1f} s old</source>
+        <translation>{s:.1f} s alt</translation>
+    </message>
+    <message>
+        <source>the picture is not live: {state}</source>
+        <translation>das Bild ist nicht live: {state}</translation>
+    </message>
+    <message>
+        <source>this camera and objective are not calibrated yet</source>
+        <translation>Kamera und Objektiv sind noch nicht kalibriert</translation>
+    </message>
+    <message>
+        <source>the tip is not tracked; click it with Tip, or switch tracking on under Vision</source>
+        <translation>die Spitze wird nicht verfolgt; mit „Spitze“ anklicken oder unter Erkennen einschalten</translation>
+    </message>
+    <message>
+        <source>{activity} is under way</source>
+        <translation>{activity} läuft</translation>
+    </message>
+    <message>
+        <source>motion is locked: {locked}</source>
+        <translation>Bewegung gesperrt: {locked}</translation>
+    </message>
+    <message>
+        <source>Click or drag: the tip goes there. Esc, or any stop, ends this</source>
+        <translation>Klicken oder ziehen: die Spitze fährt dorthin. Esc oder jeder Halt beendet das</translation>
+    </message>
+    <message>
+        <source>Mark</source>
+        <translation>Markieren</translation>
+    </message>
+    <message>
+        <source>Click: mark a target to be visited; nothing moves</source>
+        <translation>Klicken: ein Ziel zum Anfahren markieren; nichts bewegt sich</translation>
+    </message>
+    <message>
+        <source>Measure</source>
+        <translation>Messen</translation>
+    </message>
+    <message>
+        <source>Drag a line: its length and angles; nothing moves</source>
+        <translation>Eine Linie ziehen: Länge und Winkel; nichts bewegt sich</translation>
+    </message>
+    <message>
+        <source>Tip</source>
+        <translation>Spitze</translation>
+    </message>
+    <message>
+        <source>Click near the pipette&apos;s tip: track it from there; nothing moves</source>
+        <translation>Nahe der Pipettenspitze klicken: von dort verfolgen; nichts bewegt sich</translation>
+    </message>
+    <message>
+        <source>Cell</source>
+        <translation>Zelle</translation>
+    </message>
+    <message>
+        <source>Click into a cell: find its outline; nothing moves</source>
+        <translation>In eine Zelle klicken: Umriss suchen; nichts bewegt sich</translation>
+    </message>
+    <message>
+        <source>Fit</source>
+        <translation>Einpassen</translation>
+    </message>
+    <message>
+        <source>Show all of the picture (F)</source>
+        <translation>Das ganze Bild zeigen (F)</translation>
+    </message>
+    <message>
+        <source>A pixel is one of the screen&apos;s (1)</source>
+        <translation>Ein Pixel ist eines des Bildschirms (1)</translation>
+    </message>
+    <message>
+        <source>Tools beside the picture</source>
+        <translation>Werkzeuge neben dem Bild</translation>
+    </message>
+    <message>
+        <source>track the tip</source>
+        <translation>Spitze verfolgen</translation>
+    </message>
+    <message>
+        <source>Find the pipette&apos;s tip in every picture; Tip, above, shows where it is</source>
+        <translation>Die Pipettenspitze in jedem Bild finden; „Spitze“ oben zeigt, wo sie ist</translation>
+    </message>
+    <message>
+        <source>Take background</source>
+        <translation>Hintergrund aufnehmen</translation>
+    </message>
+    <message>
+        <source>Keep what lies beneath, with the tip out of the way</source>
+        <translation>Festhalten, was darunter liegt, ohne die Spitze</translation>
+    </message>
+    <message>
+        <source>watch the drift</source>
+        <translation>Drift beobachten</translation>
+    </message>
+    <message>
+        <source>By how much the background has moved since it was taken</source>
+        <translation>Um wie viel sich der Hintergrund seit der Aufnahme bewegt hat</translation>
+    </message>
+    <message>
+        <source>
+{looked} pictures looked at, {passed} passed over</source>
+        <translation>
+{looked} Bilder ausgewertet, {passed} übergangen</translation>
+    </message>
+    <message>
+        <source>taken</source>
+        <translation>aufgenommen</translation>
+    </message>
+    <message>
+        <source>not taken yet</source>
+        <translation>noch nicht aufgenommen</translation>
+    </message>
+    <message>
+        <source>Keep what lies beneath, with the tip out of the way, so that a cell misleads nobody; {about}</source>
+        <translation>Festhalten, was darunter liegt, ohne die Spitze, damit keine Zelle irreführt; {about}</translation>
+    </message>
+    <message>
+        <source>Cell, above the picture, outlines the cell that is clicked.</source>
+        <translation>„Zelle“ über dem Bild umreißt die angeklickte Zelle.</translation>
+    </message>
+    <message>
+        <source>Forget the cell</source>
+        <translation>Zelle verwerfen</translation>
+    </message>
+    <message>
+        <source>Take the outline away</source>
+        <translation>Umriss entfernen</translation>
+    </message>
+    <message>
+        <source>no cell is outlined</source>
+        <translation>keine Zelle umrissen</translation>
+    </message>
+    <message>
+        <source>Focus</source>
+        <translation>Fokus</translation>
+    </message>
+    <message>
+        <source>What is focused with</source>
+        <translation>Womit fokussiert wird</translation>
+    </message>
+    <message>
+        <source>How far to search each way, µm</source>
+        <translation>Suchweite je Richtung, µm</translation>
+    </message>
+    <message>
+        <source>How far to search each way from where it is, above 0 µm</source>
+        <translation>Suchweite je Richtung vom jetzigen Ort, über 0 µm</translation>
+    </message>
+    <message>
+        <source>Autofocus</source>
+        <translation>Autofokus</translation>
+    </message>
+    <message>
+        <source>Look for the sharpest place, and stay there</source>
+        <translation>Den schärfsten Ort suchen und dort bleiben</translation>
+    </message>
+    <message>
+        <source>focus at, µm</source>
+        <translation>Fokus bei, µm</translation>
+    </message>
+    <message>
+        <source>Place of the focus drive, µm</source>
+        <translation>Ort des Fokustriebs, µm</translation>
+    </message>
+    <message>
+        <source>Where the drive is to go, µm, within its own range</source>
+        <translation>Wohin der Trieb fährt, µm, in seinem Bereich</translation>
+    </message>
+    <message>
+        <source>Move focus</source>
+        <translation>Fokus fahren</translation>
+    </message>
+    <message>
+        <source>Move the focus drive of the microscope</source>
+        <translation>Den Fokustrieb des Mikroskops fahren</translation>
+    </message>
+    <message>
+        <source>nothing can be focused with: open a camera, connect the machine</source>
+        <translation>nichts zum Fokussieren: Kamera öffnen, Maschine verbinden</translation>
+    </message>
+    <message>
+        <source>this camera has no focus drive</source>
+        <translation>diese Kamera hat keinen Fokustrieb</translation>
+    </message>
+    <message>
+        <source>how far to search</source>
+        <translation>Suchweite</translation>
+    </message>
+    <message>
+        <source>focus</source>
+        <translation>Fokus</translation>
+    </message>
+    <message>
+        <source>{name}: {text!r} is no number; write one in µm</source>
+        <translation>{name}: {text!r} ist keine Zahl; eine in µm eingeben</translation>
+    </message>
+    <message>
+        <source>moves a little, and looks</source>
+        <translation>bewegt ein wenig und sieht hin</translation>
+    </message>
+    <message>
+        <source>goes back to where it began</source>
+        <translation>fährt an den Anfang zurück</translation>
+    </message>
+    <message>
+        <source>calibrated</source>
+        <translation>kalibriert</translation>
+    </message>
+    <message>
+        <source>{name}: not calibrated</source>
+        <translation>{name}: nicht kalibriert</translation>
+    </message>
+    <message>
+        <source>{name}: {found}, residual {residual:.2f} px, of {when}</source>
+        <translation>{name}: {found}, Restfehler {residual:.2f} px, vom {when}</translation>
+    </message>
+    <message>
+        <source>, mirrored</source>
+        <translation>, gespiegelt</translation>
+    </message>
+    <message>
+        <source>{sizes} ± {doubts:.2f} nm/px, turned {rotation:.3f} ± {doubt:.3f}°, skew {skew:.3f}°{hand}</source>
+        <translation>{sizes} ± {doubts:.2f} nm/px, gedreht {rotation:.3f} ± {doubt:.3f}°, Scherung {skew:.3f}°{hand}</translation>
+    </message>
+    <message>
+        <source>{phase}: look {done} of {moves}</source>
+        <translation>{phase}: Blick {done} von {moves}</translation>
+    </message>
+    <message>
+        <source>move {number}: {size:.2f} px</source>
+        <translation>Bewegung {number}: {size:.2f} px</translation>
+    </message>
+    <message>
+        <source>, left out</source>
+        <translation>, ausgelassen</translation>
+    </message>
+    <message>
+        <source>Failed: {reason}</source>
+        <translation>Gescheitert: {reason}</translation>
+    </message>
+    <message>
+        <source>, {miss:.2f} px off</source>
+        <translation>, {miss:.2f} px daneben</translation>
+    </message>
+    <message>
+        <source>Arrived</source>
+        <translation>Angekommen</translation>
+    </message>
+    <message>
+        <source>Under way</source>
+        <translation>Unterwegs</translation>
+    </message>
+    <message>
+        <source>1 correction</source>
+        <translation>1 Korrektur</translation>
+    </message>
+    <message>
+        <source>{n} corrections</source>
+        <translation>{n} Korrekturen</translation>
+    </message>
+    <message>
+        <source>{distance} ± {uncertainty:.2f} µm from focus</source>
+        <translation>{distance} ± {uncertainty:.2f} µm vom Fokus</translation>
+    </message>
+    <message>
+        <source>quality {quality:.0f} %</source>
+        <translation>Güte {quality:.0f} %</translation>
+    </message>
+    <message>
+        <source>{size}
+membrane: {ahead} from head on</source>
+        <translation>{size}
+Membran: {ahead} gegen frontal</translation>
+    </message>
+    <message>
+        <source>watching</source>
+        <translation>beobachtet</translation>
+    </message>
+    <message>
+        <source>{right:.2f}, {down:.2f} px since the background was taken</source>
+        <translation>{right:.2f}, {down:.2f} px seit Aufnahme des Hintergrunds</translation>
+    </message>
+    <message>
+        <source>{places} places looked at</source>
+        <translation>{places} Orte angesehen</translation>
+    </message>
+    <message>
+        <source>Sharpest at {place:.2f} ± {doubt:.2f} µm</source>
+        <translation>Am schärfsten bei {place:.2f} ± {doubt:.2f} µm</translation>
+    </message>
+    <message>
+        <source>focus drive</source>
+        <translation>Fokustrieb</translation>
+    </message>
+    <message>
+        <source>axis {name}</source>
+        <translation>Achse {name}</translation>
+    </message>
+</context>
+<context>
+    <name>panels</name>
+    <message>
+        <source>Microscope</source>
+        <translation>Mikroskop</translation>
+    </message>
+</context>
+</TS>
