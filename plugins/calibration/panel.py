@@ -20,6 +20,7 @@ from rotemina.app.calibration.run import CalibrationRun, Phase, RunState
 from rotemina.app.calibration.store import Stored
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.calibration.procedure import Procedure
@@ -34,15 +35,15 @@ from rotemina.sim.records.record import Record
 from rotemina.sim.trajectory.checked import CheckedTrajectory
 from rotemina.sim.trajectory.dry_run import dry_run
 
-RECORDS = "Records (*.csv *.txt *.dat *.gz);;All files (*)"
+RECORDS = marked("calibration", "Records (*.csv *.txt *.dat *.gz);;All files (*)")
 _ISO, _STORED = 1, 2  # tabs
-_WIDTH = 276  # of the procedure, px
+_WIDTH = 276  # of the procedure at least, px
 
 
 class CalibrationPanel(Panel):
     """The procedure beside its result and the stored calibrations."""
 
-    title = "Sensor calibration"
+    title = marked("panels", "Sensor calibration")
     area = Area.BOTTOM
     order = 32
     help_page = "calibration.md#for-operators-the-panel-sensor-calibration"
@@ -58,13 +59,13 @@ class CalibrationPanel(Panel):
         self._run: CalibrationRun | None = None
         self.views = QStackedWidget()
         self.tabs = QTabBar()
-        self.tabs.setAccessibleName("What is shown")
+        self.tabs.setAccessibleName(translate("calibration", "What is shown"))
         self.tabs.setExpanding(False)
         self.tabs.setDrawBase(False)
         for view, name in (
-            (self.result, "Result"),
+            (self.result, translate("calibration", "Result")),
             (self.result.iso, "ISO 230-2"),
-            (self.stored, "Stored"),
+            (self.stored, translate("calibration", "Stored")),
         ):
             self.views.addWidget(view)
             self.tabs.addTab(name)
@@ -85,7 +86,9 @@ class CalibrationPanel(Panel):
             motion = calibration_motion(robot, axis, runs=runs, targets=targets)
             return dry_run(robot, motion, setpoint_period_s=period_s).require()
 
-        self.workbench.work("calibration plan", "Planning …", work, self._take_plan)
+        self.workbench.work(
+            "calibration plan", translate("calibration", "Planning …"), work, self._take_plan
+        )
 
     def start(self) -> None:
         """Play the planned motion; sensor and laser are recorded."""
@@ -130,17 +133,20 @@ class CalibrationPanel(Panel):
 
         def done(path: Path) -> None:
             self.result.done_storing()
-            self.workbench.notify(Level.GOOD, f"Calibration of {calibration.axis} in use: {path}")
+            text = translate("calibration", "Calibration of {axis} in use: {path}")
+            self.workbench.notify(Level.GOOD, text.format(axis=calibration.axis, path=path))
             self._look()
 
-        self.workbench.work("store calibration", "Storing the calibration …", work, done)
+        self.workbench.work(
+            "store calibration", translate("calibration", "Storing the calibration …"), work, done
+        )
 
     def switch(self, axis: str, path: Path | None) -> None:
         """Use a stored calibration of an axis, or none."""
         store = self.workbench.operation.calibrations
         self.workbench.work(
             "switch calibration",
-            "Switching the calibration …",
+            translate("calibration", "Switching the calibration …"),
             lambda: store.switch(axis, path),
             lambda _: self._look(),
         )
@@ -153,7 +159,7 @@ class CalibrationPanel(Panel):
 
     def _forget_plan(self) -> None:
         self._motion = None
-        self.procedure.told.setText(NOTHING)
+        self.procedure.told.setText(translate("calibration", NOTHING))
         self.procedure.progress.setValue(0)
 
     def _take_plan(self, motion: CheckedTrajectory) -> None:
@@ -181,7 +187,8 @@ class CalibrationPanel(Panel):
         if run.record is not None:
             self.fit_record(f"calibration of {self.procedure.chosen}", run.record)
         elif state.phase is Phase.FAILED:
-            self.workbench.notify(Level.ERROR, f"Calibration: {state.message}.", about=self)
+            text = translate("calibration", "Calibration: {message}.")
+            self.workbench.notify(Level.ERROR, text.format(message=state.message), about=self)
 
     def _fit(self, records: Callable[[], list[tuple[str, Record]]]) -> None:
         axis, robot = self.procedure.chosen, self.workbench.robot
@@ -196,7 +203,12 @@ class CalibrationPanel(Panel):
             )
             return found, tuple(source_of(record, name) for name, record in read)
 
-        self.workbench.work("calibration fit", "Fitting the sensor …", work, self._take_result)
+        self.workbench.work(
+            "calibration fit",
+            translate("calibration", "Fitting the sensor …"),
+            work,
+            self._take_result,
+        )
 
     def _take_result(self, answer: tuple[Calibration, tuple[Source, ...]]) -> None:
         self.calibration, self._sources = answer
@@ -214,16 +226,26 @@ class CalibrationPanel(Panel):
 
         def done(answer: tuple[tuple[Stored, ...], tuple[str, ...]]) -> None:
             self.stored.show_stored(answer[0])
-            self.tabs.setTabText(_STORED, f"Stored ({len(answer[0])})" if answer[0] else "Stored")
+            text = translate("calibration", "Stored")
+            if answer[0]:
+                text = translate("calibration", "Stored ({n})").format(n=len(answer[0]))
+            self.tabs.setTabText(_STORED, text)
             for problem in answer[1]:
                 self.workbench.notify(Level.WARNING, problem, about=self)
 
-        self.workbench.work("stored calibrations", "Reading calibrations …", work, done)
+        self.workbench.work(
+            "stored calibrations", translate("calibration", "Reading calibrations …"), work, done
+        )
 
     def _ask_records(self) -> None:
         settings = self.workbench.settings
         folder = settings.get("files.folder", "")
-        dialog = QFileDialog(self, "Records with sensor and laser", folder, RECORDS)
+        dialog = QFileDialog(
+            self,
+            translate("calibration", "Records with sensor and laser"),
+            folder,
+            translate("calibration", RECORDS),
+        )
         dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         dialog.setFileMode(QFileDialog.FileMode.ExistingFiles)
@@ -257,7 +279,8 @@ class CalibrationPanel(Panel):
         scroll.setWidgetResizable(True)
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         scroll.setWidget(self.procedure)
-        scroll.setFixedWidth(_WIDTH)
+        bar = scroll.verticalScrollBar().sizeHint().width()
+        scroll.setFixedWidth(max(self.procedure.minimumSizeHint().width() + bar, _WIDTH))
         right = QVBoxLayout()
         right.setSpacing(4)
         right.addWidget(self.tabs)

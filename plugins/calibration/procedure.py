@@ -18,6 +18,7 @@ from rotemina.app.calibration.run import Phase, RunState
 from rotemina.app.display import label
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow
+from rotemina.app.shell.language import translate
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.calibration.words import NOTHING, cycles, progress
 from rotemina.sim.calibration.plan import RUNS, TARGETS
@@ -39,28 +40,43 @@ class Procedure(QWidget):
         super().__init__()
         self._robot = robot
         self.axis = QComboBox()
-        self.axis.setAccessibleName("Axis")
-        self.axis.setToolTip("Axis whose sensor is calibrated")
+        self.axis.setAccessibleName(translate("calibration", "Axis"))
+        self.axis.setToolTip(translate("calibration", "Axis whose sensor is calibrated"))
         for name in robot.axes:
             self.axis.addItem(label(name), name)
-        self.runs = _count("Runs", 3, 50, RUNS)
-        self.runs.setToolTip("3 to 50; each run is held out of the fit once; ISO 230-2 asks for 5")
-        self.targets = _count("Targets", 5, 101, TARGETS)
-        self.targets.setToolTip(
-            "5 to 101 positions that are approached from both sides (ISO 230-2)"
+        self.runs = _count(translate("calibration", "Runs"), 3, 50, RUNS)
+        self.runs.setToolTip(
+            translate(
+                "calibration", "3 to 50; each run is held out of the fit once; ISO 230-2 asks for 5"
+            )
         )
-        self.absolute = QCheckBox("the laser's zero is the axis'")
+        self.targets = _count(translate("calibration", "Targets"), 5, 101, TARGETS)
+        self.targets.setToolTip(
+            translate(
+                "calibration", "5 to 101 positions that are approached from both sides (ISO 230-2)"
+            )
+        )
+        self.absolute = QCheckBox(translate("calibration", "the laser's zero is the axis'"))
         self.absolute.setChecked(True)
         self.absolute.setToolTip(
-            "Off: the laser was zeroed anywhere; the reading in the middle of the travel stays"
+            translate(
+                "calibration",
+                "Off: the laser was zeroed anywhere; the reading in the middle of the travel stays",
+            )
         )
-        self.plan, self.run = QPushButton("Plan"), QPushButton("Run")
-        self.stop, self.fit = QPushButton("Stop"), QPushButton("Fit records …")
+        self.plan, self.run = (
+            QPushButton(translate("calibration", "Plan")),
+            QPushButton(translate("calibration", "Run")),
+        )
+        self.stop, self.fit = (
+            QPushButton(translate("calibration", "Stop")),
+            QPushButton(translate("calibration", "Fit records …")),
+        )
         self.run.setProperty("primary", True)
         self.progress = QProgressBar()
         self.progress.setRange(0, 1000)
         self.progress.setTextVisible(False)
-        self.told = QLabel(NOTHING)
+        self.told = QLabel(translate("calibration", NOTHING))
         self.told.setTextFormat(Qt.TextFormat.PlainText)
         self.told.setWordWrap(True)
         self._lay_out()
@@ -82,18 +98,36 @@ class Procedure(QWidget):
     def refresh(self, session: SessionState, motion: Record | None, run: RunState) -> None:
         """Enable what can be done now, and say why the rest cannot."""
         moving = run.phase is Phase.MOVING
-        why_not = "a run is under way" if moving else None
+        why_not = translate("calibration", "a run is under way") if moving else None
         for widget in (self.axis, self.runs, self.absolute):
             widget.setEnabled(not moving)
         self.targets.setEnabled(not moving and cycles(self._robot, self.chosen))
-        allow(self.plan, why_not, "Make the motion, and check it against all limits")
-        allow(self.fit, why_not, "Fit records of this axis that hold its sensor and the laser")
-        allow(self.stop, None if moving else "no run is under way", "Stop the machine now")
+        allow(
+            self.plan,
+            why_not,
+            translate("calibration", "Make the motion, and check it against all limits"),
+        )
+        allow(
+            self.fit,
+            why_not,
+            translate("calibration", "Fit records of this axis that hold its sensor and the laser"),
+        )
+        allow(
+            self.stop,
+            None if moving else translate("calibration", "no run is under way"),
+            translate("calibration", "Stop the machine now"),
+        )
         if why_not is None:
-            why_not = session.locked or ("there is no plan yet" if motion is None else None)
+            why_not = session.locked or (
+                translate("calibration", "there is no plan yet") if motion is None else None
+            )
         if why_not is None and session.activity is not DeviceState.IDLE:
-            why_not = "the machine is still moving"
-        allow(self.run, why_not, "Play the motion; sensor and laser are recorded and fitted")
+            why_not = translate("calibration", "the machine is still moving")
+        allow(
+            self.run,
+            why_not,
+            translate("calibration", "Play the motion; sensor and laser are recorded and fitted"),
+        )
 
     def _change(self) -> None:
         self.targets.setEnabled(cycles(self._robot, self.chosen))
@@ -102,9 +136,9 @@ class Procedure(QWidget):
     def _lay_out(self) -> None:
         form = QFormLayout()
         form.setContentsMargins(0, 0, 0, 0)
-        form.addRow("Axis", self.axis)
-        form.addRow("Runs", self.runs)
-        form.addRow("Targets", self.targets)
+        form.addRow(translate("calibration", "Axis"), self.axis)
+        form.addRow(translate("calibration", "Runs"), self.runs)
+        form.addRow(translate("calibration", "Targets"), self.targets)
         buttons = QGridLayout()
         for place, button in enumerate((self.plan, self.run, self.stop, self.fit)):
             buttons.addWidget(button, place // 2, place % 2)

@@ -5,15 +5,26 @@ from html import escape
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSplitter, QVBoxLayout, QWidget
 
-from rotemina.app.calibration.words import ISO_HEAD
 from rotemina.app.shell.controls import allow
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.plot import SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.calibration.sheet import Sheet
-from rotemina.plugins.calibration.words import Drawing, error_drawing, figures, iso, verdict
+from rotemina.plugins.calibration.words import (
+    FIGURES_HEAD,
+    ISO_HEAD,
+    Drawing,
+    error_drawing,
+    figures,
+    iso,
+    shown,
+    verdict,
+)
 from rotemina.sim.calibration.calibrating import Calibration
 
-_TIP = "Keep this calibration, dated, and correct the axis' readings by it from now on"
+_TIP = marked(
+    "calibration", "Keep this calibration, dated, and correct the axis' readings by it from now on"
+)
 
 
 class ResultView(QWidget):
@@ -38,12 +49,12 @@ class ResultView(QWidget):
         self.plot.setMinimumSize(160, 90)
         for name, role in (("before", "real"), ("after", "good"), ("", "command")):
             self.plot.add_curve(name, role)
-        self.figures = Sheet("Figures of the sensor", ("figure", "value", "± 95 %"))
-        self.iso = Sheet("Figures of ISO 230-2", ISO_HEAD)
+        self.figures = Sheet(translate("calibration", "Figures of the sensor"), shown(FIGURES_HEAD))
+        self.iso = Sheet(translate("calibration", "Figures of ISO 230-2"), shown(ISO_HEAD))
         self.verdict = QLabel()
         self.verdict.setTextFormat(Qt.TextFormat.PlainText)
         self.verdict.setWordWrap(True)
-        self.store = QPushButton("Store and use")
+        self.store = QPushButton(translate("calibration", "Store and use"))
         self.store.clicked.connect(self.stored)
         self._lay_out()
         self.show_result(None)
@@ -65,14 +76,16 @@ class ResultView(QWidget):
         self.iso.show_rows(iso(result) if result is not None else ())
         self.verdict.setText(verdict(result) if result is not None else "")
         self.verdict.setVisible(result is not None)
-        why_not = "there is no result yet" if result is None else result.refusal
-        allow(self.store, why_not, _TIP)
+        why_not = (
+            translate("calibration", "there is no result yet") if result is None else result.refusal
+        )
+        allow(self.store, why_not, translate("calibration", _TIP))
         if result is not None:
             self.show_drawing(error_drawing(result))
 
     def done_storing(self) -> None:
         """Show that the result is kept."""
-        allow(self.store, "it is stored", _TIP)
+        allow(self.store, translate("calibration", "it is stored"), translate("calibration", _TIP))
 
     def set_theme(self, theme: Theme) -> None:
         """Change all colours."""
@@ -83,12 +96,13 @@ class ResultView(QWidget):
     def _write_title(self) -> None:
         if self._drawing is None:
             return
-        named = ", ".join(
+        curves = self._drawing.curves
+        named = [(translate("calibration", name), role) for name, role, _ in curves if name]
+        names = ", ".join(
             f'<span style="color:{getattr(self._theme, role)}">{escape(name)}</span>'
-            for name, role, _ in self._drawing.curves
-            if name
+            for name, role in named
         )
-        self.title.setText(f"{escape(self._drawing.left)}{': ' if named else ''}{named}")
+        self.title.setText(f"{escape(self._drawing.left)}{': ' if names else ''}{names}")
 
     def _lay_out(self) -> None:
         left = QWidget()

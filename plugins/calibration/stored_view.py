@@ -7,10 +7,11 @@ from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
 from rotemina.app.calibration.store import Stored
 from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.calibration.sheet import Sheet
-from rotemina.plugins.calibration.words import STORED_HEAD, stored_row
+from rotemina.plugins.calibration.words import STORED_HEAD, shown, stored_row
 
-_NONE = "choose a calibration in the table"
+_NONE = marked("calibration", "choose a calibration in the table")
 
 
 class StoredView(QWidget):
@@ -26,9 +27,14 @@ class StoredView(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.stored: tuple[Stored, ...] = ()
-        self.table = Sheet("Stored calibrations", STORED_HEAD, choose=True)
+        self.table = Sheet(
+            translate("calibration", "Stored calibrations"), shown(STORED_HEAD), choose=True
+        )
         self.table.itemSelectionChanged.connect(self._allow)
-        self.on, self.off = QPushButton("Use"), QPushButton("Switch off")
+        self.on, self.off = (
+            QPushButton(translate("calibration", "Use")),
+            QPushButton(translate("calibration", "Switch off")),
+        )
         self.on.clicked.connect(lambda: self._switch(on=True))
         self.off.clicked.connect(lambda: self._switch(on=False))
         buttons = QHBoxLayout()
@@ -67,8 +73,16 @@ class StoredView(QWidget):
             self.switched.emit(chosen.calibration.axis, path)
 
     def _allow(self) -> None:
-        chosen = self.chosen
-        already = None if chosen is None or not chosen.on else "it is on"
-        idle = None if chosen is None or chosen.on else "it is off"
-        allow(self.on, _NONE if chosen is None else already, "Correct the axis' readings by it")
-        allow(self.off, _NONE if chosen is None else idle, "Leave the axis' readings as they are")
+        chosen, none = self.chosen, translate("calibration", _NONE)
+        already = None if chosen is None or not chosen.on else translate("calibration", "it is on")
+        idle = None if chosen is None or chosen.on else translate("calibration", "it is off")
+        allow(
+            self.on,
+            none if chosen is None else already,
+            translate("calibration", "Correct the axis' readings by it"),
+        )
+        allow(
+            self.off,
+            none if chosen is None else idle,
+            translate("calibration", "Leave the axis' readings as they are"),
+        )

@@ -13,13 +13,14 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.display import label
+from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.plate.quantities import QUANTITIES, Quantity
 from rotemina.plugins.plate.words import AXES
 from rotemina.sim.arrays import FloatArray
 
 _STEPS = 500
 _SCALES = 200  # per cent
-STATIC = "Hub moved"
+STATIC = marked("plate", "Hub moved")
 
 
 class SteadySlider(QSlider):
@@ -49,25 +50,31 @@ class Controls(QWidget):
         super().__init__()
         self._ranges = np.zeros((3, 2))
         self.what = QComboBox()
-        self.what.setAccessibleName("What is shown")
-        self.what.setToolTip("The plate with its hub moved, or one of its modes")
+        self.what.setAccessibleName(translate("plate", "What is shown"))
+        self.what.setToolTip(
+            translate("plate", "The plate with its hub moved, or one of its modes")
+        )
         self.colour = QComboBox()
-        self.colour.setAccessibleName("Colours")
-        self.colour.setToolTip("What the colours mean")
+        self.colour.setAccessibleName(translate("plate", "Colours"))
+        self.colour.setToolTip(translate("plate", "What the colours mean"))
         for quantity in QUANTITIES:
-            self.colour.addItem(quantity.title)
+            self.colour.addItem(translate("plate", quantity.title))
         self.sliders = tuple(
-            SteadySlider(f"{label(name)} of the hub", _STEPS) for name, _, _ in AXES
+            SteadySlider(translate("plate", "{axis} of the hub").format(axis=label(name)), _STEPS)
+            for name, _, _ in AXES
         )
         for slider, (name, unit, _) in zip(self.sliders, AXES, strict=True):
-            slider.setToolTip(f"{label(name)} of the hub over its range, in {unit}")
+            text = translate("plate", "{axis} of the hub over its range, in {unit}")
+            slider.setToolTip(text.format(axis=label(name), unit=unit))
         self.values = tuple(QLabel() for _ in AXES)
-        self.scale = SteadySlider("Scale of the deformation", _SCALES)
+        self.scale = SteadySlider(translate("plate", "Scale of the deformation"), _SCALES)
         self.scale.setValue(100)
         self.scale_text = QLabel()
-        self.scale.setToolTip("How high the deformation is drawn, 0 to 200 %; 100 is well visible")
-        self.mesh = QCheckBox("Mesh lines")
-        self.mesh.setToolTip("Draw the edges of the elements")
+        self.scale.setToolTip(
+            translate("plate", "How high the deformation is drawn, 0 to 200 %; 100 is well visible")
+        )
+        self.mesh = QCheckBox(translate("plate", "Mesh lines"))
+        self.mesh.setToolTip(translate("plate", "Draw the edges of the elements"))
         self._lay_out()
         for box in (self.what, self.colour):
             box.setSizeAdjustPolicy(
@@ -83,9 +90,9 @@ class Controls(QWidget):
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setVerticalSpacing(4)
-        grid.addWidget(QLabel("Show"), 0, 0)
+        grid.addWidget(QLabel(translate("plate", "Show")), 0, 0)
         grid.addWidget(self.what, 0, 1, 1, 2)
-        grid.addWidget(QLabel("Colours"), 1, 0)
+        grid.addWidget(QLabel(translate("plate", "Colours")), 1, 0)
         grid.addWidget(self.colour, 1, 1, 1, 2)
         for row, ((name, _, _), slider, value) in enumerate(
             zip(AXES, self.sliders, self.values, strict=True), start=2
@@ -93,7 +100,7 @@ class Controls(QWidget):
             grid.addWidget(QLabel(label(name)), row, 0)
             grid.addWidget(slider, row, 1)
             grid.addWidget(value, row, 2)
-        grid.addWidget(QLabel("Scale"), 5, 0)
+        grid.addWidget(QLabel(translate("plate", "Scale")), 5, 0)
         grid.addWidget(self.scale, 5, 1)
         grid.addWidget(self.scale_text, 5, 2)
         grid.addWidget(self.mesh, 6, 1)
@@ -110,11 +117,14 @@ class Controls(QWidget):
         self._ranges = ranges
         for slider, ends, (name, unit, per_si) in zip(self.sliders, ranges, AXES, strict=True):
             low, high = per_si * ends
-            slider.setToolTip(f"{label(name)} of the hub, {low:.4g} to {high:.4g} {unit}")
+            text = translate("plate", "{axis} of the hub, {low:.4g} to {high:.4g} {unit}")
+            slider.setToolTip(text.format(axis=label(name), low=low, high=high, unit=unit))
         chosen = max(self.what.currentIndex(), 0)
         self.what.blockSignals(True)
         self.what.clear()
-        self.what.addItems([STATIC, *(f"Mode {title}" for title in modes)])
+        mode = translate("plate", "Mode {title}")
+        self.what.addItem(translate("plate", STATIC))
+        self.what.addItems([mode.format(title=title) for title in modes])
         self.what.setCurrentIndex(min(chosen, len(modes)))
         self.what.blockSignals(False)
         if first:

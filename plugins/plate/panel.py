@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.controls import allow
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.plate.canvas import Canvas
 from rotemina.plugins.plate.controls import Controls
@@ -38,14 +39,15 @@ from rotemina.sim.plate.export import write_vtu
 from rotemina.sim.whole_files import replaced
 
 FRAME_MS = 33
+_WIDTH = 330  # of the choices at least, px
 SWING_S = 2.0  # a mode is shown slowly, whatever its frequency
-_UNSOLVED = "there is no solved plate yet"
+_UNSOLVED = marked("plate", "there is no solved plate yet")
 
 
 class PlatePanel(Panel):
     """Choices on the left, the plate on the right, its figures below."""
 
-    title = "Holding plate"
+    title = marked("panels", "Holding plate")
     area = Area.BOTTOM
     order = 90
     help_page = "plate.md#the-panel"
@@ -65,23 +67,31 @@ class PlatePanel(Panel):
 
     def _make_parts(self) -> None:
         self.mesh = QComboBox()
-        self.mesh.setAccessibleName("Mesh")
-        self.mesh.setToolTip("A finer mesh is truer and takes longer")
+        self.mesh.setAccessibleName(translate("plate", "Mesh"))
+        self.mesh.setToolTip(translate("plate", "A finer mesh is truer and takes longer"))
         for title, divisions in MESHES:
-            self.mesh.addItem(title, divisions)
+            self.mesh.addItem(translate("plate", title), divisions)
         self.mesh.setCurrentIndex(1)
-        self.start, self.stop = QPushButton("Solve"), QPushButton("Stop")
+        self.start, self.stop = (
+            QPushButton(translate("plate", "Solve")),
+            QPushButton(translate("plate", "Stop")),
+        )
         self.start.setProperty("primary", True)
-        self.start.setToolTip("Compute the plate that the robot file describes; motion goes on")
-        self.stop.setToolTip("Want no answer any more; motion goes on")
-        self.vtu, self.png = QPushButton("Save VTU …"), QPushButton("Save PNG …")
+        self.start.setToolTip(
+            translate("plate", "Compute the plate that the robot file describes; motion goes on")
+        )
+        self.stop.setToolTip(translate("plate", "Want no answer any more; motion goes on"))
+        self.vtu, self.png = (
+            QPushButton(translate("plate", "Save VTU …")),
+            QPushButton(translate("plate", "Save PNG …")),
+        )
         self.doing, self.pose_text, self.plate_text = QLabel(), QLabel(), QLabel()
         for text in (self.doing, self.pose_text, self.plate_text):
             text.setTextFormat(Qt.TextFormat.PlainText)
             text.setWordWrap(True)
         self.doing.setProperty("quiet", True)
-        self.pose_text.setAccessibleName("At this pose")
-        self.plate_text.setAccessibleName("The plate as a whole")
+        self.pose_text.setAccessibleName(translate("plate", "At this pose"))
+        self.plate_text.setAccessibleName(translate("plate", "The plate as a whole"))
 
     def _lay_out(self) -> None:
         top, saving = QHBoxLayout(), QHBoxLayout()
@@ -105,7 +115,8 @@ class PlatePanel(Panel):
         scroll.setWidgetResizable(True)
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         scroll.setWidget(left)
-        scroll.setFixedWidth(330)
+        bar = scroll.verticalScrollBar().sizeHint().width()
+        scroll.setFixedWidth(max(left.minimumSizeHint().width() + bar, _WIDTH))
         outer = QHBoxLayout(self)
         outer.setContentsMargins(10, 6, 10, 6)
         outer.addWidget(scroll)
@@ -133,13 +144,13 @@ class PlatePanel(Panel):
     def solve(self) -> None:
         """Solve the robot's plate; what is shown stays until there is an answer."""
         self.solving.start(self.workbench.robot, self.mesh.currentData())
-        self._show_stage("waiting")
+        self._show_stage(marked("plate", "waiting"))
         self._show_state()
 
     def end(self) -> None:
         """Want no answer any more."""
         self.solving.stop()
-        self.doing.setText("Stopped.")
+        self.doing.setText(translate("plate", "Stopped."))
         self._show_state()
 
     def take(self, solved: Solved) -> None:
@@ -147,18 +158,21 @@ class PlatePanel(Panel):
         self.solved = solved
         self.plate_text.setText(plate_text(solved))
         triangles = solved.mesh.triangles.shape[1]
-        self.doing.setText(f"{triangles} triangles, {solved.solutions.unknowns} unknowns.")
+        text = translate("plate", "{triangles} triangles, {unknowns} unknowns.")
+        unknowns = solved.solutions.unknowns
+        self.doing.setText(text.format(triangles=triangles, unknowns=unknowns))
         self.controls.offer(solved.ranges, mode_titles(solved))
         self._show_state()
         self._show()
 
     def _fail(self, message: str) -> None:
-        self.doing.setText("Failed.")
+        self.doing.setText(translate("plate", "Failed."))
         self.workbench.notify(Level.ERROR, message, about=self)
         self._show_state()
 
     def _show_stage(self, name: str) -> None:
-        self.doing.setText(f"Solving: {name} …")
+        text = translate("plate", "Solving: {stage} …")
+        self.doing.setText(text.format(stage=translate("plate", name)))
 
     # --- what is shown ----------------------------------------------------------------------------
 
@@ -167,12 +181,16 @@ class PlatePanel(Panel):
         self.start.setEnabled(not running)
         self.mesh.setEnabled(not running)
         self.stop.setEnabled(running)
-        why_not = None if self.solved is not None else _UNSOLVED
-        allow(self.vtu, why_not, "Mesh, displacement, stress and modes for ParaView and the like")
-        allow(self.png, why_not, "The picture as it is shown")
+        why_not = None if self.solved is not None else translate("plate", _UNSOLVED)
+        allow(
+            self.vtu,
+            why_not,
+            translate("plate", "Mesh, displacement, stress and modes for ParaView and the like"),
+        )
+        allow(self.png, why_not, translate("plate", "The picture as it is shown"))
         self.controls.setEnabled(self.solved is not None)
         if self.solved is None:
-            self.canvas.show_picture(None, EMPTY)
+            self.canvas.show_picture(None, translate("plate", EMPTY))
 
     def _show(self) -> None:
         """Draw the plate as the controls say; a mode swings while it is in sight."""
@@ -220,9 +238,11 @@ class PlatePanel(Panel):
         assert solved is not None
         self.workbench.work(
             "plate vtu",
-            f"Writing {path.name} …",
+            translate("plate", "Writing {name} …").format(name=path.name),
             lambda: write_vtu(path, solved.solutions, pose, solved.modes),
-            lambda _: self.workbench.notify(Level.GOOD, f"Saved {path}"),
+            lambda _: self.workbench.notify(
+                Level.GOOD, translate("plate", "Saved {path}").format(path=path)
+            ),
         )
 
     def save_png(self, path: Path) -> None:
@@ -238,15 +258,20 @@ class PlatePanel(Panel):
 
         self.workbench.work(
             "plate png",
-            f"Writing {path.name} …",
+            translate("plate", "Writing {name} …").format(name=path.name),
             write,
-            lambda _: self.workbench.notify(Level.GOOD, f"Saved {path}"),
+            lambda _: self.workbench.notify(
+                Level.GOOD, translate("plate", "Saved {path}").format(path=path)
+            ),
         )
 
     def _ask(self, suffix: str) -> None:
         settings = self.workbench.settings
-        kinds = f"{suffix.upper()} (*.{suffix});;All files (*)"
-        dialog = QFileDialog(self, "Save the plate", settings.get("files.folder", ""), kinds)
+        every = translate("plate", "All files (*)")
+        kinds = f"{suffix.upper()} (*.{suffix});;{every}"
+        dialog = QFileDialog(
+            self, translate("plate", "Save the plate"), settings.get("files.folder", ""), kinds
+        )
         dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rotemina.app.shell.language import translate
 from rotemina.plugins.plate.drawing import Surface
 from rotemina.plugins.plate.quantities import QUANTITIES, Quantity
 from rotemina.plugins.plate.solved import Solved
@@ -42,9 +43,8 @@ def static_picture(solved: Solved, pose: FloatArray, quantity: Quantity, scale: 
         pose * magnified,
     )
     factor = quantity.per_si
-    return Picture(
-        surface, quantity.title, quantity.unit, low * factor, largest * factor, magnified
-    )
+    title = translate("plate", quantity.title)
+    return Picture(surface, title, quantity.unit, low * factor, largest * factor, magnified)
 
 
 def mode_picture(solved: Solved, number: int, phase: float, scale: float) -> Picture:
@@ -55,7 +55,9 @@ def mode_picture(solved: Solved, number: int, phase: float, scale: float) -> Pic
     hub = solved.modes.hub[number] * swing * size
     surface = _surface(solved, shape * swing * size, shape * swing, (-1.0, 1.0), hub)
     frequency = solved.modes.frequencies_hz[number]
-    return Picture(surface, f"Mode {number + 1}, {frequency:.0f} Hz", "", -1.0, 1.0, 1.0)
+    title = translate("plate", "Mode {number}, {frequency:.0f} Hz")
+    title = title.format(number=number + 1, frequency=frequency)
+    return Picture(surface, title, "", -1.0, 1.0, 1.0)
 
 
 def _surface(

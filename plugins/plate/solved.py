@@ -6,6 +6,7 @@ from itertools import product
 
 import numpy as np
 
+from rotemina.app.shell.language import marked
 from rotemina.plugins.plate.quantities import largest_values
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plate.mesh import PlateMesh
@@ -51,7 +52,7 @@ class Solved:
 
 
 def solved(robot: Robot, divisions: int, stage: Callable[[str], None]) -> Solved:
-    """Solve a robot's plate; ``stage`` is told what comes next, and may raise to end it.
+    """Solve a robot's plate; ``stage`` is told what comes next (a marked text), and may raise.
 
     Raises
     ------
@@ -59,13 +60,13 @@ def solved(robot: Robot, divisions: int, stage: Callable[[str], None]) -> Solved
         If the plate cannot be computed, or the robot does not have the axes that it carries.
     """
     ranges, length = motion_ranges(robot), pin_length(robot)
-    stage("meshing")
+    stage(marked("plate", "meshing"))
     held = hold(robot.plate, divisions)
-    stage("solving")
+    stage(marked("plate", "solving"))
     solutions = solve(held)
-    stage("modes")
+    stage(marked("plate", "modes"))
     modes = eigenmodes(held, length, MODES)
-    stage("range of motion")
+    stage(marked("plate", "range of motion"))
     return Solved(
         solutions=solutions,
         modes=modes,

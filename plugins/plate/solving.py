@@ -3,6 +3,7 @@
 from PySide6.QtCore import QObject, Signal
 
 from rotemina.app.shell.job import Job, Tell
+from rotemina.app.shell.language import marked
 from rotemina.plugins.plate.drawing import View, drawn
 from rotemina.plugins.plate.picture import static_picture
 from rotemina.plugins.plate.quantities import QUANTITIES
@@ -44,7 +45,7 @@ class Solving(QObject):
                 tell(name, 0.0, None)
 
             answer = solved(robot, divisions, stage)
-            stage("drawing")
+            stage(marked("plate", "drawing"))
             # The first time this loads or compiles the loop over pixels: not on the window's
             # thread.
             picture = static_picture(answer, answer.ranges[:, 1], QUANTITIES[0], 1.0)

@@ -2,15 +2,29 @@
 
 import numpy as np
 
+from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.plate.solved import Solved
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plate.application import agreement
-from rotemina.sim.plate.report import TOLERANCE, mode_name, pose_text, safety_text
-from rotemina.sim.plate.stress import safety
+from rotemina.sim.plate.report import TOLERANCE, mode_name, pose_text
+from rotemina.sim.plate.stress import Place, Safety, safety
+from rotemina.sim.robot.plate import Plate
 
-MESHES = (("Coarse mesh", 60), ("Default mesh", 120), ("Fine mesh", 240))
+MESHES = (
+    (marked("plate", "Coarse mesh"), 60),
+    (marked("plate", "Default mesh"), 120),
+    (marked("plate", "Fine mesh"), 240),
+)
+_NEAR = 0.02  # of the way from hub to rim
 AXES = (("zn", "µm", 1e6), ("thx", "µrad", 1e6), ("thy", "µrad", 1e6))
-EMPTY = "Solve the plate of this robot to see its stress, its deformation and its modes."
+EMPTY = marked(
+    "plate", "Solve the plate of this robot to see its stress, its deformation and its modes."
+)
+
+
+# What moves in a mode, as the model says it.
+MODES = (marked("plate", "hub along the pin"), marked("plate", "plate between hub and rim"))
+_TILTS = "hub tilts about "
 
 
 def pose_lines(solved: Solved, pose: FloatArray) -> str:
@@ -18,12 +32,40 @@ def pose_lines(solved: Solved, pose: FloatArray) -> str:
     solutions = solved.solutions
     found = safety(solutions, pose)
     force, about_x, about_y = solutions.stiffness @ pose
-    lines = [
-        f"Reaction {force:.1f} N; {1e3 * about_x:.1f} and {1e3 * about_y:.1f} N mm about x and y",
-    ]
+    reaction = translate("plate", "Reaction {force:.1f} N; {x:.1f} and {y:.1f} N mm about x and y")
+    lines = [reaction.format(force=force, x=1e3 * about_x, y=1e3 * about_y)]
     if np.any(pose):
-        lines.insert(0, _capital(safety_text(found, solutions.held.plate)))
+        lines.insert(0, safety_text(found, solutions.held.plate))
     return "\n".join(lines)
+
+
+def safety_text(found: Safety, plate: Plate) -> str:
+    """Say how safe the plate is, and whether it yields."""
+    text = translate(
+        "plate",
+        "{stress:.1f} MPa von Mises {place}; safety {factor:.2f} against yield at {limit:.0f} MPa",
+    )
+    said = text.format(
+        stress=1e-6 * found.place.stress,
+        place=place_text(found.place, plate),
+        factor=found.factor,
+        limit=1e-6 * plate.yield_stress,
+    )
+    if found.factor < 1.0:
+        return translate("plate", "THE PLATE YIELDS: {said}").format(said=said)
+    return said
+
+
+def place_text(place: Place, plate: Plate) -> str:
+    """Say where on the plate a place is."""
+    share = (place.radius - plate.hub_radius) / (plate.rim_radius - plate.hub_radius)
+    text = translate("plate", "between, r {radius:.2f} mm, {degrees:.0f}°")
+    if share < _NEAR:
+        text = translate("plate", "at the hub, r {radius:.2f} mm, {degrees:.0f}°")
+    elif share > 1.0 - _NEAR:
+        text = translate("plate", "at the rim, r {radius:.2f} mm, {degrees:.0f}°")
+    degrees = np.degrees(place.direction) % 360.0
+    return text.format(radius=1e3 * place.radius, degrees=degrees)
 
 
 def plate_text(solved: Solved) -> str:
@@ -31,13 +73,25 @@ def plate_text(solved: Solved) -> str:
     solutions = solved.solutions
     axial, tilt_x, tilt_y = np.diag(solutions.stiffness)
     far = max(abs(entry.difference) for entry in agreement(solutions))
-    word = "agree" if far <= TOLERANCE else "do not agree"
+    agrees = translate(
+        "plate",
+        "{axial:.3f} N/µm along the pin; {x:.4g} and {y:.4g} N m/rad in tilt: they agree with the "
+        "shipped robot within {tolerance:.0%}",
+    )
+    differs = translate(
+        "plate",
+        "{axial:.3f} N/µm along the pin; {x:.4g} and {y:.4g} N m/rad in tilt: they do not agree "
+        "with the shipped robot within {tolerance:.0%}",
+    )
+    stiff = agrees if far <= TOLERANCE else differs
+    whole = translate("plate", "Whole range: {safety}, at {pose}")
     return "\n".join(
         [
-            f"{1e-6 * axial:.3f} N/µm along the pin; {tilt_x:.4g} and {tilt_y:.4g} N m/rad in "
-            f"tilt: they {word} with the shipped robot within {TOLERANCE:.0%}",
-            f"Whole range: {safety_text(solved.least, solutions.held.plate)}, at "
-            f"{pose_text(solved.least.pose)}",
+            stiff.format(axial=1e-6 * axial, x=tilt_x, y=tilt_y, tolerance=TOLERANCE),
+            whole.format(
+                safety=safety_text(solved.least, solutions.held.plate),
+                pose=pose_text(solved.least.pose),
+            ),
         ]
     )
 
@@ -46,7 +100,7 @@ def mode_titles(solved: Solved) -> list[str]:
     """Return a title for each mode."""
     modes = solved.modes
     return [
-        f"{number}  {frequency:.0f} Hz  {mode_name(hub)}"
+        f"{number}  {frequency:.0f} Hz  {_mode(mode_name(hub))}"
         for number, (frequency, hub) in enumerate(
             zip(modes.frequencies_hz, modes.hub, strict=True), start=1
         )
@@ -58,5 +112,8 @@ def yields(solved: Solved, pose: FloatArray) -> bool:
     return safety(solved.solutions, pose).factor < 1.0
 
 
-def _capital(text: str) -> str:
-    return text[0].upper() + text[1:]
+def _mode(name: str) -> str:
+    about = name.removeprefix(_TILTS)
+    if about != name:
+        return translate("plate", "hub tilts about {angle}").format(angle=about)
+    return translate("plate", name)
