@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QApplication
 from rotemina.app.panel import Area
 from rotemina.app.shell import layouts
 from rotemina.app.shell import theme as themes
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level
 
 if TYPE_CHECKING:
@@ -54,18 +55,24 @@ class Arrangement(QObject):
         """Keep the layout as it is under a name, in the place of one of that name."""
         objection = self.kept.objection(name)
         if objection is not None:
-            text = f"The layout is not saved: {objection}."
+            text = translate("shell", "The layout is not saved: {objection}.").format(
+                objection=objection
+            )
             self._bench.notify(Level.WARNING, text, about="window.md#layouts")
             return
         self.kept.keep(name, self._window.saveState(layouts.VERSION))
-        self._bench.notify(Level.GOOD, f"The layout is saved as {name!r}.")
+        self._bench.notify(
+            Level.GOOD, translate("shell", "The layout is saved as {name!r}.").format(name=name)
+        )
 
     def use_kept(self, name: str) -> None:
         """Bring back a layout that was kept."""
         if not self._use(self.kept.state(name)):
             self._bench.notify(
                 Level.WARNING,
-                f"The layout {name!r} cannot be read; delete it and save it anew.",
+                translate(
+                    "shell", "The layout {name!r} cannot be read; delete it and save it anew."
+                ).format(name=name),
                 about="window.md#layouts",
             )
 

@@ -7,6 +7,7 @@ from typing import NamedTuple, TypeVar
 from PySide6.QtCore import QObject, QRunnable, QThreadPool, Signal
 
 from rotemina.app.shell.help_topics import explained
+from rotemina.app.shell.language import translate
 from rotemina.sim.errors import InputError
 
 logger = logging.getLogger(__name__)
@@ -34,7 +35,9 @@ class _Job(QRunnable):
             failure = explained(error)
         except Exception as error:  # a fault of the program must reach the operator, not vanish
             logger.exception("work in the background failed")
-            failure = f"a fault of the program: {type(error).__name__}: {error}"
+            failure = translate("shell", "a fault of the program: {name}: {error}").format(
+                name=type(error).__name__, error=error
+            )
         self._finished(answer, failure)
 
 

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.layout import parse_columns
@@ -42,7 +43,12 @@ def ask_columns(
         else:
             _open_dialog(path, look, workbench, parent, use)
 
-    workbench.work("preview", f"Looking at {path.name} …", lambda: preview(path), seen)
+    workbench.work(
+        "preview",
+        translate("shell", "Looking at {name} …").format(name=path.name),
+        lambda: preview(path),
+        seen,
+    )
 
 
 def _open_dialog(
@@ -69,7 +75,7 @@ class ColumnMappingDialog(QDialog):
 
     def __init__(self, path: Path, seen: Preview, robot: Robot, parent: QWidget) -> None:
         super().__init__(parent)
-        self.setWindowTitle(f"Columns of {path.name}")
+        self.setWindowTitle(translate("shell", "Columns of {name}").format(name=path.name))
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._robot = robot
         self._choices = [_choice(robot) for _ in range(seen.column_count)]
@@ -83,7 +89,9 @@ class ColumnMappingDialog(QDialog):
         self._buttons.accepted.connect(self.accept)
         self._buttons.rejected.connect(self.reject)
         column = QVBoxLayout(self)
-        column.addWidget(QLabel("The file has no header. Say what each column holds:"))
+        column.addWidget(
+            QLabel(translate("shell", "The file has no header. Say what each column holds:"))
+        )
         column.addWidget(self._table(seen), 1)
         column.addWidget(self._complaint)
         column.addWidget(self._buttons)
@@ -110,7 +118,10 @@ class ColumnMappingDialog(QDialog):
         table.verticalHeader().hide()
         table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Stretch)
         for column, choice in enumerate(self._choices):
-            table.setHorizontalHeaderItem(column, QTableWidgetItem(f"column {column + 1}"))
+            table.setHorizontalHeaderItem(
+                column,
+                QTableWidgetItem(translate("shell", "column {number}").format(number=column + 1)),
+            )
             table.setCellWidget(0, column, choice)
         for row, fields in enumerate(seen.rows):
             for column, field in enumerate(fields[: seen.column_count]):

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 from rotemina.app.motion.state import Connection
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.layouts import BUILT_IN
 from rotemina.app.shell.theme import THEMES
 from rotemina.app.shell.workbench import Workbench
@@ -11,7 +12,11 @@ from rotemina.app.shell.workbench import Workbench
 if TYPE_CHECKING:
     from rotemina.app.shell.main_window import MainWindow
 
-_THEME_TEXTS = {"dark": "&Dark theme", "light": "&Light theme", "contrast": "&High contrast"}
+_THEME_TEXTS = {
+    "dark": marked("shell", "&Dark theme"),
+    "light": marked("shell", "&Light theme"),
+    "contrast": marked("shell", "&High contrast"),
+}
 
 
 def always() -> str | None:
@@ -39,15 +44,42 @@ def _file(window: "MainWindow") -> list[Command]:
     bench = window.workbench
 
     def no_record() -> str | None:
-        return None if bench.record else "there is no record; play a trajectory or open one"
+        return (
+            None
+            if bench.record
+            else translate("shell", "there is no record; play a trajectory or open one")
+        )
 
     return [
-        Command("&File", "Load &trajectory …", "Ctrl+T", window.ask_trajectory, "Load and dry-run"),
-        Command("&File", "&Open record …", "Ctrl+O", window.ask_record, "Compare with the model"),
         Command(
-            "&File", "&Save record …", "Ctrl+S", window.ask_save, "Save the last record", no_record
+            translate("shell", "&File"),
+            translate("shell", "Load &trajectory …"),
+            "Ctrl+T",
+            window.ask_trajectory,
+            translate("shell", "Load and dry-run"),
         ),
-        Command("&File", "&Quit", "Ctrl+Q", window.close, "Stop and leave"),
+        Command(
+            translate("shell", "&File"),
+            translate("shell", "&Open record …"),
+            "Ctrl+O",
+            window.ask_record,
+            translate("shell", "Compare with the model"),
+        ),
+        Command(
+            translate("shell", "&File"),
+            translate("shell", "&Save record …"),
+            "Ctrl+S",
+            window.ask_save,
+            translate("shell", "Save the last record"),
+            no_record,
+        ),
+        Command(
+            translate("shell", "&File"),
+            translate("shell", "&Quit"),
+            "Ctrl+Q",
+            window.close,
+            translate("shell", "Stop and leave"),
+        ),
     ]
 
 
@@ -55,43 +87,109 @@ def _motion(bench: Workbench) -> list[Command]:
     state = bench.session.snapshot
 
     def no_play() -> str | None:
-        return state().locked if bench.plan else "there is no trajectory; load one first"
+        return (
+            state().locked
+            if bench.plan
+            else translate("shell", "there is no trajectory; load one first")
+        )
 
     def no_release() -> str | None:
-        return None if state().latched else "the emergency stop is not latched"
+        return None if state().latched else translate("shell", "the emergency stop is not latched")
 
     def no_way_back() -> str | None:
-        return None if bench.session.undoable else "there is no move to take back"
+        return (
+            None if bench.session.undoable else translate("shell", "there is no move to take back")
+        )
 
     def no_device() -> str | None:
-        return None if state().connection is Connection.CONNECTED else "no device is connected"
+        return (
+            None
+            if state().connection is Connection.CONNECTED
+            else translate("shell", "no device is connected")
+        )
 
     def no_fault() -> str | None:
-        return None if state().fault else "there is no fault"
+        return None if state().fault else translate("shell", "there is no fault")
 
     def connected() -> str | None:
-        return "it is connected" if state().connection is Connection.CONNECTED else None
+        return (
+            translate("shell", "it is connected")
+            if state().connection is Connection.CONNECTED
+            else None
+        )
 
-    menu = "&Motion"
+    menu = translate("shell", "&Motion")
     return [
-        Command(menu, "&Play or pause", "Ctrl+P", bench.toggle_playback, "The trajectory", no_play),
-        Command(menu, "&Stop", "", bench.stop, "Stop all axes and hold (Esc)"),
-        Command(menu, "&Emergency stop", "", bench.emergency_stop, "Latched (Shift+Esc)"),
         Command(
-            menu, "Re&lease the emergency stop", "", bench.release, "Let axes move", no_release
+            menu,
+            translate("shell", "&Play or pause"),
+            "Ctrl+P",
+            bench.toggle_playback,
+            translate("shell", "The trajectory"),
+            no_play,
         ),
         Command(
             menu,
-            "&Back to before the latest move",
+            translate("shell", "&Stop"),
+            "",
+            bench.stop,
+            translate("shell", "Stop all axes and hold (Esc)"),
+        ),
+        Command(
+            menu,
+            translate("shell", "&Emergency stop"),
+            "",
+            bench.emergency_stop,
+            translate("shell", "Latched (Shift+Esc)"),
+        ),
+        Command(
+            menu,
+            translate("shell", "Re&lease the emergency stop"),
+            "",
+            bench.release,
+            translate("shell", "Let axes move"),
+            no_release,
+        ),
+        Command(
+            menu,
+            translate("shell", "&Back to before the latest move"),
             "Ctrl+Z",
             bench.undo,
-            "Retract, travel, approach",
+            translate("shell", "Retract, travel, approach"),
             no_way_back,
         ),
-        Command(menu, "&Home all axes", "", bench.home, "Find the limit switches", no_device),
-        Command(menu, "&Clear fault", "", bench.clear_fault, "Acknowledge it", no_fault),
-        Command(menu, "&Reconnect", "", bench.reconnect, "Connect after a failure", connected),
-        Command(menu, "&Disconnect", "", bench.let_go, "Stop, and let go of it", no_device),
+        Command(
+            menu,
+            translate("shell", "&Home all axes"),
+            "",
+            bench.home,
+            translate("shell", "Find the limit switches"),
+            no_device,
+        ),
+        Command(
+            menu,
+            translate("shell", "&Clear fault"),
+            "",
+            bench.clear_fault,
+            translate("shell", "Acknowledge it"),
+            no_fault,
+        ),
+        Command(
+            menu,
+            translate("shell", "&Reconnect"),
+            "",
+            bench.reconnect,
+            translate("shell", "Connect after a failure"),
+            connected,
+        ),
+        Command(
+            menu,
+            translate("shell", "&Disconnect"),
+            "",
+            bench.let_go,
+            translate("shell", "Stop, and let go of it"),
+            no_device,
+        ),
     ]
 
 
@@ -99,44 +197,106 @@ def _view(window: "MainWindow") -> list[Command]:
     looks = window.arrangement
     layouts = [
         Command(
-            "&View",
-            layout.title,
+            translate("shell", "&View"),
+            translate("shell", layout.title),
             layout.shortcut,
             lambda layout=layout: looks.arrange(layout),
-            layout.tip,
+            translate("shell", layout.tip),
         )
         for layout in BUILT_IN
     ]
     return [
         *layouts,
-        Command("&View", "Save la&yout …", "", window.ask_layout_name, "Keep it under a name"),
         Command(
-            "&View", "&Restore the layout", "Ctrl+Shift+0", window.reset_layout, "All docks back"
+            translate("shell", "&View"),
+            translate("shell", "Save la&yout …"),
+            "",
+            window.ask_layout_name,
+            translate("shell", "Keep it under a name"),
+        ),
+        Command(
+            translate("shell", "&View"),
+            translate("shell", "&Restore the layout"),
+            "Ctrl+Shift+0",
+            window.reset_layout,
+            translate("shell", "All docks back"),
         ),
         *(
-            Command("&View", _THEME_TEXTS[name], "", lambda name=name: window.use_theme(name), "")
+            Command(
+                translate("shell", "&View"),
+                translate("shell", _THEME_TEXTS[name]),
+                "",
+                lambda name=name: window.use_theme(name),
+                "",
+            )
             for name in THEMES
         ),
-        Command("&View", "Larger text", "Ctrl++", lambda: looks.step_scale(1), "Up to twice"),
-        Command("&View", "Smaller text", "Ctrl+-", lambda: looks.step_scale(-1), ""),
         Command(
-            "&View", "Text as the screen suits", "Ctrl+0", looks.suit_the_screen, "By its height"
+            translate("shell", "&View"),
+            translate("shell", "Larger text"),
+            "Ctrl++",
+            lambda: looks.step_scale(1),
+            translate("shell", "Up to twice"),
+        ),
+        Command(
+            translate("shell", "&View"),
+            translate("shell", "Smaller text"),
+            "Ctrl+-",
+            lambda: looks.step_scale(-1),
+            "",
+        ),
+        Command(
+            translate("shell", "&View"),
+            translate("shell", "Text as the screen suits"),
+            "Ctrl+0",
+            looks.suit_the_screen,
+            translate("shell", "By its height"),
         ),
     ]
 
 
 def _help(window: "MainWindow") -> list[Command]:
     return [
-        Command("&Help", "&Find a command …", "Ctrl+Shift+P", window.toggle_palette, "By letters"),
-        Command("&Help", "Help on this &panel", "F1", window.help_here, "The one with the focus"),
-        Command("&Help", "&All pages", "", window.show_help, "They need no network"),
-        Command("&Help", "&Keys", "Shift+F1", window.show_keys, "All shortcuts"),
-        Command("&Help", "&Log", "Ctrl+L", window.show_log, "All that the program told"),
         Command(
-            "&Help",
-            "&Support bundle …",
+            translate("shell", "&Help"),
+            translate("shell", "&Find a command …"),
+            "Ctrl+Shift+P",
+            window.toggle_palette,
+            translate("shell", "By letters"),
+        ),
+        Command(
+            translate("shell", "&Help"),
+            translate("shell", "Help on this &panel"),
+            "F1",
+            window.help_here,
+            translate("shell", "The one with the focus"),
+        ),
+        Command(
+            translate("shell", "&Help"),
+            translate("shell", "&All pages"),
+            "",
+            window.show_help,
+            translate("shell", "They need no network"),
+        ),
+        Command(
+            translate("shell", "&Help"),
+            translate("shell", "&Keys"),
+            "Shift+F1",
+            window.show_keys,
+            translate("shell", "All shortcuts"),
+        ),
+        Command(
+            translate("shell", "&Help"),
+            translate("shell", "&Log"),
+            "Ctrl+L",
+            window.show_log,
+            translate("shell", "All that the program told"),
+        ),
+        Command(
+            translate("shell", "&Help"),
+            translate("shell", "&Support bundle …"),
             "",
             window.show_support,
-            "Log, settings, versions and record for those who help",
+            translate("shell", "Log, settings, versions and record for those who help"),
         ),
     ]

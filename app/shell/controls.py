@@ -6,6 +6,9 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
+from rotemina.app.shell.engine_words import spoken
+from rotemina.app.shell.language import translate
+
 _WHY_NOT = "whyNot"
 
 
@@ -17,7 +20,10 @@ def plain_tip(*lines: str) -> str:
 def allow(widget: QWidget, why_not: str | None, tip: str) -> None:
     """Enable a control, or disable it with a tooltip that says why it cannot act."""
     widget.setEnabled(why_not is None)
-    text = plain_tip(tip, f"Not now: {why_not}" if why_not else "")
+    text = plain_tip(
+        tip,
+        translate("shell", "Not now: {why_not}").format(why_not=spoken(why_not)) if why_not else "",
+    )
     if widget.toolTip() != text:
         widget.setToolTip(text)
         widget.setProperty(_WHY_NOT, why_not or "")

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
 from rotemina.app.panel import Panel
 from rotemina.app.shell.commands import Command
 from rotemina.app.shell.controls import why_not
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
 
 _SIGNS = "✕…▾▴●■± "  # what ends or begins the text of a button without being a word
@@ -50,7 +51,10 @@ def command_entries(commands: Iterable[Command]) -> Iterator[Entry]:
     """Yield an entry for each command of the menus."""
     for command in commands:
         where, what = command.menu.replace("&", ""), command.text.replace("&", "")
-        yield Entry(where, what, command.shortcut, command.why_not(), command.run)
+        reason = command.why_not()
+        yield Entry(
+            where, what, command.shortcut, None if reason is None else spoken(reason), command.run
+        )
 
 
 def panel_entries(
@@ -62,7 +66,7 @@ def panel_entries(
     """
     for name, panel in panels.items():
         title = docks[name].windowTitle() if name in docks else translate("panels", panel.title)
-        yield Entry("Panel", title, "", None, lambda name=name: show(name))
+        yield Entry(translate("shell", "Panel"), title, "", None, lambda name=name: show(name))
         for button in _buttons(panel):
             yield Entry(
                 title,
@@ -119,4 +123,5 @@ def _words(button: QAbstractButton) -> str:
 def _why_not(button: QAbstractButton) -> str | None:
     if button.isEnabled():
         return None
-    return why_not(button) or "its panel does not allow it now"
+    reason = why_not(button)
+    return spoken(reason) if reason else translate("shell", "its panel does not allow it now")

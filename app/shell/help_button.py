@@ -6,6 +6,7 @@ from PySide6.QtCore import QEvent, QObject
 from PySide6.QtWidgets import QAbstractButton, QDockWidget, QTabWidget, QToolButton, QWidget
 
 from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.language import translate
 
 _GAP = 2  # px between the buttons of a title bar
 _OWN_BUTTONS = ("qt_dockwidget_floatbutton", "qt_dockwidget_closebutton")
@@ -22,8 +23,8 @@ class HelpButton(QToolButton):
 
     def tell(self, title: str) -> None:
         """Say whose page it opens."""
-        self.setToolTip(plain_tip(f"Help on {title} (F1)"))
-        self.setAccessibleName(f"Help on {title}")
+        self.setToolTip(plain_tip(translate("shell", "Help on {title} (F1)").format(title=title)))
+        self.setAccessibleName(translate("shell", "Help on {title}").format(title=title))
 
 
 class DockHelp(QObject):

@@ -24,6 +24,7 @@ from PySide6.QtWidgets import (
 from rotemina.app.shell import help_pages
 from rotemina.app.shell.controls import allow
 from rotemina.app.shell.help_pages import Page
+from rotemina.app.shell.language import translate
 
 MOST_BACK = 100  # pages that Back goes over
 _MARGIN = 14.0  # px around text
@@ -37,7 +38,7 @@ class HelpBrowser(QTextBrowser):
     def __init__(self) -> None:
         super().__init__()
         self.setOpenLinks(False)  # the page decides where a link leads
-        self.setAccessibleName("Page of the documentation")
+        self.setAccessibleName(translate("shell", "Page of the documentation"))
         self.page = Page(help_pages.PACKAGE, help_pages.CONTENTS)
 
     def show_page(self, page: Page, text: str) -> None:
@@ -102,13 +103,15 @@ class HelpPage(QDialog):
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
-        self.setWindowTitle("Help")
+        self.setWindowTitle(translate("shell", "Help"))
         self.resize(820, 640)
         self.browser = HelpBrowser()
         self.browser.anchorClicked.connect(self._follow)
-        self.back = self._button("Back", QKeySequence("Alt+Left"), self.go_back)
-        self.contents = self._button("Contents", QKeySequence("Alt+Home"), self._open_contents)
-        allow(self.contents, None, "All pages (Alt+Home)")
+        self.back = self._button(translate("shell", "Back"), QKeySequence("Alt+Left"), self.go_back)
+        self.contents = self._button(
+            translate("shell", "Contents"), QKeySequence("Alt+Home"), self._open_contents
+        )
+        allow(self.contents, None, translate("shell", "All pages (Alt+Home)"))
         self.told = QLabel()
         self.told.setProperty("quiet", True)
         self.told.setWordWrap(True)
@@ -155,8 +158,11 @@ class HelpPage(QDialog):
         target = self.page.beside(address.toString()) if address.isRelative() else None
         if target is None or not target.path.endswith(".md") or not target.exists:
             self.told.setText(
-                f"{address.toString()} is not carried by the program; it is in the folder docs of "
-                "its source, and on the site that `make docs` makes."
+                translate(
+                    "shell",
+                    "{address} is not carried by the program; it is in the folder docs of "
+                    "its source, and on the site that `make docs` makes.",
+                ).format(address=address.toString())
             )
             return
         self._gone = [*self._gone, self.page][-MOST_BACK:]
@@ -165,20 +171,24 @@ class HelpPage(QDialog):
     def _show(self, page: Page) -> None:
         text = help_pages.contents() if page.name == help_pages.CONTENTS else page.text()
         if text is None:
-            text = f"# No such page\n\nThe program carries no page {page.name!r}. [All pages]"
+            text = translate(
+                "shell", "# No such page\n\nThe program carries no page {name!r}. [All pages]"
+            ).format(name=page.name)
             text += f"({help_pages.CONTENTS})"
             page = Page(help_pages.PACKAGE, page.path)
         self.told.clear()
         self.browser.show_page(page, text)
-        self.setWindowTitle(f"Help: {self.browser.document().begin().text()}")
+        self.setWindowTitle(
+            translate("shell", "Help: {text}").format(text=self.browser.document().begin().text())
+        )
         self._allow()
 
     def _open_contents(self) -> None:
         self.open_page(help_pages.CONTENTS)
 
     def _allow(self) -> None:
-        none = None if self._gone else "there is no page before this one"
-        allow(self.back, none, "The page before (Alt+Left)")
+        none = None if self._gone else translate("shell", "there is no page before this one")
+        allow(self.back, none, translate("shell", "The page before (Alt+Left)"))
 
     def _button(self, text: str, keys: QKeySequence, act: object) -> QPushButton:
         button = QPushButton(text)

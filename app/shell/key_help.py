@@ -7,16 +7,21 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QDialog, QLabel, QScrollArea, QVBoxLayout, QWidget
 
+from rotemina.app.shell.language import marked, translate
+
 #: Keys that no action has, for they work wherever the focus is.
 ANYWHERE = (
-    ("Esc", "Stop all axes and hold; a stop by software"),
-    ("Shift+Esc", "Emergency stop: latched until it is released; a stop by software"),
+    ("Esc", marked("shell", "Stop all axes and hold; a stop by software")),
+    (
+        "Shift+Esc",
+        marked("shell", "Emergency stop: latched until it is released; a stop by software"),
+    ),
 )
 
 
 def keys(actions: Iterable[QAction]) -> list[tuple[str, str]]:
     """Return each shortcut as people read it, with what it does, those of stops first."""
-    rows = list(ANYWHERE)
+    rows = [(key, translate("shell", what)) for key, what in ANYWHERE]
     for action in actions:
         what = action.text().replace("&", "").removesuffix(" …")
         if action.statusTip():
@@ -32,7 +37,7 @@ class KeyHelp(QDialog):
     def __init__(self, rows: Iterable[tuple[str, str]], parent: QWidget) -> None:
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self.setWindowTitle("Keys")
+        self.setWindowTitle(translate("shell", "Keys"))
         self.table = QLabel(_table(rows))
         self.table.setTextFormat(Qt.TextFormat.RichText)
         self.table.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)

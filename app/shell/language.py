@@ -24,6 +24,7 @@ ENGLISH = "en"
 #: Each language by what it calls itself.
 LANGUAGES = {ENGLISH: "English", "de": "Deutsch"}
 _PACKAGE = "rotemina.resources.languages"
+_IN_USE = "language"  # property of the application
 
 
 def translate(context: str, text: str) -> str:
@@ -54,6 +55,7 @@ def chosen(settings: Settings) -> str:
 
 def use(application: QCoreApplication, language: str) -> None:
     """Let all that is made from now on speak a language; texts that are missing are English."""
+    application.setProperty(_IN_USE, language)
     for old in application.findChildren(QTranslator):
         application.removeTranslator(old)
         old.deleteLater()
@@ -64,6 +66,12 @@ def use(application: QCoreApplication, language: str) -> None:
     if dialogs.load(f"qtbase_{language}", folder):
         application.installTranslator(dialogs)
     install(application, resources.files(_PACKAGE), language)
+
+
+def in_use(application: QCoreApplication | None) -> str:
+    """Return the language that the window speaks."""
+    name = application.property(_IN_USE) if application is not None else None
+    return name or ENGLISH
 
 
 def install(application: QCoreApplication, folder: Traversable, language: str) -> None:

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from PySide6.QtWidgets import QHBoxLayout, QInputDialog, QMenu, QToolButton, QWidget
 
 from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.layouts import BUILT_IN, LONGEST_NAME, KeptLayouts, Layout
 
 
@@ -20,9 +21,9 @@ class LayoutRow(QWidget):
         for layout in BUILT_IN:
             button = self.buttons[layout.word] = QToolButton()
             button.setObjectName("layoutChoice")
-            button.setText(layout.word)
-            button.setToolTip(plain_tip(f"{layout.tip} ({layout.shortcut})"))
-            button.setAccessibleName(f"Layout: {layout.word}")
+            button.setText(layout.shown)
+            button.setToolTip(plain_tip(f"{translate('shell', layout.tip)} ({layout.shortcut})"))
+            button.setAccessibleName(translate("shell", "Layout: {name}").format(name=layout.shown))
             button.clicked.connect(lambda _=False, layout=layout: use(layout))
             row.addWidget(button)
 
@@ -31,7 +32,7 @@ class KeptLayoutMenu(QMenu):
     """The layouts of the user's own: to be shown again, or deleted."""
 
     def __init__(self, kept: KeptLayouts, use: Callable[[str], object], parent: QWidget) -> None:
-        super().__init__("My layouts", parent)
+        super().__init__(translate("shell", "My layouts"), parent)
         self._kept, self._use = kept, use
         self.aboutToShow.connect(self.fill)
         self.fill()
@@ -44,9 +45,9 @@ class KeptLayoutMenu(QMenu):
             action = self.addAction(name.replace("&", "&&"))
             action.triggered.connect(lambda _=False, name=name: self._use(name))
         if not names:
-            self.addAction("None is saved yet").setEnabled(False)
+            self.addAction(translate("shell", "None is saved yet")).setEnabled(False)
             return
-        delete = self.addMenu("Delete")
+        delete = self.addMenu(translate("shell", "Delete"))
         for name in names:
             action = delete.addAction(name.replace("&", "&&"))
             action.triggered.connect(lambda _=False, name=name: self._kept.forget(name))
@@ -55,8 +56,10 @@ class KeptLayoutMenu(QMenu):
 def ask_name(parent: QWidget, use: Callable[[str], object]) -> QInputDialog:
     """Ask for the name of a layout beside the window, whose stop button can still be used."""
     dialog = QInputDialog(parent)
-    dialog.setWindowTitle("Save layout")
-    dialog.setLabelText(f"Name of the layout (up to {LONGEST_NAME} letters):")
+    dialog.setWindowTitle(translate("shell", "Save layout"))
+    dialog.setLabelText(
+        translate("shell", "Name of the layout (up to {most} letters):").format(most=LONGEST_NAME)
+    )
     dialog.textValueSelected.connect(lambda text: use(text.strip()))
     dialog.finished.connect(dialog.deleteLater)
     dialog.show()

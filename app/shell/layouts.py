@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QDockWidget, QMainWindow, QTabBar
 
 from rotemina.app.panel import Area
 from rotemina.app.settings import Settings
+from rotemina.app.shell.language import marked, translate
 
 VERSION = 1  # of what Qt keeps of a layout
 MOST_KEPT = 20
@@ -45,14 +46,19 @@ class Layout:
 
     @property
     def word(self) -> str:
-        """The title without the mark of its key."""
+        """The title without the mark of its key, in English."""
         return self.title.replace("&", "")
+
+    @property
+    def shown(self) -> str:
+        """The same in the window's language."""
+        return translate("shell", self.title).replace("&", "")
 
 
 OPERATE = Layout(
-    "&Operate",
+    marked("shell", "&Operate"),
     "Ctrl+1",
-    "Drive the machine: control, devices, trajectory, penetration, recorder",
+    marked("shell", "Drive the machine: control, devices, trajectory, penetration, recorder"),
     {
         Area.CENTRE: ("plots",),
         Area.LEFT: ("control",),
@@ -62,9 +68,9 @@ OPERATE = Layout(
     0.33,
 )
 TUNE = Layout(
-    "T&une",
+    marked("shell", "T&une"),
     "Ctrl+2",
-    "Adjust the machine and its model: identification, calibration, effects",
+    marked("shell", "Adjust the machine and its model: identification, calibration, effects"),
     {
         Area.CENTRE: ("plots",),
         Area.LEFT: ("control",),
@@ -74,9 +80,9 @@ TUNE = Layout(
     0.45,
 )
 DIAGNOSE = Layout(
-    "Dia&gnose",
+    marked("shell", "Dia&gnose"),
     "Ctrl+3",
-    "Find out why the machine departs from its model: gap, comparison, effects",
+    marked("shell", "Find out why the machine departs from its model: gap, comparison, effects"),
     {
         Area.CENTRE: ("plots",),
         Area.BOTTOM: ("gap", "comparison", "trajectory", "effects", "faults", "recorder"),
@@ -180,13 +186,21 @@ class KeptLayouts:
     def objection(self, name: str) -> str | None:
         """Return why a layout cannot be kept under a name, or None."""
         if not name:
-            return "write a name"
+            return translate("shell", "write a name")
         if len(name) > LONGEST_NAME:
-            return f"the name has {len(name)} letters; {LONGEST_NAME} are the most"
-        if name.casefold() in (layout.word.casefold() for layout in BUILT_IN):
-            return f"{name} is a layout of the program; choose another name"
+            return translate("shell", "the name has {n} letters; {most} are the most").format(
+                n=len(name), most=LONGEST_NAME
+            )
+        if name.casefold() in (
+            word.casefold() for layout in BUILT_IN for word in (layout.word, layout.shown)
+        ):
+            return translate(
+                "shell", "{name} is a layout of the program; choose another name"
+            ).format(name=name)
         if len(self._all()) >= MOST_KEPT and name not in self._all():
-            return f"{MOST_KEPT} layouts are kept, which is the most; delete one first"
+            return translate(
+                "shell", "{n} layouts are kept, which is the most; delete one first"
+            ).format(n=MOST_KEPT)
         return None
 
     def _all(self) -> dict[str, str]:

@@ -24,16 +24,28 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.message_log import Message, MessageLog, chosen
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level
 
 REFRESH_MS = 300
-_HEADINGS = ("Time", "Level", "Source", "Message")
+_HEADINGS = (
+    marked("shell", "Time"),
+    marked("shell", "Level"),
+    marked("shell", "Source"),
+    marked("shell", "Message"),
+)
 _LEAST = {
-    "All messages": Level.INFO,
-    "Warnings and errors": Level.WARNING,
-    "Errors only": Level.ERROR,
+    Level.INFO: marked("shell", "All messages"),
+    Level.WARNING: marked("shell", "Warnings and errors"),
+    Level.ERROR: marked("shell", "Errors only"),
+}
+_LEVELS = {
+    Level.INFO: marked("shell", "info"),
+    Level.GOOD: marked("shell", "good"),
+    Level.WARNING: marked("shell", "warning"),
+    Level.ERROR: marked("shell", "error"),
 }
 _ROLES = {Level.WARNING: "warning", Level.ERROR: "danger_text", Level.GOOD: "good"}
 _Index = QModelIndex | QPersistentModelIndex
@@ -71,14 +83,16 @@ class MessageTable(QAbstractTableModel):
     ) -> object:
         """Return the heading of a column."""
         across = orientation is Qt.Orientation.Horizontal
-        return _HEADINGS[section] if across and role == Qt.ItemDataRole.DisplayRole else None
+        shown = across and role == Qt.ItemDataRole.DisplayRole
+        return translate("shell", _HEADINGS[section]) if shown else None
 
     def data(self, index: _Index, role: int = Qt.ItemDataRole.DisplayRole) -> object:
         """Return the text, tip or colour of a cell."""
         message = self._rows[index.row()]
         if role == Qt.ItemDataRole.DisplayRole:
+            level = translate("shell", _LEVELS[message.level])
             first_line = message.text.partition("\n")[0]
-            cells = (f"{message.time:%H:%M:%S}", str(message.level), message.source, first_line)
+            cells = (f"{message.time:%H:%M:%S}", level, message.source, first_line)
             return cells[index.column()]
         if role == Qt.ItemDataRole.ToolTipRole:
             return plain_tip(f"{message.time:%Y-%m-%d %H:%M:%S}", *message.text.splitlines())
@@ -99,25 +113,26 @@ class LogPage(QDialog):
 
     def __init__(self, log: MessageLog, theme: Theme, parent: QWidget) -> None:
         super().__init__(parent)
-        self.setWindowTitle("Log")
+        self.setWindowTitle(translate("shell", "Log"))
         self.resize(860, 420)
         self._log, self._shown = log, -1
         self.model = MessageTable(theme)
         self.level, self.words = QComboBox(), QLineEdit()
-        self.level.addItems(list(_LEAST))
-        self.level.setAccessibleName("Which messages")
-        self.words.setPlaceholderText("words to look for")
-        self.words.setAccessibleName("Words to look for in messages")
+        for least, text in _LEAST.items():
+            self.level.addItem(translate("shell", text), least)
+        self.level.setAccessibleName(translate("shell", "Which messages"))
+        self.words.setPlaceholderText(translate("shell", "words to look for"))
+        self.words.setAccessibleName(translate("shell", "Words to look for in messages"))
         self.words.setClearButtonEnabled(True)
         self.table = self._make_table()
         self.count = QLabel()
         self.count.setProperty("quiet", True)
-        self.copy = QPushButton("Copy")
+        self.copy = QPushButton(translate("shell", "Copy"))
         self.copy.setAutoDefault(False)
         self.copy.clicked.connect(self.copy_messages)
         self.help = QPushButton("?")
         self.help.setAutoDefault(False)
-        self.help.setAccessibleName("Help on the chosen message")
+        self.help.setAccessibleName(translate("shell", "Help on the chosen message"))
         self.help.clicked.connect(lambda: self.asked.emit(self._page()))
         self.table.selectionModel().selectionChanged.connect(lambda *_: self._allow_help())
         self._lay_out()
@@ -157,11 +172,13 @@ class LogPage(QDialog):
     def _show_messages(self) -> None:
         self._shown = self._log.count
         messages = self._log.messages()
-        picked = chosen(messages, _LEAST[self.level.currentText()], self.words.text())
+        picked = chosen(messages, self.level.currentData(), self.words.text())
         self.model.show_messages(picked)
-        self.count.setText(f"{len(picked)} of {len(messages)} messages")
-        tip = "Copy the selected messages, or all that are shown"
-        allow(self.copy, None if picked else "no message is shown", tip)
+        self.count.setText(
+            translate("shell", "{n} of {all} messages").format(n=len(picked), all=len(messages))
+        )
+        tip = translate("shell", "Copy the selected messages, or all that are shown")
+        allow(self.copy, None if picked else translate("shell", "no message is shown"), tip)
         self._allow_help()
 
     def _page(self) -> str:
@@ -170,15 +187,23 @@ class LogPage(QDialog):
 
     def _allow_help(self) -> None:
         one = len(self.table.selectionModel().selectedRows()) == 1
-        none = "no page is about it" if one else "choose one message"
+        none = (
+            translate("shell", "no page is about it")
+            if one
+            else translate("shell", "choose one message")
+        )
         page = self._page()
-        allow(self.help, None if page else none, f"What the message means: {page}" if page else "")
+        allow(
+            self.help,
+            None if page else none,
+            translate("shell", "What the message means: {page}").format(page=page) if page else "",
+        )
 
     def _make_table(self) -> QTableView:
         table = QTableView()
         table.setModel(self.model)
         table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
-        table.setAccessibleName("Messages, newest first")
+        table.setAccessibleName(translate("shell", "Messages, newest first"))
         table.verticalHeader().hide()
         table.setShowGrid(False)
         table.setWordWrap(False)

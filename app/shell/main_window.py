@@ -29,7 +29,8 @@ from rotemina.app.shell.help_button import DockHelp, TabHelp
 from rotemina.app.shell.help_page import HelpPage
 from rotemina.app.shell.help_topics import page_at
 from rotemina.app.shell.host import find_panels
-from rotemina.app.shell.language import translate
+from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language_menu import LanguageMenu, language_entries
 from rotemina.app.shell.late_panels import LatePanels
 from rotemina.app.shell.log_page import LogPage
 from rotemina.app.shell.message_log import MessageLog
@@ -45,7 +46,7 @@ from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.drivers.samples import DeviceState
 
 LEAST_HEIGHT = 300  # px of the central panels: notices must not make the window grow
-FILES = "Records and trajectories (*.csv *.txt *.dat *.gz);;All files (*)"
+FILES = marked("shell", "Records and trajectories (*.csv *.txt *.dat *.gz);;All files (*)")
 # Wide tables and long forms: one behind the other, not side by side or one below the other.
 TABBED = (Area.BOTTOM, Area.RIGHT)
 
@@ -163,7 +164,9 @@ class MainWindow(QMainWindow):
         if dock is not None:
             self.removeDockWidget(dock)
             dock.deleteLater()
-        text = f"Panel {name!r} is left out: {reason}"
+        text = translate("shell", "Panel {name!r} is left out: {reason}").format(
+            name=name, reason=reason
+        )
         self.workbench.notify(Level.ERROR, text, about="plugins.md#what-a-bad-plugin-can-do")
 
     def _make_menus(self) -> None:
@@ -176,11 +179,13 @@ class MainWindow(QMainWindow):
             action.setStatusTip(command.tip)
             action.triggered.connect(lambda _=False, run=command.run: run())
             menu.addAction(action)
-        view = self._menu("&View")
+        view = self._menu(translate("shell", "&View"))
         view.addSeparator()
         arrangement = self.arrangement
         self.layout_menu = layout_menu.KeptLayoutMenu(arrangement.kept, arrangement.use_kept, view)
         view.addMenu(self.layout_menu)
+        self.language_menu = LanguageMenu(self.workbench, view)
+        view.addMenu(self.language_menu)
         view.addSeparator()
         for dock in self.docks.values():
             view.addAction(dock.toggleViewAction())
@@ -210,14 +215,14 @@ class MainWindow(QMainWindow):
 
     def ask_trajectory(self) -> None:
         """Ask for a trajectory file and load it."""
-        self._ask_and("Load trajectory", self.workbench.load_trajectory)
+        self._ask_and(translate("shell", "Load trajectory"), self.workbench.load_trajectory)
 
     def ask_record(self) -> None:
         """Ask for a record file and compare it with the model."""
-        self._ask_and("Open record", self.workbench.open_record)
+        self._ask_and(translate("shell", "Open record"), self.workbench.open_record)
 
     def _ask_and(self, title: str, use: Callable[[Path, str | None], None]) -> None:
-        dialog = self._file_dialog(title, FILES)
+        dialog = self._file_dialog(title, translate("shell", FILES))
         dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
         dialog.fileSelected.connect(lambda name: self.use_file(Path(name), use))
         dialog.show()
@@ -229,10 +234,12 @@ class MainWindow(QMainWindow):
     def ask_save(self) -> None:
         """Ask where to, and save the record in hand."""
         if self.workbench.record is None:
-            text = "There is no record to save: play or open one."
+            text = translate("shell", "There is no record to save: play or open one.")
             self.workbench.notify(Level.WARNING, text, about="comparison.md")
             return
-        dialog = self._file_dialog("Save record", "Records (*.csv *.csv.gz)")
+        dialog = self._file_dialog(
+            translate("shell", "Save record"), translate("shell", "Records (*.csv *.csv.gz)")
+        )
         dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
         dialog.selectFile("record.csv")
         dialog.fileSelected.connect(lambda name: self.workbench.save_record(Path(name)))
@@ -287,7 +294,8 @@ class MainWindow(QMainWindow):
         yield from command_entries(self.commands())
         use = self.arrangement.use_kept
         for name in self.arrangement.kept.names():
-            yield Entry("Layout", name, "", None, lambda name=name: use(name))
+            yield Entry(translate("shell", "Layout"), name, "", None, lambda name=name: use(name))
+        yield from language_entries(self.workbench)
         self.panels.make_all()
         yield from panel_entries(self.panels.made, self.docks, self.bring_up)
 
@@ -352,8 +360,11 @@ class MainWindow(QMainWindow):
         self._leaving = True
         self.workbench.notify(
             Level.INFO,
-            "The window closes as soon as everything is written. Close it once more to leave at "
-            "once: a recording can be recovered at the next start.",
+            translate(
+                "shell",
+                "The window closes as soon as everything is written. Close it once more to leave "
+                "at once: a recording can be recovered at the next start.",
+            ),
         )
         self.workbench.finish_recording(self.close, self._stay)
 
@@ -368,8 +379,10 @@ class MainWindow(QMainWindow):
         button = QMessageBox.StandardButton
         answer = QMessageBox.question(
             self,
-            "Quit",
-            "The last played record is not kept in any file yet. Quit and lose it?",
+            translate("shell", "Quit"),
+            translate(
+                "shell", "The last played record is not kept in any file yet. Quit and lose it?"
+            ),
             button.Yes | button.No,
             button.No,
         )

@@ -9,12 +9,14 @@ from PySide6.QtWidgets import QLabel, QPushButton, QToolBar
 
 from rotemina.app.motion.state import Connection, SessionState
 from rotemina.app.shell.controls import ElidedLabel, plain_tip
+from rotemina.app.shell.engine_words import spoken
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.phase import PhaseLabel, doing
 from rotemina.app.shell.requests import Requests
 from rotemina.drivers.clock import Clock
 
 RELEASE_AFTER_S = 1.0  # a second press in alarm must not release what the first one latched
-_SOFTWARE = "This is a stop by software, not the machine's emergency switch."
+_SOFTWARE = marked("shell", "This is a stop by software, not the machine's emergency switch.")
 
 
 class StopWatch(QObject):
@@ -60,11 +62,11 @@ class EmergencyButton(QPushButton):
     """Latches the emergency stop, shows that it is latched, and releases it by another press."""
 
     def __init__(self, requests: Requests, clock: Clock = time.monotonic) -> None:
-        super().__init__("E-STOP")
+        super().__init__(translate("shell", "E-STOP"))
         self.setObjectName("emergency")
         self.setCheckable(True)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # no space bar may release it
-        self.setAccessibleName("Emergency stop")
+        self.setAccessibleName(translate("shell", "Emergency stop"))
         self._requests, self._clock = requests, clock
         self._latched_at_s: float | None = None
         self._show(None)
@@ -89,11 +91,23 @@ class EmergencyButton(QPushButton):
         elif self._latched_at_s is None:
             self._latched_at_s = self._clock()
         self.setChecked(latched is not None)
-        self.setText("E-STOP" if latched is None else "Latched – release")
-        tip = (
-            ("Stop all axes, and let nothing move until it is released (Shift+Esc).", _SOFTWARE)
+        self.setText(
+            translate("shell", "E-STOP")
             if latched is None
-            else (f"Latched: {latched}.", "Press to release; nothing moves until it is told to.")
+            else translate("shell", "Latched – release")
+        )
+        tip = (
+            (
+                translate(
+                    "shell", "Stop all axes, and let nothing move until it is released (Shift+Esc)."
+                ),
+                translate("shell", _SOFTWARE),
+            )
+            if latched is None
+            else (
+                translate("shell", "Latched: {latched}.").format(latched=spoken(latched)),
+                translate("shell", "Press to release; nothing moves until it is told to."),
+            )
         )
         self.setToolTip(plain_tip(*tip))
 
@@ -102,7 +116,7 @@ class MotionBar(QToolBar):
     """Phase and stops; it can neither be moved nor hidden."""
 
     def __init__(self, requests: Requests) -> None:
-        super().__init__("Motion")
+        super().__init__(translate("shell", "Motion"))
         self.setObjectName("motion")
         self.setMovable(False)
         self.toggleViewAction().setVisible(False)  # the stop button is always in sight
@@ -112,11 +126,19 @@ class MotionBar(QToolBar):
         title.setTextFormat(Qt.TextFormat.PlainText)
         self.phase, self.doing = PhaseLabel(), ElidedLabel()
         self.doing.setProperty("quiet", True)
-        self.reconnect = _button("Reconnect", "Connect again to the device", requests.reconnect)
+        self.reconnect = _button(
+            translate("shell", "Reconnect"),
+            translate("shell", "Connect again to the device"),
+            requests.reconnect,
+        )
         self.emergency = EmergencyButton(requests)
-        self.stop = QPushButton("STOP")
+        self.stop = QPushButton(translate("shell", "STOP"))
         self.stop.setObjectName("stop")
-        self.stop.setToolTip(f"Stop all axes and hold (Esc). {_SOFTWARE}")
+        self.stop.setToolTip(
+            plain_tip(
+                translate("shell", "Stop all axes and hold (Esc)."), translate("shell", _SOFTWARE)
+            )
+        )
         self.stop.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         # On pressing, not on release: a stop must not wait for the finger to lift.
         self.stop.pressed.connect(requests.stop)

@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.shell.help_topics import page_of
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level
 
 MOST_HEIGHT = 62
@@ -47,8 +48,8 @@ class Notice(QFrame):
         close = QToolButton()
         close.setText("✕")
         close.setAutoRaise(True)
-        close.setToolTip("Close this notice")
-        close.setAccessibleName("Close this notice")
+        close.setToolTip(translate("shell", "Close this notice"))
+        close.setAccessibleName(translate("shell", "Close this notice"))
         close.clicked.connect(self.closed)
         row = QHBoxLayout(self)
         row.setContentsMargins(10, 4, 6, 4)
@@ -58,8 +59,10 @@ class Notice(QFrame):
             self.help = QToolButton()
             self.help.setText("?")
             self.help.setAutoRaise(True)
-            self.help.setToolTip(f"What this means, and what to do: {page}")
-            self.help.setAccessibleName("Help on this notice")
+            self.help.setToolTip(
+                translate("shell", "What this means, and what to do: {page}").format(page=page)
+            )
+            self.help.setAccessibleName(translate("shell", "Help on this notice"))
             self.help.clicked.connect(lambda _=False: self.asked.emit(page))
             row.addWidget(self.help, 0, Qt.AlignmentFlag.AlignTop)
         row.addWidget(close, 0, Qt.AlignmentFlag.AlignTop)

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.shell.entries import Entry
 from rotemina.app.shell.fuzzy import score
+from rotemina.app.shell.language import translate
 
 _WIDTH, _HEIGHT = 560, 380
 _TO_THE_LIST = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
@@ -36,16 +37,16 @@ class Palette(QDialog):
 
     def __init__(self, entries: Callable[[], Iterable[Entry]], parent: QWidget) -> None:
         super().__init__(parent)
-        self.setWindowTitle("Find a command")
+        self.setWindowTitle(translate("shell", "Find a command"))
         self._ask = entries
         self._entries: tuple[Entry, ...] = ()
         self._shown: tuple[Entry, ...] = ()
         self.field, self.list = QLineEdit(), QListWidget()
-        self.field.setPlaceholderText("a few letters of what to do")
-        self.field.setAccessibleName("Letters of what to do")
+        self.field.setPlaceholderText(translate("shell", "a few letters of what to do"))
+        self.field.setAccessibleName(translate("shell", "Letters of what to do"))
         self.field.textChanged.connect(self._show_fitting)
         self.field.installEventFilter(self)
-        self.list.setAccessibleName("What can be done")
+        self.list.setAccessibleName(translate("shell", "What can be done"))
         self.list.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.list.setTextElideMode(Qt.TextElideMode.ElideRight)
@@ -111,15 +112,25 @@ class Palette(QDialog):
 
     def _explain(self, row: int) -> None:
         if not 0 <= row < len(self._shown):
-            self.reason.setText("" if self._shown else "Nothing has these letters.")
+            self.reason.setText(
+                "" if self._shown else translate("shell", "Nothing has these letters.")
+            )
             return
         reason = self._shown[row].why_not
-        self.reason.setText(f"Not now: {reason}." if reason else "Enter does it.")
+        self.reason.setText(
+            translate("shell", "Not now: {reason}.").format(reason=reason)
+            if reason
+            else translate("shell", "Enter does it.")
+        )
 
 
 def _item(entry: Entry) -> QListWidgetItem:
     keys = f"   [{entry.shortcut}]" if entry.shortcut else ""
-    why = f"   – not now: {entry.why_not}" if entry.why_not else ""
+    why = (
+        translate("shell", "   – not now: {why_not}").format(why_not=entry.why_not)
+        if entry.why_not
+        else ""
+    )
     item = QListWidgetItem(f"{entry.text}{keys}{why}")
     item.setToolTip("")
     if entry.why_not is not None:

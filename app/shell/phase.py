@@ -7,6 +7,8 @@ from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
 from rotemina.app.display import label
 from rotemina.app.motion.state import Connection, Phase, SessionState
+from rotemina.app.shell.engine_words import spoken
+from rotemina.app.shell.language import marked, translate
 from rotemina.drivers.samples import DeviceState
 
 
@@ -32,13 +34,25 @@ _TONES = {
 }
 
 
+_WORDS = {
+    Phase.DISCONNECTED: marked("shell", "disconnected"),
+    Phase.CONNECTING: marked("shell", "connecting"),
+    Phase.READY: marked("shell", "ready"),
+    Phase.MOVING: marked("shell", "moving"),
+    Phase.STOPPING: marked("shell", "stopping"),
+    Phase.SHORT_LOSS: marked("shell", "short loss"),
+    Phase.FAULT: marked("shell", "fault"),
+    Phase.POSITION_UNKNOWN: marked("shell", "position unknown"),
+}
+
+
 def word(state: SessionState) -> str:
     """Return how the session stands, in a word or two."""
     if state.connection is Connection.FAILED:
-        return "failed"
+        return translate("shell", "failed")
     if state.phase is Phase.READY and state.locked is not None:
-        return "locked"
-    return str(state.phase)
+        return translate("shell", "locked")
+    return translate("shell", _WORDS[state.phase])
 
 
 def tone(state: SessionState) -> Tone:
@@ -53,11 +67,12 @@ def tone(state: SessionState) -> Tone:
 def doing(state: SessionState) -> str:
     """Return what the robot does, or why it does not move; "" when it may be told to."""
     if state.activity is DeviceState.PLAYING:
-        return f"playing {100.0 * state.progress:.0f} %"
+        return translate("shell", "playing {share:.0f} %").format(share=100.0 * state.progress)
     if state.activity is DeviceState.HOMING:
-        return "looks for its limit switches"
+        return translate("shell", "looks for its limit switches")
     if state.locked is not None:
-        return state.locked[:1].upper() + state.locked[1:]
+        reason = spoken(state.locked)
+        return reason[:1].upper() + reason[1:]
     return driven(state)
 
 
@@ -66,7 +81,7 @@ def driven(state: SessionState) -> str:
     owned: dict[str, list[str]] = {}
     for axis, owner in state.owners.items():
         owned.setdefault(owner, []).append(label(axis))
-    return "; ".join(f"{', '.join(axes)}: {owner}" for owner, axes in owned.items())
+    return "; ".join(f"{', '.join(axes)}: {spoken(owner)}" for owner, axes in owned.items())
 
 
 def set_tone(widget: QWidget, value: Tone) -> None:
@@ -83,7 +98,7 @@ class PhaseLabel(QLabel):
     def __init__(self) -> None:
         super().__init__("–")
         self.setTextFormat(Qt.TextFormat.PlainText)
-        self.setAccessibleName("Phase of the session")
+        self.setAccessibleName(translate("shell", "Phase of the session"))
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         set_tone(self, Tone.QUIET)
 

@@ -4,6 +4,7 @@ import pyqtgraph as pg
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QWidget
 
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.decimation import envelope
@@ -64,7 +65,7 @@ class SignalPlot(pg.PlotWidget):
         axis = self.getPlotItem().getAxis("bottom")
         axis.setStyle(showValues=shown)
         if shown:
-            axis.setLabel("time [s]")
+            axis.setLabel(translate("shell", "time [s]"))
         self.getPlotItem().layout.setContentsMargins(0, 4, 12, 0 if shown else 4)
 
     def show_signal(self, name: str, time_s: FloatArray, values: FloatArray) -> None:

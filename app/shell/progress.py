@@ -6,6 +6,7 @@ from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QToolButton, QWidget
 
 from rotemina.app.display import duration_text
 from rotemina.app.shell.controls import ElidedLabel
+from rotemina.app.shell.language import translate
 from rotemina.drivers.clock import Clock
 from rotemina.sim.errors import InputError
 
@@ -50,7 +51,11 @@ class Progress:
             If it was called off.
         """
         if self.cancelled:
-            raise CancelledError(f"{self.doing} Called off; nothing was changed.")
+            raise CancelledError(
+                translate("shell", "{doing} Called off; nothing was changed.").format(
+                    doing=self.doing
+                )
+            )
         self.share = min(max(share, 0.0), 1.0)
 
     def cancel(self) -> None:
@@ -73,10 +78,14 @@ class Progress:
     def text(self) -> str:
         """What is being done, and for how long yet."""
         if self.cancelled:
-            return f"{self.doing} Is being called off."
+            return translate("shell", "{doing} Is being called off.").format(doing=self.doing)
         if (left_s := self.left_s) is not None:
-            return f"{self.doing} About {duration_text(left_s)} left."
-        return f"{self.doing} For {duration_text(self.elapsed_s)} now."
+            return translate("shell", "{doing} About {left} left.").format(
+                doing=self.doing, left=duration_text(left_s)
+            )
+        return translate("shell", "{doing} For {passed} now.").format(
+            doing=self.doing, passed=duration_text(self.elapsed_s)
+        )
 
 
 class ProgressLine(QWidget):
@@ -88,9 +97,9 @@ class ProgressLine(QWidget):
         self.text, self.bar, self.cancel = ElidedLabel(), QProgressBar(), QToolButton()
         self.text.setMinimumWidth(_TEXT_WIDTH)
         self.bar.setFixedWidth(_BAR_WIDTH)
-        self.bar.setAccessibleName("Progress of long work")
-        self.cancel.setText("Cancel")
-        self.cancel.setToolTip("Call this work off")
+        self.bar.setAccessibleName(translate("shell", "Progress of long work"))
+        self.cancel.setText(translate("shell", "Cancel"))
+        self.cancel.setToolTip(translate("shell", "Call this work off"))
         self.cancel.clicked.connect(lambda _: self._progress and self._progress.cancel())
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)

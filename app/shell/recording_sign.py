@@ -5,6 +5,7 @@ from PySide6.QtWidgets import QLabel, QSizePolicy
 
 from rotemina.app.display import duration_text, size_text
 from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase import Tone, set_tone
 from rotemina.app.shell.workbench import Workbench
 
@@ -16,7 +17,7 @@ class RecordingSign(QLabel):
         super().__init__()
         self._operation = workbench.operation
         self.setTextFormat(Qt.TextFormat.PlainText)
-        self.setAccessibleName("Recording")
+        self.setAccessibleName(translate("shell", "Recording"))
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         set_tone(self, Tone.BUSY)
         self.setVisible(False)
@@ -31,10 +32,14 @@ class RecordingSign(QLabel):
         writer = recorder.writer
         if writer.failure is not None:
             set_tone(self, Tone.DANGER)
-            self.setText("● Not recording: disk")
+            self.setText(translate("shell", "● Not recording: disk"))
             self.setToolTip(plain_tip(f"{writer.path}: {writer.failure}"))
             return
         set_tone(self, Tone.BUSY)
         since_s = self._operation.clock() - writer.began_s
-        self.setText(f"● Recording {duration_text(since_s)}  {size_text(writer.bytes_written)}")
+        self.setText(
+            translate("shell", "● Recording {time}  {size}").format(
+                time=duration_text(since_s), size=size_text(writer.bytes_written)
+            )
+        )
         self.setToolTip(plain_tip(str(writer.path)))

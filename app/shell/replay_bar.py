@@ -17,6 +17,7 @@ from rotemina.app.motion.recording.pacing import SPEEDS
 from rotemina.app.motion.state import SessionState
 from rotemina.app.recorded_events import happenings
 from rotemina.app.shell.controls import ElidedLabel
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase import PhaseLabel, Tone, set_tone
 from rotemina.app.shell.timeline import Timeline
 from rotemina.app.shell.workbench import Workbench
@@ -34,27 +35,33 @@ class ReplayBar(QFrame):
         self.title = ElidedLabel()
         self.title.setProperty("heading", True)
         self.phase = PhaseLabel()
-        self.phase.setAccessibleName("Phase in the recording")
-        self.phase.setToolTip("How the machine stood then; how it stands now is in the tool bar")
-        self.machine = QLabel("The machine moves now")
+        self.phase.setAccessibleName(translate("shell", "Phase in the recording"))
+        self.phase.setToolTip(
+            translate("shell", "How the machine stood then; how it stands now is in the tool bar")
+        )
+        self.machine = QLabel(translate("shell", "The machine moves now"))
         set_tone(self.machine, Tone.DANGER)
-        self.live = QPushButton("Back to live")
+        self.live = QPushButton(translate("shell", "Back to live"))
         self.live.setProperty("primary", True)
-        self.live.setToolTip("Show the machine again, and let it be moved")
+        self.live.setToolTip(translate("shell", "Show the machine again, and let it be moved"))
         self.live.clicked.connect(workbench.replaying.end)
         self.play = QPushButton()
         self.play.setMinimumWidth(70)
-        self.play.setToolTip("Go on with the replay, or hold it")
+        self.play.setToolTip(translate("shell", "Go on with the replay, or hold it"))
         self.play.clicked.connect(self._toggle)
         self.speed = _speeds()
         self.speed.currentIndexChanged.connect(self._set_speed)
         self.timeline = Timeline(workbench.theme)
         self.timeline.setToolTip(
-            "Time of the recording. Marks: faults, then stops, refusals and warnings, then the rest"
+            translate(
+                "shell",
+                "Time of the recording. Marks: faults, then stops, refusals and warnings, then "
+                "the rest",
+            )
         )
         self.timeline.valueChanged.connect(lambda value: self._seek(value / 1000.0))
         self.time = QLabel()
-        self.time.setAccessibleName("Time of the replay and its length")
+        self.time.setAccessibleName(translate("shell", "Time of the replay and its length"))
         self._lay_out()
         self.setVisible(False)
         workbench.replaying.changed.connect(self._begin)
@@ -85,7 +92,9 @@ class ReplayBar(QFrame):
         if paced is None:
             return
         recording = paced.replay.recording
-        self.title.show_text(f"Replay, not the machine: {recording.path.stem}")
+        self.title.show_text(
+            translate("shell", "Replay, not the machine: {stem}").format(stem=recording.path.stem)
+        )
         with QSignalBlocker(self.timeline):
             self.timeline.show_recording(
                 paced.duration_s, happenings(paced.replay.events, recording.began_s)
@@ -99,7 +108,9 @@ class ReplayBar(QFrame):
         if paced is None:
             return
         self.phase.show_state(replace(state, locked=None))  # that it is a replay is said already
-        self.play.setText("Pause" if paced.playing else "Play")
+        self.play.setText(
+            translate("shell", "Pause") if paced.playing else translate("shell", "Play")
+        )
         if not self.timeline.isSliderDown():
             with QSignalBlocker(self.timeline):
                 self.timeline.setValue(round(1000.0 * paced.at_s))
@@ -130,8 +141,8 @@ class ReplayBar(QFrame):
 
 def _speeds() -> QComboBox:
     box = QComboBox()
-    box.setAccessibleName("Speed of the replay")
-    box.setToolTip("How many times as fast as it happened")
+    box.setAccessibleName(translate("shell", "Speed of the replay"))
+    box.setToolTip(translate("shell", "How many times as fast as it happened"))
     for speed in SPEEDS:
         box.addItem(f"{speed:g} ×", speed)
     return box

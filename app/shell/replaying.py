@@ -14,6 +14,7 @@ from rotemina.app.motion.recording.reading import Recording
 from rotemina.app.motion.recording.replay import Replay
 from rotemina.app.motion.recording.tables import units_of
 from rotemina.app.motion.session import MotionSession
+from rotemina.app.shell.language import translate
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.robot.writing import robot_text
@@ -47,7 +48,11 @@ class Replaying(QObject):
         """
         name = replay.recording.path.name
         self._refuse_unless_at_rest(name)
-        self._session.bar(f"a replay of {name} is shown; go back to live first")
+        self._session.bar(
+            translate("shell", "a replay of {name} is shown; go back to live first").format(
+                name=name
+            )
+        )
         try:
             self._refuse_unless_at_rest(name)  # nothing can have begun from here on
         except RefusedError:
@@ -72,11 +77,19 @@ class Replaying(QObject):
     def _refuse_unless_at_rest(self, name: str) -> None:
         state, phase = self._session.snapshot(), self._penetration.status.phase
         if phase in UNDER_WAY | {Phase.HELD}:
-            raise RefusedError(f"{name} cannot be shown: a penetration is {phase}; end it first")
+            raise RefusedError(
+                translate(
+                    "shell", "{name} cannot be shown: a penetration is {phase}; end it first"
+                ).format(name=name, phase=phase)
+            )
         moves = state.activity not in (DeviceState.IDLE, DeviceState.CLOSED)
         # In a fault a device may name no activity that anybody could wait for.
         if (moves and state.fault is None) or state.queued:
-            raise RefusedError(f"{name} cannot be shown: the machine moves; wait, or stop it first")
+            raise RefusedError(
+                translate(
+                    "shell", "{name} cannot be shown: the machine moves; wait, or stop it first"
+                ).format(name=name)
+            )
 
 
 def opened(path: Path, robot: Robot) -> Replay:
@@ -93,10 +106,19 @@ def opened(path: Path, robot: Robot) -> Replay:
     if tuple(recording.units.items()) != tuple(units_of(robot).items()):
         file = "robot.toml"
         raise RecordingError(
-            f"{path.name}: recorded on robot {recording.metadata['robot']!r} with axes "
-            f"{', '.join(recording.axes)}; this window's has {', '.join(robot.axes)}. Start a "
-            f"window for it: rotemina recording info --robot-file {shlex.quote(str(path))} > {file}"
-            f" && rotemina --robot {file}"
+            translate(
+                "shell",
+                "{name}: recorded on robot {robot!r} with axes {axes}; this "
+                "window's has {here}. Start a window for it: rotemina recording info "
+                "--robot-file {path} > {file} && rotemina --robot {file}",
+            ).format(
+                name=path.name,
+                robot=recording.metadata["robot"],
+                axes=", ".join(recording.axes),
+                here=", ".join(robot.axes),
+                path=shlex.quote(str(path)),
+                file=file,
+            )
         )
     return Replay(recording)
 
@@ -105,7 +127,8 @@ def remark(replay: Replay, robot: Robot) -> str | None:
     """Return what is to be known of a replay on this robot; None for nothing."""
     if replay.recording.metadata["robot_file"] == robot_text(robot):
         return None
-    return (
-        f"{replay.recording.path.name}: recorded with another robot file; ranges and scales on the "
-        "screen are those of this window's"
-    )
+    return translate(
+        "shell",
+        "{name}: recorded with another robot file; ranges and scales on the "
+        "screen are those of this window's",
+    ).format(name=replay.recording.path.name)

@@ -7,6 +7,7 @@ from PySide6.QtCore import QObject, Signal
 
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.shell.help_topics import explained
+from rotemina.app.shell.language import translate
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.settings import SettingValue
 from rotemina.sim.errors import InputError
@@ -84,7 +85,9 @@ class Requests(QObject):
                 raise
             except Exception as error:  # whatever a plugin raises, the window stays
                 raise DriverUnusableError(
-                    f"driver {kind.name!r} cannot be made: {type(error).__name__}: {error}"
+                    translate("shell", "driver {name!r} cannot be made: {kind}: {error}").format(
+                        name=kind.name, kind=type(error).__name__, error=error
+                    )
                 ) from error
             self.session.use(driver)
 

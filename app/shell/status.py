@@ -4,6 +4,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
 
 from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.engine_words import spoken
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase import driven, word
 from rotemina.app.shell.workbench import Workbench
 
@@ -25,13 +27,21 @@ class StatusText(QLabel):
     def _refresh(self, state: SessionState) -> None:
         parts = [f"{self._session.driver.name}: {word(state)}"]
         if state.latched is not None:
-            parts.append(f"{state.latched} latched")
+            parts.append(
+                translate("shell", "{latched} latched").format(latched=spoken(state.latched))
+            )
         if state.age_s is not None:
-            parts.append(f"data {age(state.age_s)} old")
+            parts.append(translate("shell", "data {age} old").format(age=age(state.age_s)))
         if state.stop_latency is not None:
-            parts.append(f"stop latency {1e3 * state.stop_latency.most:.1f} ms (99.9 %)")
+            parts.append(
+                translate("shell", "stop latency {ms:.1f} ms (99.9 %)").format(
+                    ms=1e3 * state.stop_latency.most
+                )
+            )
         if state.stop_latency_s is not None:
-            parts.append(f"last stop {1e3 * state.stop_latency_s:.1f} ms")
+            parts.append(
+                translate("shell", "last stop {ms:.1f} ms").format(ms=1e3 * state.stop_latency_s)
+            )
         parts += [text for text in (driven(state), self._busy) if text]
         self.setText("   ·   ".join(parts))
 

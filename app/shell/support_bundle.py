@@ -12,6 +12,7 @@ from pathlib import Path
 
 from rotemina.app.files import json_text
 from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.message_log import Message
 from rotemina.app.shell.scrubbing import Scrubber
 from rotemina.sim.plugin_points import API_VERSIONS
@@ -60,24 +61,34 @@ def gather(
     reached(0.0)
     log = "\n".join(message.line for message in messages)
     items = [
-        Item("log.txt", "What the program told since it was started", f"{log}\n"),
+        Item(
+            "log.txt", translate("shell", "What the program told since it was started"), f"{log}\n"
+        ),
         Item(
             "settings.json",
-            "Preferences of the screen, and settings of drivers",
+            translate("shell", "Preferences of the screen, and settings of drivers"),
             _json(preferences),
         ),
         Item(
-            "versions.json", "Versions of the program, its libraries and plugins", _json(versions())
+            "versions.json",
+            translate("shell", "Versions of the program, its libraries and plugins"),
+            _json(versions()),
         ),
         Item(
             "machine.json",
-            "Robot, driver, and how the connection stands",
+            translate("shell", "Robot, driver, and how the connection stands"),
             _json(_machine(state, driver, robot)),
         ),
     ]
     reached(0.2)
     if record is not None:
-        items.append(Item("record.csv", "The last record: commands and readings", _csv(record)))
+        items.append(
+            Item(
+                "record.csv",
+                translate("shell", "The last record: commands and readings"),
+                _csv(record),
+            )
+        )
     reached(0.6)
     scrubbed = []
     for number, item in enumerate(items, 1):

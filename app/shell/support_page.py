@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.display import size_text
 from rotemina.app.shell.controls import allow
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.message_log import MessageLog
 from rotemina.app.shell.progress import Progress
 from rotemina.app.shell.scrubbing import Scrubber
@@ -26,9 +27,10 @@ from rotemina.app.shell.support_bundle import Item, gather, write_bundle
 from rotemina.app.shell.workbench import Level, Workbench
 
 _SHOWN = 20_000  # letters of a file; the rest of a record looks alike
-_INTRODUCTION = (
+_INTRODUCTION = marked(
+    "shell",
     "This is what the bundle will hold. User names, home folders and the name of this computer "
-    "are taken out already. Nothing is sent: the archive is written where you choose."
+    "are taken out already. Nothing is sent: the archive is written where you choose.",
 )
 
 
@@ -37,18 +39,22 @@ class SupportPage(QDialog):
 
     def __init__(self, workbench: Workbench, log: MessageLog, parent: QWidget) -> None:
         super().__init__(parent)
-        self.setWindowTitle("Support bundle")
+        self.setWindowTitle(translate("shell", "Support bundle"))
         self.resize(820, 480)
         self._workbench = workbench
         self.items: tuple[Item, ...] = ()
-        introduction = QLabel(_INTRODUCTION)
+        introduction = QLabel(translate("shell", _INTRODUCTION))
         introduction.setWordWrap(True)
-        self.list, self.view, self.save = QListWidget(), QPlainTextEdit(), QPushButton("Save …")
-        self.list.setAccessibleName("Files of the bundle")
+        self.list, self.view, self.save = (
+            QListWidget(),
+            QPlainTextEdit(),
+            QPushButton(translate("shell", "Save …")),
+        )
+        self.list.setAccessibleName(translate("shell", "Files of the bundle"))
         self.list.setFixedWidth(230)
         self.list.currentRowChanged.connect(self._show_item)
         self.view.setReadOnly(True)
-        self.view.setAccessibleName("Content of the file")
+        self.view.setAccessibleName(translate("shell", "Content of the file"))
         self.view.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         self.save.clicked.connect(self.ask_where)
         self._allow_saving()
@@ -68,7 +74,10 @@ class SupportPage(QDialog):
         """Ask where to, and write the bundle there."""
         settings = self._workbench.settings
         dialog = QFileDialog(
-            self, "Save support bundle", settings.get("files.folder", ""), "Archives (*.zip)"
+            self,
+            translate("shell", "Save support bundle"),
+            settings.get("files.folder", ""),
+            translate("shell", "Archives (*.zip)"),
         )
         dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
@@ -87,9 +96,11 @@ class SupportPage(QDialog):
 
         bench.long_work(
             "support bundle",
-            Progress("The support bundle is written."),
+            Progress(translate("shell", "The support bundle is written.")),
             work,
-            lambda _: bench.notify(Level.GOOD, f"Saved {path}"),
+            lambda _: bench.notify(
+                Level.GOOD, translate("shell", "Saved {path}").format(path=path)
+            ),
         )
         self.close()
 
@@ -106,7 +117,10 @@ class SupportPage(QDialog):
             )
 
         bench.long_work(
-            "support items", Progress("The support bundle is put together."), work, self._show_items
+            "support items",
+            Progress(translate("shell", "The support bundle is put together.")),
+            work,
+            self._show_items,
         )
 
     def _show_items(self, items: Sequence[Item]) -> None:
@@ -118,8 +132,10 @@ class SupportPage(QDialog):
         self._allow_saving()
 
     def _allow_saving(self) -> None:
-        why_not = None if self.items else "the bundle is still being put together"
-        allow(self.save, why_not, "Write all of it into one zip archive")
+        why_not = (
+            None if self.items else translate("shell", "the bundle is still being put together")
+        )
+        allow(self.save, why_not, translate("shell", "Write all of it into one zip archive"))
 
     def _show_item(self, row: int) -> None:
         if 0 <= row < len(self.items):

@@ -7,6 +7,7 @@ from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QSlider, QStyle, QStyleOptionSlider
 
 from rotemina.app.recorded_events import Happening, Weight
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 
 _MARK_HEIGHT = 5
@@ -20,7 +21,7 @@ class Timeline(QSlider):
         super().__init__(Qt.Orientation.Horizontal)
         self._theme = theme
         self._marks: tuple[Happening, ...] = ()
-        self.setAccessibleName("Time of the replay")
+        self.setAccessibleName(translate("shell", "Time of the replay"))
         self.setSingleStep(1000)
         self.setPageStep(10_000)
         self.setMinimumHeight(22 + _MARK_HEIGHT)

@@ -20,6 +20,7 @@ from rotemina.app.motion.state import CommandRefused, Event, Faulted, PlaybackFi
 from rotemina.app.settings import Settings
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.help_topics import Explained, page_for, page_of
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.progress import Progress
 from rotemina.app.shell.replaying import Replaying, opened, remark
 from rotemina.app.shell.requests import Requests
@@ -198,7 +199,7 @@ class Workbench(Requests):
         """Play the planned trajectory; a refusal becomes a notice."""
         plan = self.plan
         if plan is None:
-            text = "There is no trajectory to play: load one first."
+            text = translate("shell", "There is no trajectory to play: load one first.")
             self.notify(Level.WARNING, text, about="trajectory.md")
         else:
             self.ask(
@@ -240,11 +241,21 @@ class Workbench(Requests):
             trajectory = read_record(path, columns=columns, robot=self.robot)
             return self._tried(path.name, trajectory)
 
-        self.work("plan", f"Reading {path.name} …", work, self._set_plan)
+        self.work(
+            "plan",
+            translate("shell", "Reading {name} …").format(name=path.name),
+            work,
+            self._set_plan,
+        )
 
     def plan_trajectory(self, name: str, trajectory: Record) -> None:
         """Try a trajectory on the model and take it in hand."""
-        self.work("plan", "Dry run …", lambda: self._tried(name, trajectory), self._set_plan)
+        self.work(
+            "plan",
+            translate("shell", "Dry run …"),
+            lambda: self._tried(name, trajectory),
+            self._set_plan,
+        )
 
     def open_record(self, path: Path, columns: str | None = None) -> None:
         """Read a record as "real" and compare it with the model."""
@@ -253,22 +264,32 @@ class Workbench(Requests):
             record = read_record(path, columns=columns, robot=self.robot)
             return Run(path.name, compare(self.robot, record))
 
-        self.work("run", f"Reading {path.name} …", work, self._set_run)
+        self.work(
+            "run",
+            translate("shell", "Reading {name} …").format(name=path.name),
+            work,
+            self._set_run,
+        )
 
     def save_record(self, path: Path) -> None:
         """Write the record in hand to a file; it counts as unsaved until that is done."""
         record = self.record
         if record is None:
-            text = "There is no record to save: play or open one first."
+            text = translate("shell", "There is no record to save: play or open one first.")
             self.notify(Level.WARNING, text, about="comparison.md")
             return
 
         def done(_: None) -> None:
             if self.unsaved is record:
                 self.unsaved = None
-            self.notify(Level.GOOD, f"Saved {path}")
+            self.notify(Level.GOOD, translate("shell", "Saved {path}").format(path=path))
 
-        self.work("save", f"Writing {path.name} …", lambda: write_record(record, path), done)
+        self.work(
+            "save",
+            translate("shell", "Writing {name} …").format(name=path.name),
+            lambda: write_record(record, path),
+            done,
+        )
 
     def open_replay(self, path: Path) -> None:
         """Show a recording in place of the machine."""
@@ -278,7 +299,7 @@ class Workbench(Requests):
             if self.ask(lambda: self.replaying.show(replay)) and told is not None:
                 self.notify(Level.WARNING, told, about=replay)
 
-        opening = f"Opening {path.name} …"
+        opening = translate("shell", "Opening {name} …").format(name=path.name)
         self.work("replay", opening, lambda: opened(path, self.robot), show)
 
     # --- inside -----------------------------------------------------------------------------------
@@ -349,7 +370,9 @@ class Workbench(Requests):
             if self.operation.recording is not None:
                 self.operation.stop_recording()
 
-        progress = Progress("The recording is put into one file.", cancellable=False)
+        progress = Progress(
+            translate("shell", "The recording is put into one file."), cancellable=False
+        )
         self.long_work("last recording", progress, work, lambda _: done(), undone)
 
     def _refresh(self) -> None:
@@ -386,7 +409,9 @@ class Workbench(Requests):
     def _tell_excess(self, excess: Excess) -> None:
         self.notify(
             Level.ERROR,
-            f"Playback paused: {excess.text}. Look at the machine; then go on, or end it.",
+            translate(
+                "shell", "Playback paused: {text}. Look at the machine; then go on, or end it."
+            ).format(text=excess.text),
             about=excess,
         )
 
@@ -400,19 +425,30 @@ class Workbench(Requests):
             try:
                 path.parent.mkdir(parents=True, exist_ok=True)
             except OSError as error:
-                raise FileWriteError(f"{path.parent}: cannot be made: {error.strerror}") from error
+                raise FileWriteError(
+                    translate("shell", "{parent}: cannot be made: {strerror}").format(
+                        parent=path.parent, strerror=error.strerror
+                    )
+                ) from error
             write_record(record, path)
 
         def done(_: None) -> None:
             if self.unsaved is record:
                 self.unsaved = None
 
-        self.work(f"keep {path.name}", f"Keeping {path.name} …", write, done)
+        self.work(
+            f"keep {path.name}",
+            translate("shell", "Keeping {name} …").format(name=path.name),
+            write,
+            done,
+        )
 
     def _compare_played(self, record: Record | None, completed: bool) -> None:
         name = self.plan.name if self.plan else "playback"
         if record is None:
-            text = f"{name}: stopped before its first row was played."
+            text = translate("shell", "{name}: stopped before its first row was played.").format(
+                name=name
+            )
             self.notify(Level.WARNING, text, about="trajectory.md")
             return
         # Kept before anything else: no comparison that fails, nor the next run, may lose it.
@@ -421,11 +457,13 @@ class Workbench(Requests):
         if self.playback.state.phase is PlaybackPhase.PAUSED:
             return  # compared when it has ended
         if not completed:
-            text = f"{name}: stopped after {record.duration_s:.2f} s."
+            text = translate("shell", "{name}: stopped after {duration_s:.2f} s.").format(
+                name=name, duration_s=record.duration_s
+            )
             self.notify(Level.WARNING, text, about="trajectory.md")
         self.work(
             "played run",
-            "Comparing model and real …",
+            translate("shell", "Comparing model and real …"),
             lambda: Run(name, compare(self.robot, record), completed),
             self._set_run,
         )
