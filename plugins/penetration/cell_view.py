@@ -7,6 +7,7 @@ from rotemina.app.display import PLAIN_NUMBER
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.penetration.cells import (
     AHEAD,
@@ -18,13 +19,15 @@ from rotemina.plugins.penetration.cells import (
 from rotemina.plugins.penetration.fields import mark
 from rotemina.plugins.penetration.quantities import TypedError
 
-REAL_MACHINE = (
+REAL_MACHINE = marked(
+    "penetration",
     "Cells for demonstrations belong to the simulator. On a real machine put a real one under the "
-    "tip."
+    "tip.",
 )
-_ABOUT = (
+_ABOUT = marked(
+    "penetration",
     "An elastic membrane, the effect “contact”; the other effects stay. It does not break: take it "
-    "away during the thrust to let it give way."
+    "away during the thrust to let it give way.",
 )
 
 
@@ -38,24 +41,31 @@ class CellView(QWidget):
         self._known: object = ()
         self.where, self.about = _text(), _text()
         self.where.setProperty("quiet", False)
-        about = "From where the axis stands, above 0 µm"
-        self.ahead = _field(f"{1e6 * AHEAD:g}", "Way to the cell, µm", about)
-        self.stiffness = _field(
-            f"{STIFFNESS:g}", "Stiffness of the cell", "Over that of the axis itself, up to 30"
+        about = translate("penetration", "From where the axis stands, above 0 µm")
+        self.ahead = _field(
+            f"{1e6 * AHEAD:g}", translate("penetration", "Way to the cell, µm"), about
         )
-        self.put, self.take = QPushButton("Put a cell there"), QPushButton("Take it away")
+        self.stiffness = _field(
+            f"{STIFFNESS:g}",
+            translate("penetration", "Stiffness of the cell"),
+            translate("penetration", "Over that of the axis itself, up to 30"),
+        )
+        self.put, self.take = (
+            QPushButton(translate("penetration", "Put a cell there")),
+            QPushButton(translate("penetration", "Take it away")),
+        )
         self.put.clicked.connect(lambda _: self._put())
         self.take.clicked.connect(lambda _: self._take())
         self.controls = QWidget()
         grid = QGridLayout(self.controls)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setColumnStretch(4, 1)
-        grid.addWidget(QLabel("Ahead of the tip"), 0, 0)
+        grid.addWidget(QLabel(translate("penetration", "Ahead of the tip")), 0, 0)
         grid.addWidget(self.ahead, 0, 1)
         grid.addWidget(QLabel("µm"), 0, 2)
-        grid.addWidget(QLabel("Stiffness"), 1, 0)
+        grid.addWidget(QLabel(translate("penetration", "Stiffness")), 1, 0)
         grid.addWidget(self.stiffness, 1, 1)
-        grid.addWidget(QLabel("× the axis'"), 1, 2)
+        grid.addWidget(QLabel(translate("penetration", "× the axis'")), 1, 2)
         grid.addWidget(self.put, 0, 3)
         grid.addWidget(self.take, 1, 3)
         column = QVBoxLayout(self)
@@ -72,22 +82,30 @@ class CellView(QWidget):
             self._known = effects, axis
             simulated = effects is not None
             self.controls.setVisible(simulated)
-            self.about.setText(_ABOUT if simulated else REAL_MACHINE)
+            self.about.setText(translate("penetration", _ABOUT if simulated else REAL_MACHINE))
             self.where.setVisible(simulated)
             if effects is not None and axis in session.robot.axes:
                 self.where.setText(cells_text(session.robot, effects, axis))
         at = state.command.get(axis)
-        why = None if at is not None else "nobody knows where the axis is"
-        allow(self.put, why, "Put a cell ahead of where the axis is now, or move it there")
+        why = None if at is not None else translate("penetration", "nobody knows where the axis is")
+        allow(
+            self.put,
+            why,
+            translate("penetration", "Put a cell ahead of where the axis is now, or move it there"),
+        )
         has = effects is not None and without_cell(effects, axis) != effects
-        allow(self.take, None if has else "there is none", "Let the tip meet nothing any more")
+        allow(
+            self.take,
+            None if has else translate("penetration", "there is none"),
+            translate("penetration", "Let the tip meet nothing any more"),
+        )
 
     def _put(self) -> None:
         session, p = self._workbench.session, self._parameters
 
         def put() -> None:
-            ahead = _value(self.ahead, "way to the cell") / 1e6
-            stiffness = _value(self.stiffness, "stiffness")
+            ahead = _value(self.ahead, translate("penetration", "way to the cell")) / 1e6
+            stiffness = _value(self.stiffness, translate("penetration", "stiffness"))
             at = session.snapshot().command[p.axis] + p.sign * ahead
             effects = session.effects or ()
             session.set_effects(with_cell(session.robot, effects, p.axis, at, p.sign, stiffness))
@@ -104,7 +122,11 @@ def _value(field: QLineEdit, name: str) -> float:
     good = PLAIN_NUMBER.fullmatch(text) is not None and float(text) > 0.0
     mark(field, not good)
     if not good:
-        raise TypedError(f"{name}: {text!r}; type a number above 0, with a decimal point")
+        raise TypedError(
+            translate(
+                "penetration", "{name}: {text!r}; type a number above 0, with a decimal point"
+            ).format(name=name, text=text)
+        )
     return float(text)
 
 

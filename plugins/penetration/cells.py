@@ -1,7 +1,8 @@
-"""A cell for demonstrations: the effect `contact` on the axis of a simulated machine. No Qt."""
+"""A cell for demonstrations: the effect `contact` on the axis of a simulated machine."""
 
 from rotemina.app.display import label
 from rotemina.app.motion.penetration.errors import PenetrationError
+from rotemina.app.shell.language import translate
 from rotemina.plugins.penetration.prospect import way_text
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.robot.model import AxisEffect, Robot
@@ -41,8 +42,16 @@ def with_cell(
     least, most = parameter.bounds(bare.facts)
     if not least <= place <= most:
         raise PenetrationError(
-            f"a cell at {way_text(at)} of {label(axis)}: must be {way_text(low + least)} to "
-            f"{way_text(low + most)}; move the axis away from its end first"
+            translate(
+                "penetration",
+                "a cell at {at} of {axis}: must be {least} to {most}; move the axis away "
+                "from its end first",
+            ).format(
+                at=way_text(at),
+                axis=label(axis),
+                least=way_text(low + least),
+                most=way_text(low + most),
+            )
         )
     values = {"place": place, "stiffness": sign * stiffness}
     asked = AxisEffect(axis=axis, id=CONTACT, parameters=values)
@@ -62,8 +71,18 @@ def cells_text(robot: Robot, effects: Effects, axis: str) -> str:
     for one in effects:
         if _is_cell(one, axis) and one.enabled:
             values = Attached.of(robot, one).values
-            places.append(f"{way_text(low + values['place'])} of {label(axis)}")
-    return f"A cell at {' and '.join(places)}." if places else "There is no cell."
+            places.append(
+                translate("penetration", "{at} of {axis}").format(
+                    at=way_text(low + values["place"]), axis=label(axis)
+                )
+            )
+    return (
+        translate("penetration", "A cell at {places}.").format(
+            places=translate("penetration", " and ").join(places)
+        )
+        if places
+        else translate("penetration", "There is no cell.")
+    )
 
 
 def _is_cell(one: AxisEffect, axis: str) -> bool:

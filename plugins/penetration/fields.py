@@ -52,7 +52,7 @@ class NumberField(QObject):
         self.quantity = quantity
         self._value: float | None = None
         self._read = ""
-        self.title, self.unit = QLabel(quantity.title), QLabel(quantity.unit)
+        self.title, self.unit = QLabel(quantity.shown_title), QLabel(quantity.unit)
         self.unit.setProperty("quiet", True)
         self.edit = QLineEdit()
         self.edit.setAlignment(Qt.AlignmentFlag.AlignRight)

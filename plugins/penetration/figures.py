@@ -6,6 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 
 from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.language import translate
 
 
 class Figures(QWidget):
@@ -20,14 +21,15 @@ class Figures(QWidget):
         grid.setColumnStretch(1, 1)
         self.values: dict[str, QLabel] = {}
         for row, (name, about) in enumerate(names.items()):
-            title, value = QLabel(name), QLabel("–")
+            said = translate("penetration", name)
+            title, value = QLabel(said), QLabel("–")
             title.setProperty("quiet", True)
             value.setTextFormat(Qt.TextFormat.PlainText)
             value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-            value.setAccessibleName(name)
+            value.setAccessibleName(said)
             value.setMinimumWidth(value.fontMetrics().horizontalAdvance(widest))
             for widget in (title, value):
-                widget.setToolTip(plain_tip(about))
+                widget.setToolTip(plain_tip(translate("penetration", about)))
             grid.addWidget(title, row, 0)
             grid.addWidget(value, row, 1)
             self.values[name] = value

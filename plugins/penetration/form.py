@@ -24,6 +24,8 @@ from rotemina.app.motion.penetration.parameters import (
     ThrustShape,
 )
 from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.penetration.engine_words import spoken
 from rotemina.plugins.penetration.fields import NumberField, SteadyChoice
 from rotemina.plugins.penetration.quantities import QUANTITIES, Group, TypedError, in_group
 from rotemina.plugins.penetration.table_text import EXAMPLE, read_table, table_text
@@ -31,20 +33,20 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.robot.model import Robot
 
 _SHAPES = {
-    ThrustShape.S_CURVE: "S-curve",
-    ThrustShape.MINIMUM_JERK: "minimum jerk",
-    ThrustShape.TABLE: "table",
+    ThrustShape.S_CURVE: marked("penetration", "S-curve"),
+    ThrustShape.MINIMUM_JERK: marked("penetration", "minimum jerk"),
+    ThrustShape.TABLE: marked("penetration", "table"),
 }
 _SHAPINGS = {
-    Shaping.NONE: "none",
-    Shaping.ZV: "ZV",
-    Shaping.ZVD: "ZVD",
-    Shaping.ZVDD: "ZVDD",
-    Shaping.INVERSE: "inverse model",
+    Shaping.NONE: marked("penetration", "none"),
+    Shaping.ZV: marked("penetration", "ZV"),
+    Shaping.ZVD: marked("penetration", "ZVD"),
+    Shaping.ZVDD: marked("penetration", "ZVDD"),
+    Shaping.INVERSE: marked("penetration", "inverse model"),
 }
 _TABLE_TIP = (
-    "The thrust as points, a line each: time share, depth share.",
-    "From 0, 0 to 1, 1; 2 to 200 points.",
+    marked("penetration", "The thrust as points, a line each: time share, depth share."),
+    marked("penetration", "From 0, 0 to 1, 1; 2 to 200 points."),
 )
 
 
@@ -66,8 +68,11 @@ class ParameterForm(QScrollArea):
         self.setWidgetResizable(True)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self._body = QWidget()
-        self.load, self.save = QPushButton("Load …"), QPushButton("Save …")
-        self.save.setToolTip("Write these parameters into a TOML file")
+        self.load, self.save = (
+            QPushButton(translate("penetration", "Load …")),
+            QPushButton(translate("penetration", "Save …")),
+        )
+        self.save.setToolTip(translate("penetration", "Write these parameters into a TOML file"))
         self.fields = {key: NumberField(one, self) for key, one in QUANTITIES.items()}
         self._make_choices(robot)
         self._make_more()
@@ -104,8 +109,16 @@ class ParameterForm(QScrollArea):
     def allow(self, why_not: str | None) -> None:
         """Let the fields be changed, or say why not; they can be read all the same."""
         self._body.setEnabled(why_not is None)
-        self._body.setToolTip(plain_tip(f"Not now: {why_not}") if why_not else "")
-        allow(self.load, why_not, "Take parameters from a TOML file in place of these")
+        self._body.setToolTip(
+            plain_tip(translate("penetration", "Not now: {why_not}").format(why_not=why_not))
+            if why_not
+            else ""
+        )
+        allow(
+            self.load,
+            why_not,
+            translate("penetration", "Take parameters from a TOML file in place of these"),
+        )
 
     # --- parts ------------------------------------------------------------------------------------
 
@@ -129,38 +142,59 @@ class ParameterForm(QScrollArea):
         self.setMinimumWidth(content.minimumSizeHint().width() + 12)
 
     def _make_choices(self, robot: Robot) -> None:
-        axis = SteadyChoice("Axis of the penetration", "The axis that goes into the cell")
+        axis = SteadyChoice(
+            translate("penetration", "Axis of the penetration"),
+            translate("penetration", "The axis that goes into the cell"),
+        )
         for name in robot.axes:
             if robot.unit(name) == "m":
                 axis.addItem(label(name), name)
         direction = SteadyChoice(
-            "Direction", "Where the cell is along the axis; down: towards smaller positions"
+            translate("penetration", "Direction"),
+            translate(
+                "penetration", "Where the cell is along the axis; down: towards smaller positions"
+            ),
         )
-        shape = SteadyChoice("Shape of the thrust", "Its profile of speed")
+        shape = SteadyChoice(
+            translate("penetration", "Shape of the thrust"),
+            translate("penetration", "Its profile of speed"),
+        )
         shaping = SteadyChoice(
-            "Input shaping",
-            "Against the axis' resonance, as of the robot file. ZV, ZVD, ZVDD: impulses, each "
-            "slower and surer; inverse model: follows best",
+            translate("penetration", "Input shaping"),
+            translate(
+                "penetration",
+                "Against the axis' resonance, as of the robot file. ZV, ZVD, ZVDD: impulses, each "
+                "slower and surer; inverse model: follows best",
+            ),
         )
         for direct in Direction:
-            direction.addItem(str(direct), str(direct))
+            direction.addItem(spoken(direct), str(direct))
         for form, text in _SHAPES.items():
-            shape.addItem(text, str(form))
+            shape.addItem(translate("penetration", text), str(form))
         for kind, text in _SHAPINGS.items():
-            shaping.addItem(text, str(kind))
-        self.choices = {"axis": axis, "direction": direction, "shape": shape, "shaping": shaping}
+            shaping.addItem(translate("penetration", text), str(kind))
+        self.choices = {
+            "axis": axis,
+            "direction": direction,
+            "shape": shape,
+            "shaping": shaping,
+        }
         self.table = QPlainTextEdit()
-        self.table.setAccessibleName("Table of the thrust: time share, depth share")
-        self.table.setToolTip(plain_tip(*_TABLE_TIP))
+        self.table.setAccessibleName(
+            translate("penetration", "Table of the thrust: time share, depth share")
+        )
+        self.table.setToolTip(plain_tip(*_table_tip()))
         self.table.setTabChangesFocus(True)
         self.table.setFixedHeight(86)
 
     def _make_more(self) -> None:
         self.more = QToolButton()
-        self.more.setText("More ▸")
+        self.more.setText(translate("penetration", "More ▸"))
         self.more.setCheckable(True)
-        self.more.setAccessibleName("More of the contact detection")
-        self.more.setToolTip("How the contact is told from noise, hysteresis and creep")
+        self.more.setAccessibleName(translate("penetration", "More of the contact detection"))
+        self.more.setToolTip(
+            translate("penetration", "How the contact is told from noise, hysteresis and creep")
+        )
         self._detection = QWidget()
         self._detection.hide()
 
@@ -169,7 +203,7 @@ class ParameterForm(QScrollArea):
         column = QVBoxLayout(section)
         column.setContentsMargins(0, 0, 0, 2)
         column.setSpacing(2)
-        heading = QLabel(str(group))
+        heading = QLabel(translate("penetration", group))
         heading.setProperty("heading", True)
         column.addWidget(heading)
         if group is Group.CONTACT:
@@ -182,17 +216,17 @@ class ParameterForm(QScrollArea):
         grid.setHorizontalSpacing(8)
         grid.setColumnStretch(0, 1)
         if group is Group.APPROACH:
-            self._add_choice(grid, "Axis", "axis")
-            self._add_choice(grid, "Cell is", "direction")
+            self._add_choice(grid, translate("penetration", "Axis"), "axis")
+            self._add_choice(grid, translate("penetration", "Cell is"), "direction")
         if group is Group.THRUST:
-            self._add_choice(grid, "Shape", "shape")
-            self._add_choice(grid, "Shaping", "shaping")
+            self._add_choice(grid, translate("penetration", "Shape"), "shape")
+            self._add_choice(grid, translate("penetration", "Shaping"), "shaping")
         for quantity in in_group(group):
             field, row = self.fields[quantity.key], grid.rowCount()
             for place, widget in enumerate((field.title, field.edit, field.unit)):
                 grid.addWidget(widget, row, place)
         if group is Group.THRUST:
-            self._table_title = QLabel("Time share, depth share")
+            self._table_title = QLabel(translate("penetration", "Time share, depth share"))
             grid.addWidget(self._table_title, grid.rowCount(), 0, 1, 3)
             grid.addWidget(self.table, grid.rowCount(), 0, 1, 3)
         return section
@@ -230,8 +264,14 @@ class ParameterForm(QScrollArea):
             wrong = ""
         except TypedError as error:
             wrong = str(error)
-        self.table.setToolTip(plain_tip(*_TABLE_TIP, wrong))
+        self.table.setToolTip(plain_tip(*_table_tip(), wrong))
 
     def _show_more(self, shown: bool) -> None:
-        self.more.setText("Less ▾" if shown else "More ▸")
+        self.more.setText(
+            translate("penetration", "Less ▾") if shown else translate("penetration", "More ▸")
+        )
         self._detection.setVisible(shown)
+
+
+def _table_tip() -> list[str]:
+    return [translate("penetration", line) for line in _TABLE_TIP]

@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.motion.penetration.run_log import PenetrationRun
 from rotemina.app.shell.controls import ElidedLabel, plain_tip
+from rotemina.app.shell.language import translate
 from rotemina.plugins.penetration.runs import COLUMN_TIPS, COLUMNS, RunList, in_full, row
 
 _NUMBERS = slice(2, 7)
@@ -29,10 +30,12 @@ class LogView(QWidget):
         super().__init__()
         self.list = RunList()
         self.table = QTableWidget(0, len(COLUMNS))
-        self.table.setAccessibleName("Runs, the latest first")
-        self.table.setHorizontalHeaderLabels(list(COLUMNS))
+        self.table.setAccessibleName(translate("penetration", "Runs, the latest first"))
+        self.table.setHorizontalHeaderLabels([translate("penetration", one) for one in COLUMNS])
         for column, tip in enumerate(COLUMN_TIPS):
-            self.table.horizontalHeaderItem(column).setToolTip(plain_tip(tip))
+            self.table.horizontalHeaderItem(column).setToolTip(
+                plain_tip(translate("penetration", tip))
+            )
         self.table.verticalHeader().hide()
         self.table.verticalHeader().setDefaultSectionSize(24)
         self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
@@ -46,9 +49,9 @@ class LogView(QWidget):
         self.table.itemSelectionChanged.connect(self._show_chosen)
         self.text = QPlainTextEdit()
         self.text.setReadOnly(True)
-        self.text.setAccessibleName("All of the chosen run")
-        self.text.setToolTip("All that was logged of the chosen run")
-        self.text.setPlaceholderText("Choose a run to see all of it.")
+        self.text.setAccessibleName(translate("penetration", "All of the chosen run"))
+        self.text.setToolTip(translate("penetration", "All that was logged of the chosen run"))
+        self.text.setPlaceholderText(translate("penetration", "Choose a run to see all of it."))
         self.text.setMinimumWidth(160)
         split = QSplitter(Qt.Orientation.Horizontal)
         split.addWidget(self.table)
@@ -93,7 +96,11 @@ class LogView(QWidget):
         self.table.blockSignals(False)
         self.text.clear()
         count, ours = len(self.list.runs), self.list.of_this_start
-        self.file.show_text(f"{count} shown, {ours} of this start. Log file: {self._path}")
+        self.file.show_text(
+            translate(
+                "penetration", "{count} shown, {ours} of this start. Log file: {path}"
+            ).format(count=count, ours=ours, path=self._path)
+        )
 
     def _show_chosen(self) -> None:
         chosen = self.table.selectionModel().selectedRows()

@@ -21,6 +21,7 @@ from rotemina.app.motion.penetration.run_log import PenetrationRun, as_table
 from rotemina.app.motion.penetration.status import PenetrationStatus
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.penetration.cell_view import CellView
 from rotemina.plugins.penetration.form import ParameterForm
@@ -31,14 +32,14 @@ from rotemina.plugins.penetration.readouts import Readouts
 from rotemina.plugins.penetration.run_bar import RunBar
 from rotemina.plugins.penetration.words import FIXED, message
 
-FILES = "Penetrations (*.toml);;All files (*)"
+FILES = marked("penetration", "Penetrations (*.toml);;All files (*)")
 KEEP_MS = 500  # after the latest change the parameters are kept
 
 
 class PenetrationPanel(Panel):
     """Buttons and phases above; below the thrust, the log, and a simulated cell."""
 
-    title = "Penetration"
+    title = marked("panels", "Penetration")
     area = Area.BOTTOM
     order = 35
     help_page = "penetration.md#in-the-window"
@@ -54,7 +55,7 @@ class PenetrationPanel(Panel):
         self.message = QLabel()
         self.message.setWordWrap(True)
         self.message.setTextFormat(Qt.TextFormat.PlainText)
-        self.message.setAccessibleName("What the penetration does")
+        self.message.setAccessibleName(translate("penetration", "What the penetration does"))
         self.form = ParameterForm(workbench.robot, self._operation.penetration_parameters)
         self._plan()
         self.readouts, self.preview = Readouts(workbench), ThrustPreview(workbench.theme)
@@ -78,7 +79,11 @@ class PenetrationPanel(Panel):
         row.addWidget(self.preview, 1)
         row.addWidget(self.form)
         self.tabs, self.views = QTabBar(), QStackedWidget()
-        for name, view in (("Thrust", thrust), ("Runs", self.log), ("Simulated cell", self.cell)):
+        for name, view in (
+            (translate("penetration", "Thrust"), thrust),
+            (translate("penetration", "Runs"), self.log),
+            (translate("penetration", "Simulated cell"), self.cell),
+        ):
             self.tabs.addTab(name)
             self.views.addWidget(view)
         self.tabs.currentChanged.connect(self.views.setCurrentIndex)
@@ -121,7 +126,9 @@ class PenetrationPanel(Panel):
             if self._penetration.status.phase in FIXED:
                 self.workbench.notify(
                     Level.WARNING,
-                    f"{path.name} is not taken: a penetration is armed or runs.",
+                    translate(
+                        "penetration", "{name} is not taken: a penetration is armed or runs."
+                    ).format(name=path.name),
                     about=self,
                 )
                 return
@@ -129,7 +136,10 @@ class PenetrationPanel(Panel):
             self._change()
 
         self.workbench.work(
-            "penetration", f"Reading {path.name} …", lambda: PenetrationParameters.load(path), done
+            "penetration",
+            translate("penetration", "Reading {name} …").format(name=path.name),
+            lambda: PenetrationParameters.load(path),
+            done,
         )
 
     def save_parameters(self, path: Path) -> None:
@@ -137,24 +147,34 @@ class PenetrationPanel(Panel):
         self.form.take()
         if self.form.complaint:
             self.workbench.notify(
-                Level.ERROR, f"Nothing is saved: {self.form.complaint}", about=self
+                Level.ERROR,
+                translate("penetration", "Nothing is saved: {reason}").format(
+                    reason=self.form.complaint
+                ),
+                about=self,
             )
             return
         parameters = self.form.parameters
         self.workbench.work(
             "save penetration",
-            f"Writing {path.name} …",
+            translate("penetration", "Writing {name} …").format(name=path.name),
             lambda: parameters.save(path),
-            lambda _: self.workbench.notify(Level.GOOD, f"Saved {path}"),
+            lambda _: self.workbench.notify(
+                Level.GOOD, translate("penetration", "Saved {path}").format(path=path)
+            ),
         )
 
     def _ask_load(self) -> None:
-        dialog = self._file_dialog("Load parameters", self.load_parameters)
+        dialog = self._file_dialog(
+            translate("penetration", "Load parameters"), self.load_parameters
+        )
         dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
         dialog.show()
 
     def _ask_save(self) -> None:
-        dialog = self._file_dialog("Save parameters", self.save_parameters)
+        dialog = self._file_dialog(
+            translate("penetration", "Save parameters"), self.save_parameters
+        )
         dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
         dialog.setDefaultSuffix("toml")
         dialog.selectFile("penetration.toml")
@@ -163,7 +183,9 @@ class PenetrationPanel(Panel):
     def _file_dialog(self, title: str, use: Callable[[Path], None]) -> QFileDialog:
         """Return a dialog beside which the window, and its stop button, can still be used."""
         settings = self.workbench.settings
-        dialog = QFileDialog(self, title, settings.get("files.folder", ""), FILES)
+        dialog = QFileDialog(
+            self, title, settings.get("files.folder", ""), translate("penetration", FILES)
+        )
         dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         dialog.fileSelected.connect(
@@ -207,14 +229,20 @@ class PenetrationPanel(Panel):
         self.readouts.refresh(status, state, self.prospect.parameters)
         self.cell.refresh(state, self.prospect.parameters)
         self._draw(status)
-        fixed = "it is armed or runs; disarm it first" if status.phase in FIXED else None
+        fixed = None
+        if status.phase in FIXED:
+            fixed = translate("penetration", "it is armed or runs; disarm it first")
         self.form.allow(fixed)
         self.log.take_latest(status.run)
         if status.problem != self._problem:
             self._problem = status.problem
             if status.problem:
                 self.workbench.notify(
-                    Level.WARNING, f"The run was not logged: {status.problem}", about=self
+                    Level.WARNING,
+                    translate("penetration", "The run was not logged: {problem}").format(
+                        problem=status.problem
+                    ),
+                    about=self,
                 )
 
     def _look(self, status: PenetrationStatus, state: SessionState) -> None:
@@ -240,7 +268,9 @@ class PenetrationPanel(Panel):
         if self.form.complaint or self.prospect.plan is None:
             self._why_not = self.form.complaint or self.prospect.problem
         elif state.locked is not None:
-            self._why_not = f"motion is locked: {state.locked}"
+            self._why_not = translate("penetration", "motion is locked: {locked}").format(
+                locked=state.locked
+            )
         else:
             self._why_not = self._penetration.why_not(self.prospect.parameters, self.prospect.plan)
 
@@ -266,11 +296,15 @@ class PenetrationPanel(Panel):
             if problems:
                 self.workbench.notify(
                     Level.WARNING,
-                    f"{len(problems)} lines of the log are none: {problems[0]}",
+                    translate("penetration", "{n} lines of the log are none: {first}").format(
+                        n=len(problems), first=problems[0]
+                    ),
                     about=self,
                 )
 
-        self.workbench.work("penetration log", "Reading the log …", log.read, done)
+        self.workbench.work(
+            "penetration log", translate("penetration", "Reading the log …"), log.read, done
+        )
 
 
 def _by(run: PenetrationRun | None, parameters: PenetrationParameters) -> bool:

@@ -5,6 +5,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from rotemina.app.motion.penetration.thrust import ThrustPlan, ThrustTrace
 from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.plot import SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.penetration.fields import SteadyChoice
@@ -17,7 +18,11 @@ from rotemina.plugins.penetration.prospect import (
 )
 
 POSITION, SPEED = "position", "speed"
-_ROLES = {"wanted": "model", "commanded": "command", "measured": "real"}
+_ROLES = {
+    marked("penetration", "wanted"): "model",
+    marked("penetration", "commanded"): "command",
+    marked("penetration", "measured"): "real",
+}
 _LEAST = {POSITION: 0.1, SPEED: 1.0}  # µm, µm/s
 
 
@@ -33,18 +38,24 @@ class ThrustPreview(QWidget):
         self.plot.add_curve("commanded", "command")
         self.plot.add_curve("measured", "real")
         self.plot.show_times(True)
-        self.plot.getPlotItem().getAxis("bottom").setLabel("time [ms]")
+        self.plot.getPlotItem().getAxis("bottom").setLabel(translate("penetration", "time [ms]"))
         self.plot.setMinimumSize(180, 80)
-        self.plot.setAccessibleName("Thrust over time")
+        self.plot.setAccessibleName(translate("penetration", "Thrust over time"))
         self.plot.setToolTip(
             plain_tip(
-                "Wanted: what the tip is to do. Commanded: what the device puts out. "
-                "Measured: the latest run, its constant delay taken off."
+                translate(
+                    "penetration",
+                    "Wanted: what the tip is to do. Commanded: what the device puts out. "
+                    "Measured: the latest run, its constant delay taken off.",
+                )
             )
         )
-        self.shown = SteadyChoice("What the plot shows", "Way into the cell, or speed")
-        self.shown.addItem("Position [µm]", POSITION)
-        self.shown.addItem("Speed [µm/s]", SPEED)
+        self.shown = SteadyChoice(
+            translate("penetration", "What the plot shows"),
+            translate("penetration", "Way into the cell, or speed"),
+        )
+        self.shown.addItem(translate("penetration", "Position [µm]"), POSITION)
+        self.shown.addItem(translate("penetration", "Speed [µm/s]"), SPEED)
         self.shown.currentIndexChanged.connect(lambda _: self._draw())
         self._legend = QLabel()
         self._legend.setTextFormat(Qt.TextFormat.RichText)
@@ -73,12 +84,11 @@ class ThrustPreview(QWidget):
     def set_theme(self, theme: Theme) -> None:
         """Change the colours."""
         self.plot.set_theme(theme)
-        self._legend.setText(
-            " ".join(
-                f'<span style="color:{getattr(theme, role)}">▬</span>&nbsp;{name}'
-                for name, role in _ROLES.items()
-            )
-        )
+        entries = []
+        for name, role in _ROLES.items():
+            said = translate("penetration", name)
+            entries.append(f'<span style="color:{getattr(theme, role)}">▬</span>&nbsp;{said}')
+        self._legend.setText(" ".join(entries))
 
     def _draw(self) -> None:
         if self._plan is None:

@@ -1,10 +1,11 @@
-"""The numbers of a penetration as an operator types them: unit, bounds, what they do. No Qt."""
+"""The numbers of a penetration as an operator types them: unit, bounds, what they do."""
 
 from dataclasses import dataclass
 from enum import StrEnum
 
 from rotemina.app.display import PLAIN_NUMBER
 from rotemina.app.motion.penetration.parameters import BOUNDS, PenetrationParameters
+from rotemina.app.shell.language import marked, translate
 from rotemina.sim.errors import InputError
 
 _PRESETS = PenetrationParameters()
@@ -13,12 +14,12 @@ _PRESETS = PenetrationParameters()
 class Group(StrEnum):
     """What belongs together on the screen."""
 
-    APPROACH = "Approach"
-    CONTACT = "Contact detection"
-    THRUST = "Thrust"
-    HOLD = "Hold and inject"
-    RETRACT = "Retract"
-    LIMITS = "Limits"
+    APPROACH = marked("penetration", "Approach")
+    CONTACT = marked("penetration", "Contact detection")
+    THRUST = marked("penetration", "Thrust")
+    HOLD = marked("penetration", "Hold and inject")
+    RETRACT = marked("penetration", "Retract")
+    LIMITS = marked("penetration", "Limits")
 
 
 class TypedError(InputError):
@@ -34,7 +35,7 @@ class Quantity:
     key : str
         Its name among the parameters.
     title, unit : str
-        As the screen has them.
+        As an English screen has them.
     per_si : float
         How many of the unit make one SI unit.
     group : Group
@@ -50,16 +51,29 @@ class Quantity:
     about: str
 
     @property
+    def shown_title(self) -> str:
+        """The title in the language in use."""
+        return translate("penetration", self.title)
+
+    @property
     def name(self) -> str:
         """Title and unit, for those who hear the screen."""
-        return f"{self.title}, {self.unit}" if self.unit else self.title
+        return (
+            translate("penetration", "{title}, {unit}").format(
+                title=self.shown_title, unit=self.unit
+            )
+            if self.unit
+            else self.shown_title
+        )
 
     @property
     def tip(self) -> tuple[str, str]:
         """What it does, and its bounds and preset."""
         bound, preset = BOUNDS[self.key], getattr(_PRESETS, self.key)
         least, most = self.number(bound.least), self.text(bound.most)
-        return f"{self.about}.", f"{least} to {most}; preset {self.text(preset)}"
+        about = translate("penetration", self.about)
+        bounds = translate("penetration", "{least} to {most}; preset {preset}")
+        return f"{about}.", bounds.format(least=least, most=most, preset=self.text(preset))
 
     def number(self, value: float) -> str:
         """Return a value (SI) as digits in the unit."""
@@ -81,7 +95,10 @@ class Quantity:
         if PLAIN_NUMBER.fullmatch(text) is None:
             unit = f" in {self.unit}" if self.unit else ""
             raise TypedError(
-                f"{self.title}: {text!r} is no number; type one{unit}, with a decimal point"
+                translate(
+                    "penetration",
+                    "{title}: {text!r} is no number; type one{unit}, with a decimal point",
+                ).format(title=self.shown_title, text=text, unit=unit)
             )
         value, bound = float(text) / self.per_si, BOUNDS[self.key]
         for end in bound.least, bound.most:
@@ -89,8 +106,14 @@ class Quantity:
                 value = end  # typed as it is shown: rounding must not put it beyond
         if not bound.least <= value <= bound.most:
             raise TypedError(
-                f"{self.title}: {text} {self.unit}".rstrip() + " is refused: must be "
-                f"{self.number(bound.least)} to {self.text(bound.most)}"
+                translate(
+                    "penetration", "{title}: {value} is refused: must be {least} to {most}"
+                ).format(
+                    title=self.shown_title,
+                    value=f"{text} {self.unit}".rstrip(),
+                    least=self.number(bound.least),
+                    most=self.text(bound.most),
+                )
             )
         return value
 
@@ -101,107 +124,151 @@ QUANTITIES = {
     one.key: one
     for one in (
         Quantity(
-            "approach_speed", "Speed", "µm/s", _UM, Group.APPROACH, "How fast the tip comes near"
+            "approach_speed",
+            marked("penetration", "Speed"),
+            "µm/s",
+            _UM,
+            Group.APPROACH,
+            marked("penetration", "How fast the tip comes near"),
         ),
         Quantity(
             "approach_distance",
-            "At most",
+            marked("penetration", "At most"),
             "µm",
             _UM,
             Group.APPROACH,
-            "Without a contact by then the tip goes back, and the run has failed",
+            marked(
+                "penetration", "Without a contact by then the tip goes back, and the run has failed"
+            ),
         ),
         Quantity(
             "false_alarms_per_hour",
-            "False alarms",
+            marked("penetration", "False alarms"),
             "1/h",
             1.0,
             Group.CONTACT,
-            "Of the detector, on noise alone; fewer make it slower",
+            marked("penetration", "Of the detector, on noise alone; fewer make it slower"),
         ),
         Quantity(
             "drift",
-            "Drift",
+            marked("penetration", "Drift"),
             "%",
             _PERCENT,
             Group.CONTACT,
-            "Slope of measured − model that hysteresis, creep and gain may cause; less finds "
-            "softer membranes",
+            marked(
+                "penetration",
+                "Slope of measured − model that hysteresis, creep and gain may cause; less finds "
+                "softer membranes",
+            ),
         ),
         Quantity(
             "drift_length",
-            "Drift over",
+            marked("penetration", "Drift over"),
             "µm",
             _UM,
             Group.CONTACT,
-            "Way over which that slope may change by as much",
+            marked("penetration", "Way over which that slope may change by as much"),
         ),
         Quantity(
             "contact_pause_s",
-            "Pause",
+            marked("penetration", "Pause"),
             "ms",
             _MS,
             Group.CONTACT,
-            "At rest on the membrane before the thrust",
+            marked("penetration", "At rest on the membrane before the thrust"),
         ),
         Quantity(
             "depth",
-            "Depth",
+            marked("penetration", "Depth"),
             "µm",
             _UM,
             Group.THRUST,
-            "Of the thrust, from where the approach came to rest on the membrane",
+            marked(
+                "penetration", "Of the thrust, from where the approach came to rest on the membrane"
+            ),
         ),
         Quantity(
-            "duration_s", "Duration", "ms", _MS, Group.THRUST, "Of the thrust, shaping included"
+            "duration_s",
+            marked("penetration", "Duration"),
+            "ms",
+            _MS,
+            Group.THRUST,
+            marked("penetration", "Of the thrust, shaping included"),
         ),
         Quantity(
             "ramp",
-            "Ramp",
+            marked("penetration", "Ramp"),
             "%",
             _PERCENT,
             Group.THRUST,
-            "Of an S-curve: share of the time to speed up, and again to slow down",
+            marked(
+                "penetration",
+                "Of an S-curve: share of the time to speed up, and again to slow down",
+            ),
         ),
         Quantity(
-            "hold_s", "Hold", "ms", _MS, Group.HOLD, "At depth, before the tool is switched on"
+            "hold_s",
+            marked("penetration", "Hold"),
+            "ms",
+            _MS,
+            Group.HOLD,
+            marked("penetration", "At depth, before the tool is switched on"),
         ),
         Quantity(
             "inject_s",
-            "Inject",
+            marked("penetration", "Inject"),
             "ms",
             _MS,
             Group.HOLD,
-            "With the tool on; 0: the tool stays off",
+            marked("penetration", "With the tool on; 0: the tool stays off"),
         ),
         Quantity(
             "hold_after_s",
-            "Hold after",
+            marked("penetration", "Hold after"),
             "ms",
             _MS,
             Group.HOLD,
-            "At depth, after the tool was switched off",
+            marked("penetration", "At depth, after the tool was switched off"),
         ),
         Quantity(
-            "retract_speed", "Speed back", "µm/s", _UM, Group.RETRACT, "How fast the tip goes back"
+            "retract_speed",
+            marked("penetration", "Speed back"),
+            "µm/s",
+            _UM,
+            Group.RETRACT,
+            marked("penetration", "How fast the tip goes back"),
         ),
         Quantity(
             "depth_tolerance",
-            "Depth off by",
+            marked("penetration", "Depth off by"),
             "%",
             _PERCENT,
             Group.LIMITS,
-            "How far the measured depth may miss the asked one; else the run has failed",
+            marked(
+                "penetration",
+                "How far the measured depth may miss the asked one; else the run has failed",
+            ),
         ),
         Quantity(
             "overload",
-            "Overload",
+            marked("penetration", "Overload"),
             "µm",
             _UM,
             Group.LIMITS,
-            "How far the axis may be from where it should be; beyond, the tip goes back at once",
+            marked(
+                "penetration",
+                "How far the axis may be from where it should be; beyond, the tip goes back "
+                "at once",
+            ),
         ),
-        Quantity("armed_s", "Armed for", "s", 1.0, Group.LIMITS, "Then it disarms by itself"),
+        Quantity(
+            "armed_s",
+            marked("penetration", "Armed for"),
+            "s",
+            1.0,
+            Group.LIMITS,
+            marked("penetration", "Then it disarms by itself"),
+        ),
     )
 }
 

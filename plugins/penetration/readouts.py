@@ -14,20 +14,33 @@ from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus,
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S
 from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.penetration.figures import Figures
 from rotemina.plugins.penetration.prospect import UNKNOWN, Prospect, way_text
 
 _PLAN = {
-    "Average speed": "Depth over duration",
-    "Peak speed": "Greatest instantaneous speed of the thrust",
-    "End depth": "Where the thrust is commanded to end, from where the approach came to rest",
-    "Room needed": "Approach, halt and thrust together",
-    "Room left": "From where the axis stands to the end of its range, in the cell's direction",
+    marked("penetration", "Average speed"): marked("penetration", "Depth over duration"),
+    marked("penetration", "Peak speed"): marked(
+        "penetration", "Greatest instantaneous speed of the thrust"
+    ),
+    marked("penetration", "End depth"): marked(
+        "penetration", "Where the thrust is commanded to end, from where the approach came to rest"
+    ),
+    marked("penetration", "Room needed"): marked(
+        "penetration", "Approach, halt and thrust together"
+    ),
+    marked("penetration", "Room left"): marked(
+        "penetration", "From where the axis stands to the end of its range, in the cell's direction"
+    ),
 }
 _RUN = {
-    "Way": "How far the axis is commanded from where the run began",
-    "Deviation": "Change of measured − model since the run began, against the motion",
+    marked("penetration", "Way"): marked(
+        "penetration", "How far the axis is commanded from where the run began"
+    ),
+    marked("penetration", "Deviation"): marked(
+        "penetration", "Change of measured − model since the run began, against the motion"
+    ),
 }
 
 
@@ -41,18 +54,18 @@ class Readouts(QWidget):
         self.load = QProgressBar()
         self.load.setRange(0, 1000)
         self.load.setMinimumWidth(144)
-        self.load.setAccessibleName("Load, up to the overload")
+        self.load.setAccessibleName(translate("penetration", "Load, up to the overload"))
         self.tool = QPushButton()
         self.tool.setCheckable(True)
         self.tool.clicked.connect(self._toggle)
         column = QVBoxLayout()
         column.setSpacing(4)
-        for widget in (_heading("Run"), self.run, self.load, self.tool):
+        for widget in (_heading(translate("penetration", "Run")), self.run, self.load, self.tool):
             column.addWidget(widget)
         column.addStretch(1)
         beside = QVBoxLayout()
         beside.setSpacing(4)
-        for widget in (_heading("Plan"), self.plan):
+        for widget in (_heading(translate("penetration", "Plan")), self.plan):
             beside.addWidget(widget)
         beside.addStretch(1)
         row = QHBoxLayout(self)
@@ -82,11 +95,17 @@ class Readouts(QWidget):
         share = 0.0 if load is None else min(load / most, 1.0)
         self.load.setValue(round(1000 * share))
         value = UNKNOWN if load is None else f"{1e6 * load:.2f}"
-        self.load.setFormat(f"load {value} of {1e6 * most:.4g} µm")
+        self.load.setFormat(
+            translate("penetration", "load {value} of {most:.4g} µm").format(
+                value=value, most=1e6 * most
+            )
+        )
         self.load.setToolTip(
             plain_tip(
-                "How far the axis is from where it should be.",
-                f"Beyond {1e6 * most:.4g} µm the run has failed, and the tip goes back.",
+                translate("penetration", "How far the axis is from where it should be."),
+                translate(
+                    "penetration", "Beyond {most:.4g} µm the run has failed, and the tip goes back."
+                ).format(most=1e6 * most),
             )
         )
         self._show_tool(status, state)
@@ -94,16 +113,27 @@ class Readouts(QWidget):
     def _show_tool(self, status: PenetrationStatus, state: SessionState) -> None:
         on = self._workbench.session.tool_on
         self.tool.setChecked(bool(on))
-        self.tool.setText("Tool is on" if on else "Tool is off")
+        self.tool.setText(
+            translate("penetration", "Tool is on")
+            if on
+            else translate("penetration", "Tool is off")
+        )
         why = None
         if on is None:
-            self.tool.setText("No tool")
-            why = f"{self._workbench.session.driver.name} has no tool that could be switched"
+            self.tool.setText(translate("penetration", "No tool"))
+            why = translate("penetration", "{driver} has no tool that could be switched").format(
+                driver=self._workbench.session.driver.name
+            )
         elif not on and status.phase in UNDER_WAY:
-            why = "the penetration switches it by itself while it runs"
+            why = translate("penetration", "the penetration switches it by itself while it runs")
         elif not on:
             why = state.locked
-        allow(self.tool, why, f"Switch the tool {'off' if on else 'on'}")
+        tip = (
+            translate("penetration", "Switch the tool off")
+            if on
+            else translate("penetration", "Switch the tool on")
+        )
+        allow(self.tool, why, tip)
 
     def _toggle(self) -> None:
         self._workbench.ask(self._workbench.operation.toggle_tool)

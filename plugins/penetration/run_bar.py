@@ -8,9 +8,11 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QWi
 from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase import Tone, set_tone
 from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.clock import Clock
+from rotemina.plugins.penetration.engine_words import spoken
 from rotemina.plugins.penetration.words import (
     STRIP,
     Light,
@@ -55,10 +57,10 @@ class RunBar(QWidget):
         self._workbench, self._operation = workbench, workbench.operation
         self._clock, self._pressed_s = clock, float("-inf")
         self._shown = Phase.DISARMED
-        self.arm = QPushButton("Arm")
+        self.arm = QPushButton(translate("penetration", "Arm"))
         self.arm.setMinimumWidth(104)
         self.arm.clicked.connect(lambda _: self._arm())
-        self.button = QPushButton("Start")
+        self.button = QPushButton(translate("penetration", "Start"))
         self.button.setObjectName("penetration")
         self.button.setProperty("primary", True)
         self.button.setMinimumSize(140, 34)
@@ -67,10 +69,15 @@ class RunBar(QWidget):
         # On pressing, not on release: what stops must not wait for the finger to lift.
         self.button.pressed.connect(self._press)
         self.phase = QLabel()
-        self.phase.setMinimumWidth(self.phase.fontMetrics().horizontalAdvance("armed, 600 s") + 30)
-        self.phase.setAccessibleName("Phase of the penetration")
+        self.phase.setMinimumWidth(
+            self.phase.fontMetrics().horizontalAdvance(
+                translate("penetration", "armed, {left_s:.0f} s").format(left_s=600)
+            )
+            + 30
+        )
+        self.phase.setAccessibleName(translate("penetration", "Phase of the penetration"))
         self.phase.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self.strip = {one: _chip(str(one)) for one in STRIP}
+        self.strip = {one: _chip(spoken(one)) for one in STRIP}
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(4)
@@ -86,18 +93,24 @@ class RunBar(QWidget):
     def refresh(self, status: PenetrationStatus, state: SessionState, why_not: str | None) -> None:
         """Show a moment; ``why_not`` is why it cannot be armed now."""
         self._shown = phase = status.phase
-        self.arm.setText(arm_word(phase))
-        against = f"it is in {phase}; stop it first" if phase in UNDER_WAY else None
+        self.arm.setText(translate("penetration", arm_word(phase)))
+        against = (
+            translate("penetration", "it is in {phase}; stop it first").format(phase=spoken(phase))
+            if phase in UNDER_WAY
+            else None
+        )
         if arm_word(phase) == "Arm" and against is None:
             against = why_not
-        allow(self.arm, against, arm_tip(phase))
-        self.button.setText(button_word(phase))
-        allow(self.button, against_button(status, state), button_tip(phase))
+        allow(self.arm, against, translate("penetration", arm_tip(phase)))
+        self.button.setText(translate("penetration", button_word(phase)))
+        allow(
+            self.button, against_button(status, state), translate("penetration", button_tip(phase))
+        )
         self.phase.setText(headline(status))
         set_tone(self.phase, _HEADLINES.get(phase, Tone.BUSY))
         for chip, light in zip(self.strip.values(), lights(status), strict=True):
             set_tone(chip, _TONES[light])
-            chip.setAccessibleDescription(str(light))
+            chip.setAccessibleDescription(spoken(light))
 
     def _arm(self) -> None:
         penetration = self._operation.penetration

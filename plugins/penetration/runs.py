@@ -1,4 +1,4 @@
-"""Runs of the log as rows and in full, and which of them are shown. Free of Qt."""
+"""Runs of the log as rows and in full, and which of them are shown.."""
 
 import json
 from collections.abc import Iterable
@@ -7,20 +7,37 @@ from typing import Any
 
 from rotemina.app.motion.penetration.parameters import BOUNDS
 from rotemina.app.motion.penetration.run_log import PenetrationRun
+from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.penetration.engine_words import spoken
 from rotemina.plugins.penetration.prospect import UNKNOWN, speed_text, way_text
 from rotemina.plugins.penetration.quantities import QUANTITIES
 
 MOST = 50
-COLUMNS = ("Time", "Verdict", "Contact", "Depth", "Average", "Peak", "Error", "Reason")
+COLUMNS = (
+    marked("penetration", "Time"),
+    marked("penetration", "Verdict"),
+    marked("penetration", "Contact"),
+    marked("penetration", "Depth"),
+    marked("penetration", "Average"),
+    marked("penetration", "Peak"),
+    marked("penetration", "Error"),
+    marked("penetration", "Reason"),
+)
 COLUMN_TIPS = (
-    "When the run was started",
-    "Done, aborted by the button, failed, or held by a stop; the tip is back but when held",
-    "Height of the tip where the contact was told; where the axis was, without a tip",
-    "How far the axis went in the thrust, by its own sensor",
-    "Average speed of the thrust, measured",
-    "Greatest speed of the thrust, measured over five samples",
-    "Greatest distance from the profile, a constant delay taken off",
-    "Why it ended as it did",
+    marked("penetration", "When the run was started"),
+    marked(
+        "penetration",
+        "Done, aborted by the button, failed, or held by a stop; the tip is back but when held",
+    ),
+    marked(
+        "penetration",
+        "Height of the tip where the contact was told; where the axis was, without a tip",
+    ),
+    marked("penetration", "How far the axis went in the thrust, by its own sensor"),
+    marked("penetration", "Average speed of the thrust, measured"),
+    marked("penetration", "Greatest speed of the thrust, measured over five samples"),
+    marked("penetration", "Greatest distance from the profile, a constant delay taken off"),
+    marked("penetration", "Why it ended as it did"),
 )
 
 
@@ -60,7 +77,7 @@ def row(run: PenetrationRun, now: datetime) -> tuple[str, ...]:
             speed_text(thrust.peak_speed),
             way_text(thrust.error),
         )
-    return when(run.started, now), str(run.verdict), _height(run), *figures, run.reason
+    return when(run.started, now), spoken(run.verdict), _height(run), *figures, run.reason
 
 
 def when(started: str, now: datetime) -> str:
@@ -75,10 +92,12 @@ def when(started: str, now: datetime) -> str:
 def in_full(run: PenetrationRun) -> str:
     """Return all that is known of a run, a line each."""
     lines = [
-        f"{run.started}  {run.verdict}" + (f": {run.reason}" if run.reason else ""),
-        f"robot {run.robot}, driver {run.driver}",
+        f"{run.started}  {spoken(run.verdict)}" + (f": {run.reason}" if run.reason else ""),
+        translate("penetration", "robot {robot}, driver {driver}").format(
+            robot=run.robot, driver=run.driver
+        ),
         "",
-        *(f"{at:8.3f} s  {name}" for name, at in run.phases),
+        *(f"{at:8.3f} s  {spoken(name)}" for name, at in run.phases),
         "",
         *_found(run),
         "",
@@ -89,32 +108,35 @@ def in_full(run: PenetrationRun) -> str:
 
 def _found(run: PenetrationRun) -> list[str]:
     rows: list[tuple[str, str | None]] = [
-        ("began at", _way(run.start)),
-        ("contact at", _way(run.contact)),
-        ("contact, as measured", _way(run.contact_measured)),
-        ("contact, height of the tip", None if run.contact_height is None else _height(run)),
-        ("contact told after", _ms(run.contact_delay_s)),
-        ("leant on it from the start", _yes(run.contact_from_start)),
-        ("noise, rms", _nm(run.noise_rms)),
-        ("detector's threshold", _plain(run.threshold)),
-        ("planned average speed", _speed(run.planned_average_speed)),
-        ("planned peak speed", _speed(run.planned_peak_speed)),
-        ("cubics miss the profile by", _nm(run.fit_error)),
+        (translate("penetration", "began at"), _way(run.start)),
+        (translate("penetration", "contact at"), _way(run.contact)),
+        (translate("penetration", "contact, as measured"), _way(run.contact_measured)),
+        (
+            translate("penetration", "contact, height of the tip"),
+            None if run.contact_height is None else _height(run),
+        ),
+        (translate("penetration", "contact told after"), _ms(run.contact_delay_s)),
+        (translate("penetration", "leant on it from the start"), _yes(run.contact_from_start)),
+        (translate("penetration", "noise, rms"), _nm(run.noise_rms)),
+        (translate("penetration", "detector's threshold"), _plain(run.threshold)),
+        (translate("penetration", "planned average speed"), _speed(run.planned_average_speed)),
+        (translate("penetration", "planned peak speed"), _speed(run.planned_peak_speed)),
+        (translate("penetration", "cubics miss the profile by"), _nm(run.fit_error)),
     ]
     if run.thrust is not None:
         thrust = run.thrust
         rows += [
-            ("depth", _way(thrust.depth)),
-            ("average speed", _speed(thrust.average_speed)),
-            ("peak speed", _speed(thrust.peak_speed)),
-            ("error against the profile", _way(thrust.error)),
-            ("delay taken off", _ms(thrust.delay_s)),
-            ("samples", f"{thrust.rate_hz:.0f} Hz"),
+            (translate("penetration", "depth"), _way(thrust.depth)),
+            (translate("penetration", "average speed"), _speed(thrust.average_speed)),
+            (translate("penetration", "peak speed"), _speed(thrust.peak_speed)),
+            (translate("penetration", "error against the profile"), _way(thrust.error)),
+            (translate("penetration", "delay taken off"), _ms(thrust.delay_s)),
+            (translate("penetration", "samples"), f"{thrust.rate_hz:.0f} Hz"),
         ]
     rows += [
-        ("deviation, peak", _way(run.peak_deviation)),
-        ("deviation, at the end", _way(run.final_deviation)),
-        ("membrane gave way", _yes(run.gave_way)),
+        (translate("penetration", "deviation, peak"), _way(run.peak_deviation)),
+        (translate("penetration", "deviation, at the end"), _way(run.final_deviation)),
+        (translate("penetration", "membrane gave way"), _yes(run.gave_way)),
     ]
     return [f"{name}: {text}" for name, text in rows if text is not None]
 
@@ -122,10 +144,18 @@ def _found(run: PenetrationRun) -> list[str]:
 def _parameter(key: str, value: Any) -> str:
     one = QUANTITIES.get(key)
     if one is not None and key in BOUNDS and isinstance(value, int | float):
-        return f"{str(one.group).lower()}, {one.title.lower()}: {one.text(value)}"
+        return f"{_inline(one.group)}, {_inline(one.title)}: {one.text(value)}"
     if isinstance(value, list | tuple):  # a table; from a file and of this start it reads alike
         value = json.dumps(value) if value else ""
-    return f"{key.replace('_', ' ')}: {value or UNKNOWN}"
+    if isinstance(value, str):
+        value = spoken(value)
+    return f"{spoken(key.replace('_', ' '))}: {value or UNKNOWN}"
+
+
+def _inline(title: str) -> str:
+    """Return a title within a line: English ones lose their capitals, others may be nouns."""
+    said = translate("penetration", title)
+    return said.lower() if said == title else said
 
 
 def _key(run: PenetrationRun) -> tuple[str, str, int]:
@@ -161,4 +191,10 @@ def _plain(value: float | None) -> str | None:
 
 
 def _yes(value: bool | None) -> str | None:
-    return None if value is None else "yes" if value else "no"
+    return (
+        None
+        if value is None
+        else translate("penetration", "yes")
+        if value
+        else translate("penetration", "no")
+    )

@@ -1,9 +1,10 @@
-"""The table of a thrust as text: a line a point, time share and depth share. Free of Qt."""
+"""The table of a thrust as text: a line a point, time share and depth share.."""
 
 from itertools import pairwise
 
 from rotemina.app.display import PLAIN_NUMBER
 from rotemina.app.motion.penetration.parameters import MOST_POINTS
+from rotemina.app.shell.language import translate
 from rotemina.plugins.penetration.quantities import TypedError
 
 Table = tuple[tuple[float, float], ...]
@@ -31,14 +32,20 @@ def read_table(text: str) -> Table:
             points.append(_point(number, line.strip()))
     if not 2 <= len(points) <= MOST_POINTS:
         raise TypedError(
-            f"table: {len(points)} points; must be 2 to {MOST_POINTS}, a line each, from 0, 0 to "
-            "1, 1"
+            translate(
+                "penetration",
+                "table: {n} points; must be 2 to {most}, a line each, from 0, 0 to 1, 1",
+            ).format(n=len(points), most=MOST_POINTS)
         )
     for number, ((at, _), (later, _)) in enumerate(pairwise(points), 2):
         if later <= at:
-            raise TypedError(f"table, point {number}: time {later:g} must be after {at:g}")
+            raise TypedError(
+                translate(
+                    "penetration", "table, point {number}: time {later:g} must be after {at:g}"
+                ).format(number=number, later=later, at=at)
+            )
     if points[0] != (0.0, 0.0) or points[-1] != (1.0, 1.0):
-        raise TypedError("table: must go from 0, 0 to 1, 1")
+        raise TypedError(translate("penetration", "table: must go from 0, 0 to 1, 1"))
     return tuple(points)
 
 
@@ -46,11 +53,21 @@ def _point(number: int, line: str) -> tuple[float, float]:
     parts = [part.strip() for part in line.split(",")]
     if len(parts) != 2 or not all(PLAIN_NUMBER.fullmatch(part) for part in parts):
         raise TypedError(
-            f"table, line {number}: {line[:40]!r}; type a time share, a comma and a depth share, "
-            "such as 0.3, 0.1"
+            translate(
+                "penetration",
+                "table, line {number}: {line!r}; type a time share, a comma and a depth "
+                "share, such as 0.3, 0.1",
+            ).format(number=number, line=line[:40])
         )
     at, depth = (float(part) for part in parts)
-    for name, value in (("time", at), ("depth", depth)):
+    for name, value in (
+        (translate("penetration", "time"), at),
+        (translate("penetration", "depth"), depth),
+    ):
         if not 0.0 <= value <= 1.0:
-            raise TypedError(f"table, line {number}: {name} {value:g} must be 0 to 1")
+            raise TypedError(
+                translate(
+                    "penetration", "table, line {number}: {name} {value:g} must be 0 to 1"
+                ).format(number=number, name=name, value=value)
+            )
     return at, depth

@@ -1,10 +1,12 @@
-"""What the panel says of a penetration, and what its two buttons do now. Free of Qt."""
+"""What the panel says of a penetration, and what its two buttons do now.."""
 
 from enum import StrEnum
 
 from rotemina.app.motion.penetration.run_log import Verdict
 from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
 from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.penetration.engine_words import spoken
 from rotemina.plugins.penetration.prospect import speed_text, way_text
 
 #: The phases of the strip, in their order.
@@ -21,13 +23,37 @@ SETTLE_S = 0.5  # a second press in alarm must not stop the way back, nor begin 
 FIXED = UNDER_WAY | {Phase.ARMED, Phase.HELD}
 
 _DOING = {
-    Phase.APPROACH: "The tip comes near and feels for the membrane.",
-    Phase.CONTACT: "Contact. The tip rests on the membrane; the thrust follows.",
-    Phase.THRUST: "The device runs the thrust by itself.",
-    Phase.HOLD: "The tip holds at its depth.",
-    Phase.INJECT: "The tool is on.",
-    Phase.HOLD_AFTER: "The tool is off; the tip holds at its depth.",
-    Phase.RETRACT: "The tip goes back to where it began.",
+    Phase.APPROACH: marked("penetration", "The tip comes near and feels for the membrane."),
+    Phase.CONTACT: marked(
+        "penetration", "Contact. The tip rests on the membrane; the thrust follows."
+    ),
+    Phase.THRUST: marked("penetration", "The device runs the thrust by itself."),
+    Phase.HOLD: marked("penetration", "The tip holds at its depth."),
+    Phase.INJECT: marked("penetration", "The tool is on."),
+    Phase.HOLD_AFTER: marked("penetration", "The tool is off; the tip holds at its depth."),
+    Phase.RETRACT: marked("penetration", "The tip goes back to where it began."),
+}
+# What the buttons do, in English here: translated where it is shown.
+_BUTTON_TIPS = {
+    marked("penetration", "Hold"): marked(
+        "penetration", "Halt the way back; the tip stays where it is then"
+    ),
+    marked("penetration", "Retract"): marked(
+        "penetration", "Bring the tip back to where the run began"
+    ),
+    marked("penetration", "Stop and retract"): marked(
+        "penetration", "Halt, switch the tool off, and bring the tip back along its axis"
+    ),
+    marked("penetration", "Start"): marked("penetration", "Begin to approach the cell"),
+}
+_ARM_TIPS = {
+    marked("penetration", "Arm"): marked(
+        "penetration", "Check everything and reserve every axis; nothing moves until Start"
+    ),
+    marked("penetration", "Disarm"): marked("penetration", "Set the axes free; nothing has moved"),
+    marked("penetration", "Free the axes"): marked(
+        "penetration", "Leave the tip where it is, and let the axes be moved by hand"
+    ),
 }
 
 
@@ -51,19 +77,16 @@ def button_word(phase: Phase) -> str:
 
 def button_tip(phase: Phase) -> str:
     """Return what that means."""
-    return {
-        "Hold": "Halt the way back; the tip stays where it is then",
-        "Retract": "Bring the tip back to where the run began",
-        "Stop and retract": "Halt, switch the tool off, and bring the tip back along its axis",
-        "Start": "Begin to approach the cell",
-    }[button_word(phase)]
+    return _BUTTON_TIPS[button_word(phase)]
 
 
 def against_button(status: PenetrationStatus, state: SessionState) -> str | None:
     """Return why the button cannot act now; None: it can."""
     if status.phase is Phase.HELD:
         return state.locked
-    return None if status.phase in FIXED else "it is not armed; arm it first"
+    return (
+        None if status.phase in FIXED else translate("penetration", "it is not armed; arm it first")
+    )
 
 
 def counts(shown: Phase, now: Phase, since_press_s: float) -> bool:
@@ -83,11 +106,7 @@ def arm_word(phase: Phase) -> str:
 
 def arm_tip(phase: Phase) -> str:
     """Return what that means."""
-    return {
-        "Arm": "Check everything and reserve every axis; nothing moves until Start",
-        "Disarm": "Set the axes free; nothing has moved",
-        "Free the axes": "Leave the tip where it is, and let the axes be moved by hand",
-    }[arm_word(phase)]
+    return _ARM_TIPS[arm_word(phase)]
 
 
 def lights(status: PenetrationStatus) -> tuple[Light, ...]:
@@ -112,38 +131,61 @@ def lights(status: PenetrationStatus) -> tuple[Light, ...]:
 def headline(status: PenetrationStatus) -> str:
     """Return the phase in a word or two, with the time that is left when armed."""
     if status.phase is Phase.ARMED and status.armed_left_s is not None:
-        return f"armed, {status.armed_left_s:.0f} s"
-    return str(status.phase)
+        return translate("penetration", "armed, {left_s:.0f} s").format(left_s=status.armed_left_s)
+    return spoken(status.phase)
 
 
 def message(status: PenetrationStatus, why_not: str | None) -> str:
     """Return what goes on, or what came of the latest run and whether it may be armed."""
     phase = status.phase
     if phase in UNDER_WAY:
-        return _DOING[phase] + (f" Why: {status.reason}." if status.reason else "")
-    if phase is Phase.HELD:
-        return (
-            f"Held: {status.reason}. The tip stays where it is; press Retract to bring it back, "
-            "or Free the axes to move it by hand."
+        return translate("penetration", _DOING[phase]) + (
+            translate("penetration", " Why: {reason}.").format(reason=status.reason)
+            if status.reason
+            else ""
         )
+    if phase is Phase.HELD:
+        return translate(
+            "penetration",
+            "Held: {reason}. The tip stays where it is; press Retract to bring it back, "
+            "or Free the axes to move it by hand.",
+        ).format(reason=status.reason)
     if phase is Phase.ARMED:
-        return "Armed: every axis is reserved. Press Start; nothing moves before."
+        return translate(
+            "penetration", "Armed: every axis is reserved. Press Start; nothing moves before."
+        )
     came = _came_of(status)
-    may = "Ready to be armed." if why_not is None else f"Cannot be armed now: {_stopped(why_not)}"
+    may = (
+        translate("penetration", "Ready to be armed.")
+        if why_not is None
+        else translate("penetration", "Cannot be armed now: {why_not}").format(
+            why_not=_stopped(why_not)
+        )
+    )
     return f"{came} {may}".lstrip()
 
 
 def _came_of(status: PenetrationStatus) -> str:
     run = status.run
     if status.phase is Phase.DISARMED or run is None:
-        return f"Disarmed: {_stopped(status.reason)}" if status.reason else ""
+        return (
+            translate("penetration", "Disarmed: {reason}").format(reason=_stopped(status.reason))
+            if status.reason
+            else ""
+        )
     if run.verdict is Verdict.DONE and run.thrust is not None:
         thrust = run.thrust
-        return (
-            f"Done: {way_text(thrust.depth)} deep, {speed_text(thrust.peak_speed)} at most, "
-            f"{way_text(thrust.error)} off its profile."
+        return translate(
+            "penetration", "Done: {depth} deep, {speed} at most, {error} off its profile."
+        ).format(
+            depth=way_text(thrust.depth),
+            speed=speed_text(thrust.peak_speed),
+            error=way_text(thrust.error),
         )
-    return f"{str(run.verdict).capitalize()}: {_stopped(run.reason)} The tip is back."
+    verdict = spoken(run.verdict)
+    return translate("penetration", "{verdict}: {reason} The tip is back.").format(
+        verdict=verdict[:1].upper() + verdict[1:], reason=_stopped(run.reason)
+    )
 
 
 def _stopped(sentence: str) -> str:
