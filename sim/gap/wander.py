@@ -27,12 +27,11 @@ _ROUGH = 1.6  # exponent of time, with which a wander's squared change grows at 
 class Wander:
     """What is left of a record, as far as it is not white.
 
-    ``power`` is over the floor; ``at_rest`` tells whether it goes on at rest as a wander does,
+    ``at_rest`` tells whether it goes on at rest as a wander does,
     None where no rest was recorded that could tell; ``walks`` whether it grows with time as a
     random walk does.
     """
 
-    power: float
     at_rest: bool | None
     walks: bool
 
@@ -43,15 +42,20 @@ def wandering(time_s: FloatArray, left: FloatArray, resting: BoolArray) -> Wande
     Random walks and 1/f noise change by as much at rest, where nothing else moves a reading, and
     by less than in proportion to time.
     """
-    power = float(np.mean(left**2))
-    white = float(np.mean(np.diff(left) ** 2)) / 2.0
-    if white > _WHITE * power:
+    white = _white(left)
+    if white > _WHITE * float(np.mean(left**2)):
         return None
-    return Wander(
-        max(power - max(white, 1.0), 0.0),
-        _goes_on(time_s, left, resting, white),
-        _walks(time_s, left, white),
-    )
+    return Wander(_goes_on(time_s, left, resting, white), _walks(time_s, left, white))
+
+
+def _white(left: FloatArray) -> float:
+    """Return the power of what is white in a residual (n,)."""
+    return float(np.mean(np.diff(left) ** 2)) / 2.0
+
+
+def _coloured(left: FloatArray) -> float:
+    """Return the power of what is not white in a residual (n,) over the floor, beyond that."""
+    return max(float(np.mean(left**2)) - max(_white(left), 1.0), 0.0)
 
 
 def _walks(time_s: FloatArray, left: FloatArray, white: float) -> bool:
@@ -111,7 +115,8 @@ def wander(evidence: Evidence, left: FloatArray) -> Disturbance | None:
     """Return how far a sensor wanders, by what the best explanation leaves (rows,).
 
     Rest proves it, or, where none can tell, a reference at which the same explanation leaves
-    nothing. Its power is in floors of the evidence.
+    nothing. Once a record proves it, another, too quiet or short to, counts as well. Its power is
+    in floors of the evidence.
     """
     total, rows, rested, walked = 0.0, 0, False, False
     for part in evidence.parts:
@@ -120,8 +125,9 @@ def wander(evidence: Evidence, left: FloatArray) -> Disturbance | None:
         record = evidence.observations[part.record].record
         own = wandering(record.time_s, left[part.rows], resting(record))
         rows += part.rows.stop - part.rows.start
+        if own is None or own.at_rest is not False:
+            total += _coloured(left[part.rows]) * (part.rows.stop - part.rows.start)
         if own is not None and own.at_rest is not False:
-            total += own.power * (part.rows.stop - part.rows.start)
             rested |= own.at_rest is True
             walked |= own.walks
     proven = rested or (walked and evidence.has(Tap.REF))

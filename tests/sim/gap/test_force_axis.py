@@ -7,6 +7,7 @@ import pytest
 
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.method import diagnose
 from rotemina.sim.gap.models import explain
 from rotemina.sim.gap.richness import is_poor
 from rotemina.sim.records.record import Record, Tap
@@ -38,9 +39,12 @@ def swings(seconds=8.0):
     return 0.05 + 0.05 * turn
 
 
+def replaced(**figures):
+    return replace(ROBOT, axes={"q": replace(AXIS, **figures)})
+
+
 def evidence(**figures):
-    machine = replace(ROBOT, axes={"q": replace(AXIS, **figures)})
-    return Evidence.of(ROBOT, "q", [moved(machine, swings())])
+    return Evidence.of(ROBOT, "q", [moved(replaced(**figures), swings())])
 
 
 def test_mass_and_damping_are_re_tuned():
@@ -51,6 +55,16 @@ def test_mass_and_damping_are_re_tuned():
     assert 1.0 / (1.0 + gain.parameters["error"]) == pytest.approx(1.05, rel=0.01)
     known = (AXIS.damping + damping.parameters["viscous"]) * 1.05
     assert known == pytest.approx(0.7 * AXIS.damping, rel=0.03)
+
+
+@pytest.mark.parametrize("share", [0.8, 1.25])
+def test_a_wrong_mass_alone_is_a_gain_and_no_friction_beside_it(share):
+    # A constant force that is the record's own: here it starts the axis as it would the model.
+    machine = replaced(mass=share * AXIS.mass, force_offset=share * AXIS.force_offset)
+    found = diagnose(ROBOT, [moved(machine, swings())])
+    (cause,) = found.causes
+    assert cause.effect == "gain_error"
+    assert 1.0 / (1.0 + cause.parameters[0].value) == pytest.approx(share, rel=0.02)
 
 
 def test_friction_takes_the_place_of_damping():

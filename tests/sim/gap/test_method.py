@@ -5,7 +5,9 @@ import pytest
 
 from rotemina.sim.gap import examination, selection
 from rotemina.sim.gap.diagnosis import UNKNOWN, Verdict
+from rotemina.sim.gap.disturbances import set_aside
 from rotemina.sim.gap.errors import GapError
+from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.method import diagnose
 from rotemina.sim.gap.standing import Grade, Standings
 from rotemina.sim.records.record import Record, Tap
@@ -105,6 +107,25 @@ def test_two_effects_on_one_axis_are_told_apart():
 
 
 @pytest.mark.slow
+@pytest.mark.slow
+def test_what_sticks_and_breaks_loose_by_whole_steps_lost_none():
+    # Bent by 190 N both ways, the drive lets go by 19 µm: nearly four full steps.
+    force = {"coulomb_forward": 190.0, "coulomb_backward": 190.0}
+    stuck = AxisEffect(axis="x", id="friction", parameters=force)
+    time_s = np.arange(4000) / 1000.0
+    rng = np.random.default_rng(1)
+    seen = []
+    for period_s, way in ((3.0, 3e-3), (2.4, 2e-3)):
+        to_and_fro = 2.0 / np.pi * np.arcsin(np.sin(2.0 * np.pi * time_s / period_s))
+        command = Record.from_signals(
+            time_s, {("x", Tap.CMD): 0.0275 + way * to_and_fro}, {"x": "m"}
+        )
+        seen.append(simulate(ROBOT, [stuck], command, rng))
+    _, aside = set_aside(Evidence.of(ROBOT, "x", seen))
+    assert "lost_steps" in {one.effect for one in aside}
+    assert named(diagnose(ROBOT, seen)) == {("x", "friction", None)}
+
+
 def test_what_no_effect_explains_is_unknown():
     def shaken(record, seed):
         """Add what depends on the product of time and speed, in nobody's catalogue."""
