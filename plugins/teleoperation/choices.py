@@ -9,6 +9,7 @@ from rotemina.app.motion.teleoperation.intent import Intent
 from rotemina.app.motion.teleoperation.scaling import STEP_PRESETS
 from rotemina.app.motion.teleoperation.views import TeleoperationState
 from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.teleoperation import wording
 from rotemina.plugins.teleoperation.section import Section, SteadyChoice, plain_text
@@ -48,37 +49,41 @@ class ChoiceSection(Section):
     """How the stick moves the robot."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__("Mode")
+        super().__init__(translate("teleoperation", "Mode"))
         steered = workbench.operation.teleoperator
         self.modes = Buttons(
-            "Mode",
+            translate("teleoperation", "Mode"),
             [(name, wording.mode_choice(name)) for name in steered.modes.names],
             3,
             lambda name: workbench.ask(lambda: steered.use_mode(name)),
         )
         self.laws = Buttons(
-            "Scaling",
-            wording.LAWS.items(),
+            translate("teleoperation", "Scaling"),
+            wording.law_choices(),
             3,
             lambda kind: workbench.ask(lambda: steered.use_law(kind)),
         )
         self.preset = SteadyChoice()
         for factor in STEP_PRESETS:
             self.preset.addItem(f"× {factor:g}", factor)
-        self.preset.setAccessibleName("Step preset")
-        self.preset.setToolTip(plain_tip("Factor on way, speed and force of every coordinate"))
+        self.preset.setAccessibleName(translate("teleoperation", "Step preset"))
+        self.preset.setToolTip(
+            plain_tip(
+                translate("teleoperation", "Factor on way, speed and force of every coordinate")
+            )
+        )
         self.preset.activated.connect(lambda _: steered.use_preset(self.preset.currentData()))
         self.factor = plain_text()
-        self.factor.setAccessibleName("Factor that acts now")
+        self.factor.setAccessibleName(translate("teleoperation", "Factor that acts now"))
         self.clutch = plain_text(lines=2)
         self.column.addWidget(self.modes)
-        heading = QLabel("Scaling")
+        heading = QLabel(translate("teleoperation", "Scaling"))
         heading.setProperty("heading", True)
         self.column.addWidget(heading)
         self.column.addWidget(self.laws)
         row = QHBoxLayout()
         row.setSpacing(8)
-        row.addWidget(QLabel("Step"))
+        row.addWidget(QLabel(translate("teleoperation", "Step")))
         row.addWidget(self.preset)
         row.addWidget(self.factor, 1)
         self.column.addLayout(row)

@@ -7,6 +7,7 @@ from rotemina.app.display import Scale
 from rotemina.app.motion.teleoperation.impedance import Impedance
 from rotemina.app.motion.teleoperation.operator_desk import OperatorDesk
 from rotemina.app.motion.teleoperation.views import CoordinateView, TeleoperationState
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.teleoperation import wording
 from rotemina.plugins.teleoperation.bar import CentreBar
@@ -28,20 +29,43 @@ class CoordinateRow(QFrame):
         title = QLabel(name)
         title.setTextFormat(Qt.TextFormat.PlainText)
         title.setProperty("heading", True)
-        title.setToolTip(f"Moved by {source} of the stick")
+        title.setToolTip(
+            translate("teleoperation", "Moved by {source} of the stick").format(source=source)
+        )
         self.position = plain_text(quiet=False)
-        self.position.setAccessibleName(f"{name} reference in {scale.symbol}")
-        self.position.setToolTip("Where the stick has led the reference, which the axes follow")
+        self.position.setAccessibleName(
+            translate("teleoperation", "{name} reference in {unit}").format(
+                name=name, unit=scale.symbol
+            )
+        )
+        self.position.setToolTip(
+            translate(
+                "teleoperation", "Where the stick has led the reference, which the axes follow"
+            )
+        )
         self.bar = CentreBar(workbench)
-        self.bar.setAccessibleName(f"{name} deflection of the stick")
-        self.bar.setToolTip("Deflection of the stick, −100 % to 100 %; dashed: none is trusted")
+        self.bar.setAccessibleName(
+            translate("teleoperation", "{name} deflection of the stick").format(name=name)
+        )
+        self.bar.setToolTip(
+            translate(
+                "teleoperation", "Deflection of the stick, −100 % to 100 %; dashed: none is trusted"
+            )
+        )
         self.law = plain_text(lines=1)
-        self.law.setAccessibleName(f"{name} scaling")
-        self.felt_title = QLabel("Felt")
+        self.law.setAccessibleName(translate("teleoperation", "{name} scaling").format(name=name))
+        self.felt_title = QLabel(translate("teleoperation", "Felt"))
         self.felt_title.setProperty("quiet", True)
         self.felt = CentreBar(workbench, "warning")
-        self.felt.setAccessibleName(f"{name} felt contact force")
-        self.felt.setToolTip("How hard a contact pushes back, −100 % to 100 % of the stick's force")
+        self.felt.setAccessibleName(
+            translate("teleoperation", "{name} felt contact force").format(name=name)
+        )
+        self.felt.setToolTip(
+            translate(
+                "teleoperation",
+                "How hard a contact pushes back, −100 % to 100 % of the stick's force",
+            )
+        )
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 2, 0, 5)
         grid.setVerticalSpacing(2)
@@ -58,9 +82,9 @@ class CoordinateRow(QFrame):
         self.position.setText(self._scale.text(view.position))
         set_property(self.position, "stale", stale)
         self.bar.show_value(view.deflection, stale=stale)
-        what = "tip" if view.unit == "m" else self._name
+        what = translate("teleoperation", "tip") if view.unit == "m" else self._name
         scaling = wording.law_text(view, what, travel_m)
-        self.law.setText(wording.WAITING if view.waiting else scaling)
+        self.law.setText(translate("teleoperation", wording.WAITING) if view.waiting else scaling)
         set_property(self.law, "bad", view.waiting)
         set_property(self.law, "quiet", not view.waiting)
         felt = isinstance(view.law, Impedance)
@@ -74,12 +98,17 @@ class CoordinateSection(Section):
     """A row for each coordinate of the mode; the last ones stay, grey, while there are none."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__("Coordinates")
+        super().__init__(translate("teleoperation", "Coordinates"))
         self._workbench = workbench
         self._shown: tuple[str, ...] = ()
         self.rows: dict[str, CoordinateRow] = {}
         self.none = plain_text(lines=2)
-        self.none.setText("Shown as soon as the axes' positions are known and a device is there.")
+        self.none.setText(
+            translate(
+                "teleoperation",
+                "Shown as soon as the axes' positions are known and a device is there.",
+            )
+        )
         self.column.addWidget(self.none)
 
     def refresh(self, state: TeleoperationState, desk: OperatorDesk, *, stale: bool) -> None:

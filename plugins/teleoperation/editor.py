@@ -8,6 +8,7 @@ from rotemina.app.motion.teleoperation.frames import Coordinate
 from rotemina.app.motion.teleoperation.scales import Scale
 from rotemina.app.motion.teleoperation.views import TeleoperationState
 from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.teleoperation import wording
 from rotemina.plugins.teleoperation.scale_fields import (
@@ -26,17 +27,17 @@ class ScaleEditor(Section):
     """Fields for one coordinate at a time; a value that is refused is put back."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__("Scales")
+        super().__init__(translate("teleoperation", "Scales"))
         self._workbench = workbench
         self._steered = workbench.operation.teleoperator
         self._mode = ""
         self._coordinates: dict[str, Coordinate] = {}
         self._shown: tuple[str, str, Scale] | None = None
         self.choice = SteadyChoice()
-        self.choice.setAccessibleName("Coordinate whose scale is shown")
-        self.choice.setToolTip("Coordinate whose scale is shown below")
+        self.choice.setAccessibleName(translate("teleoperation", "Coordinate whose scale is shown"))
+        self.choice.setToolTip(translate("teleoperation", "Coordinate whose scale is shown below"))
         self.choice.currentIndexChanged.connect(lambda _: self._show())
-        self.presets = button("Presets", "", self._use_presets)
+        self.presets = button(translate("teleoperation", "Presets"), "", self._use_presets)
         row = QHBoxLayout()
         row.setSpacing(6)
         row.addWidget(self.choice, 1)
@@ -50,12 +51,12 @@ class ScaleEditor(Section):
         grid.setColumnStretch(1, 1)
         for number, field in enumerate(FIELDS):
             title, unit, edit = plain_text(), plain_text(), QLineEdit()
-            title.setText(field.title)
+            title.setText(field.shown_title)
             title.setBuddy(edit)
             edit.setAlignment(Qt.AlignmentFlag.AlignRight)
             edit.editingFinished.connect(lambda name=field.name: self._commit(name))
             for widget in (title, edit):
-                widget.setToolTip(plain_tip(field.tip))
+                widget.setToolTip(plain_tip(field.shown_tip))
             for place, widget in enumerate((title, edit, unit)):
                 grid.addWidget(widget, number, place)
             self.fields[field.name], self._units[field.name] = edit, unit
@@ -65,12 +66,20 @@ class ScaleEditor(Section):
         """Show the scales of the present mode, as they are now."""
         if state.mode != self._mode:
             self._begin(machine, state.mode)
-        why = None if self._coordinates else "the axes' positions are not known yet"
+        why = (
+            None
+            if self._coordinates
+            else translate("teleoperation", "the axes' positions are not known yet")
+        )
         for edit in (*self.fields.values(), self.choice):
             edit.setEnabled(why is None)
         kept = self._mode in self._steered.scales.modes
-        why = why or (None if kept else "they are the presets")
-        allow(self.presets, why, "Put all scales of this mode back to their presets")
+        why = why or (None if kept else translate("teleoperation", "they are the presets"))
+        allow(
+            self.presets,
+            why,
+            translate("teleoperation", "Put all scales of this mode back to their presets"),
+        )
         self._show()
 
     def _begin(self, machine: SessionState, mode: str) -> None:
@@ -103,8 +112,12 @@ class ScaleEditor(Section):
         for field in FIELDS:
             edit, unit = self.fields[field.name], shown(field, coordinate).unit
             self._units[field.name].setText(unit)
-            edit.setAccessibleName(f"{field.title} of {self.choice.currentText()} {unit}".rstrip())
-            edit.setToolTip(plain_tip(field.tip, bounds_text(field, coordinate)))
+            edit.setAccessibleName(
+                translate("teleoperation", "{title} of {name} {unit}")
+                .format(title=field.shown_title, name=self.choice.currentText(), unit=unit)
+                .rstrip()
+            )
+            edit.setToolTip(plain_tip(field.shown_tip, bounds_text(field, coordinate)))
             if elsewhere or not (edit.hasFocus() and edit.isModified()):
                 edit.setText(told[field.name])
 

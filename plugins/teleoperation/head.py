@@ -6,8 +6,10 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy
 from rotemina.app.motion.teleoperation.devices_view import DevicesView
 from rotemina.app.motion.teleoperation.views import TeleoperationState
 from rotemina.app.shell.controls import ElidedLabel, plain_tip
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase import Tone, set_tone
 from rotemina.plugins.teleoperation import wording
+from rotemina.plugins.teleoperation.engine_words import spoken
 from rotemina.plugins.teleoperation.section import Section, plain_text, set_property
 
 
@@ -18,17 +20,19 @@ class HeadSection(Section):
         super().__init__()
         self.word = QLabel("–")
         self.word.setTextFormat(Qt.TextFormat.PlainText)
-        self.word.setAccessibleName("How teleoperation stands")
+        self.word.setAccessibleName(translate("teleoperation", "How teleoperation stands"))
         self.word.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         set_tone(self.word, Tone.QUIET)
         self.device, self.trust, self.refused = ElidedLabel(), ElidedLabel(), ElidedLabel()
         self.device.setProperty("heading", True)
-        self.device.setAccessibleName("Device that drives")
+        self.device.setAccessibleName(translate("teleoperation", "Device that drives"))
         self.trust.setProperty("quiet", True)
-        self.trust.setAccessibleName("Whether it is trusted")
-        self.refused.setAccessibleName("What was refused or slowed last")
+        self.trust.setAccessibleName(translate("teleoperation", "Whether it is trusted"))
+        self.refused.setAccessibleName(
+            translate("teleoperation", "What was refused or slowed last")
+        )
         self.reason = plain_text(lines=2)
-        self.reason.setAccessibleName("Why nothing moves")
+        self.reason.setAccessibleName(translate("teleoperation", "Why nothing moves"))
         row = QHBoxLayout()
         row.setSpacing(8)
         row.addWidget(self.word)
@@ -51,5 +55,9 @@ class HeadSection(Section):
         if why != self.reason.text():
             self.reason.setText(why)
             self.reason.setToolTip(plain_tip(why) if why else "")
-        self.refused.show_text(f"Last: {state.refused}" if state.refused else "")
+        self.refused.show_text(
+            translate("teleoperation", "Last: {refused}").format(refused=spoken(state.refused))
+            if state.refused
+            else ""
+        )
         set_property(self.refused, "bad", state.refused is not None)

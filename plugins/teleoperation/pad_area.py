@@ -16,6 +16,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.teleoperation.hand import Hand, Key
 
@@ -39,9 +40,15 @@ _SIDE, _SLIDER, _GAP, _KNOB = 124, 44, 8, 9
 _CAPTION = 18
 _REST = 0.06  # about the middle, where the pointer moves nothing
 _TIP = (
-    "Press and drag: the cross moves x and y, the slider z; both spring back when let go of.",
-    "With the keyboard on it: arrows x and y, page up and down z, shift coarse, ctrl fine, "
-    "space clutch.",
+    marked(
+        "teleoperation",
+        "Press and drag: the cross moves x and y, the slider z; both spring back when let go of.",
+    ),
+    marked(
+        "teleoperation",
+        "With the keyboard on it: arrows x and y, page up and down z, shift coarse, ctrl fine, "
+        "space clutch.",
+    ),
 )
 
 
@@ -55,7 +62,7 @@ class PadArea(QWidget):
         self._names: Mapping[str, str] = {}
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
-        self.setAccessibleName("Pad for x, y and z")
+        self.setAccessibleName(translate("teleoperation", "Pad for x, y and z"))
         self._renewing = QTimer(self, interval=RENEW_MS)
         self._renewing.timeout.connect(self._renew)
 
@@ -67,7 +74,14 @@ class PadArea(QWidget):
         """Act, or say why not; ``names`` says what x, y and z of the pad move."""
         if (why_not, names) != (self._why_not, self._names):
             self._why_not, self._names = why_not, names
-            self.setToolTip(plain_tip(*_TIP, f"Not now: {why_not}" if why_not else ""))
+            self.setToolTip(
+                plain_tip(
+                    *(translate("teleoperation", line) for line in _TIP),
+                    translate("teleoperation", "Not now: {why_not}").format(why_not=why_not)
+                    if why_not
+                    else "",
+                )
+            )
             self.update()
             if why_not is not None:
                 self.release()

@@ -6,30 +6,37 @@ from rotemina.app.display import label
 from rotemina.app.motion.teleoperation.devices_view import DevicesView
 from rotemina.app.motion.teleoperation.views import TeleoperationState
 from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.teleoperation import wording
 from rotemina.plugins.teleoperation.hand import SHARES, Hand
 from rotemina.plugins.teleoperation.pad_area import PadArea
 from rotemina.plugins.teleoperation.section import Section, SteadyChoice, button, plain_text
 
-_KEYS = "arrows  x y\npage ↑ ↓  z\nshift  × 10\nctrl  × 0.1\nspace  clutch"
+_KEYS = marked("teleoperation", "arrows  x y\npage ↑ ↓  z\nshift  × 10\nctrl  × 0.1\nspace  clutch")
 
 
 class PadSection(Section):
     """Pointer, keys, and the button by which the pad asks to drive."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__("Pad")
+        super().__init__(translate("teleoperation", "Pad"))
         self._hand = Hand(workbench.operation.pad)
         self.area = PadArea(workbench, self._hand)
         self.most = SteadyChoice()
         for share in SHARES:
-            self.most.addItem(f"stick {100 * share:g} %", share)
+            self.most.addItem(
+                translate("teleoperation", "stick {percent:g} %").format(percent=100 * share), share
+            )
         self.most.setCurrentIndex(len(SHARES) - 1)
-        self.most.setAccessibleName("Deflection of the pad in percent")
-        self.most.setToolTip(plain_tip("Deflection at the ends of the pad, and of its keys"))
+        self.most.setAccessibleName(translate("teleoperation", "Deflection of the pad in percent"))
+        self.most.setToolTip(
+            plain_tip(
+                translate("teleoperation", "Deflection at the ends of the pad, and of its keys")
+            )
+        )
         self.most.currentIndexChanged.connect(self._use_most)
-        self.take_over = button("Take over", "", lambda: None)
+        self.take_over = button(translate("teleoperation", "Take over"), "", lambda: None)
         self.take_over.pressed.connect(lambda: self._hand.take_over(True))
         self.take_over.released.connect(lambda: self._hand.take_over(False))
         kept = self.take_over.sizePolicy()
@@ -37,7 +44,7 @@ class PadSection(Section):
         self.take_over.setSizePolicy(kept)
         self.take_over.hide()
         keys = plain_text()
-        keys.setText(_KEYS)
+        keys.setText(translate("teleoperation", _KEYS))
         side = QVBoxLayout()
         side.setSpacing(4)
         side.addWidget(self.most)
@@ -60,10 +67,15 @@ class PadSection(Section):
         drives = pad is not None and pad.drives
         allow(
             self.take_over,
-            "the pad drives; the other device gets the drive back by being moved"
+            translate(
+                "teleoperation",
+                "the pad drives; the other device gets the drive back by being moved",
+            )
             if drives
             else None,
-            "Let the pad drive, as long as the other device is left alone",
+            translate(
+                "teleoperation", "Let the pad drive, as long as the other device is left alone"
+            ),
         )
 
     def _use_most(self, _: int) -> None:

@@ -5,6 +5,7 @@ from PySide6.QtWidgets import QFrame, QScrollArea, QVBoxLayout, QWidget
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S, Area, Panel
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.teleoperation.choices import ChoiceSection
 from rotemina.plugins.teleoperation.coordinates import CoordinateSection
@@ -17,7 +18,7 @@ from rotemina.plugins.teleoperation.reserve import ReserveSection
 class TeleoperationPanel(Panel):
     """Head, pad, mode and scaling, coordinates, piezo range, scales, one below the other."""
 
-    title = "Teleoperation"
+    title = marked("panels", "Teleoperation")
     area = Area.RIGHT
     order = 22
     help_page = "teleoperation.md#in-the-window"

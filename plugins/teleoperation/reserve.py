@@ -7,6 +7,7 @@ from rotemina.app.motion.operation import has_tip
 from rotemina.app.motion.state import SessionState
 from rotemina.app.motion.teleoperation.views import TeleoperationState
 from rotemina.app.shell.controls import allow
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.teleoperation import wording
@@ -18,22 +19,35 @@ class ReserveSection(Section):
     """Piezo range, tilt, re-centring; there is none of it for a robot without a tip."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__("Piezo range")
+        super().__init__(translate("teleoperation", "Piezo range"))
         operation = workbench.operation
         nano = JOINTS[NANO]
         self.bar = QProgressBar()
         self.bar.setRange(0, 100)
         self.bar.setTextVisible(False)
-        self.bar.setAccessibleName("Piezo range left in percent")
-        self.bar.setToolTip("100 %: the piezo is in the middle of its range; 0 %: at an end")
+        self.bar.setAccessibleName(translate("teleoperation", "Piezo range left in percent"))
+        self.bar.setToolTip(
+            translate(
+                "teleoperation", "100 %: the piezo is in the middle of its range; 0 %: at an end"
+            )
+        )
         self.left = plain_text(quiet=False)
         self.tilt = plain_text(quiet=False)
-        self.tilt.setAccessibleName("Tilt of the tool since the mode began")
-        self.tilt.setToolTip("By how much the mode has turned the tool since it began")
+        self.tilt.setAccessibleName(
+            translate("teleoperation", "Tilt of the tool since the mode began")
+        )
+        self.tilt.setToolTip(
+            translate("teleoperation", "By how much the mode has turned the tool since it began")
+        )
         grid = QGridLayout()
         grid.setHorizontalSpacing(12)
         grid.setColumnStretch(1, 1)
-        for row, (title, widget) in enumerate((("Left", self.left), ("Tilt", self.tilt))):
+        for row, (title, widget) in enumerate(
+            (
+                (translate("teleoperation", "Left"), self.left),
+                (translate("teleoperation", "Tilt"), self.tilt),
+            )
+        ):
             name = QLabel(title)
             name.setProperty("quiet", True)
             grid.addWidget(name, row, 0)
@@ -41,10 +55,14 @@ class ReserveSection(Section):
         self.column.addWidget(self.bar)
         self.column.addLayout(grid)
         self.one = button(
-            f"Re-centre {label(nano[-1])}", "", lambda: workbench.ask(operation.recentre)
+            translate("teleoperation", "Re-centre {axis}").format(axis=label(nano[-1])),
+            "",
+            lambda: workbench.ask(operation.recentre),
         )
         self.all = button(
-            "Re-centre all", "", lambda: workbench.ask(lambda: operation.recentre(nano))
+            translate("teleoperation", "Re-centre all"),
+            "",
+            lambda: workbench.ask(lambda: operation.recentre(nano)),
         )
         buttons = QHBoxLayout()
         buttons.setSpacing(6)
@@ -62,9 +80,15 @@ class ReserveSection(Section):
         self.left.setText(wording.reserve_text(state))
         self.tilt.setText(wording.tilt_shown(state))
         why = against_recentring(machine)
-        stays = "to mid-range while the tables keep the tip where it is"
-        allow(self.one, why, f"Bring zn {stays}")
-        allow(self.all, why, f"Bring both tilts and zn {stays}; this takes longer")
+        stays = translate("teleoperation", "to mid-range while the tables keep the tip where it is")
+        allow(self.one, why, translate("teleoperation", "Bring zn {stays}").format(stays=stays))
+        allow(
+            self.all,
+            why,
+            translate("teleoperation", "Bring both tilts and zn {stays}; this takes longer").format(
+                stays=stays
+            ),
+        )
 
 
 def against_recentring(machine: SessionState) -> str | None:
@@ -72,5 +96,5 @@ def against_recentring(machine: SessionState) -> str | None:
     if machine.locked is not None:
         return machine.locked
     if machine.activity is not DeviceState.IDLE or machine.queued:
-        return "the machine is still moving; let go of the stick first"
+        return translate("teleoperation", "the machine is still moving; let go of the stick first")
     return None

@@ -1,4 +1,4 @@
-"""The fields of a scale: names, units, text, and what is refused. Free of Qt."""
+"""The fields of a scale: names, units, text, and what is refused.."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -11,11 +11,17 @@ from rotemina.app.display import PLAIN_NUMBER
 from rotemina.app.motion.teleoperation.frames import Coordinate
 from rotemina.app.motion.teleoperation.reference import ScalingError
 from rotemina.app.motion.teleoperation.scales import LawKind, Scale, Scales
+from rotemina.app.shell.language import marked, translate
 from rotemina.sim.trajectory.wording import readable
 from rotemina.sim.units import per_si, symbol
 
 _TABLE_M = 1e-4  # what has a longer way reads better in mm
-_BOUNDS = {"gt": "above {}", "ge": "at least {}", "lt": "below {}", "le": "at most {}"}
+_BOUNDS = {
+    "gt": marked("teleoperation", "above {bound}"),
+    "ge": marked("teleoperation", "at least {bound}"),
+    "lt": marked("teleoperation", "below {bound}"),
+    "le": marked("teleoperation", "at most {bound}"),
+}
 
 
 class ScaleField(NamedTuple):
@@ -29,33 +35,62 @@ class ScaleField(NamedTuple):
     unit: str
     tip: str
 
+    @property
+    def shown_title(self) -> str:
+        """The title in the language in use."""
+        return translate("teleoperation", self.title)
+
+    @property
+    def shown_tip(self) -> str:
+        """What it means, in the language in use."""
+        return translate("teleoperation", self.tip)
+
 
 FIELDS = (
-    ScaleField("way", "Way at full stick", "way", "Position; and impedance on a spring"),
-    ScaleField("speed", "Speed at full stick", "speed", "Rate; and impedance without a spring"),
+    ScaleField(
+        "way",
+        marked("teleoperation", "Way at full stick"),
+        "way",
+        marked("teleoperation", "Position; and impedance on a spring"),
+    ),
+    ScaleField(
+        "speed",
+        marked("teleoperation", "Speed at full stick"),
+        "speed",
+        marked("teleoperation", "Rate; and impedance without a spring"),
+    ),
     ScaleField(
         "time_constant_s",
-        "Time constant",
+        marked("teleoperation", "Time constant"),
         "s",
-        "Impedance without a spring: in which the virtual mass gets to its speed",
+        marked(
+            "teleoperation",
+            "Impedance without a spring: in which the virtual mass gets to its speed",
+        ),
     ),
     ScaleField(
         "spring_hz",
-        "Spring frequency",
+        marked("teleoperation", "Spring frequency"),
         "Hz",
-        "Impedance: how fast the virtual mass swings; 0 is no spring, and it glides",
+        marked(
+            "teleoperation",
+            "Impedance: how fast the virtual mass swings; 0 is no spring, and it glides",
+        ),
     ),
     ScaleField(
         "damping_ratio",
-        "Damping ratio",
+        marked("teleoperation", "Damping ratio"),
         "",
-        "Impedance on a spring: below 1 it overshoots, above 1 it creeps",
+        marked("teleoperation", "Impedance on a spring: below 1 it overshoots, above 1 it creeps"),
     ),
     ScaleField(
         "contact_gain",
-        "Contact gain",
+        marked("teleoperation", "Contact gain"),
         "%",
-        "Impedance: how much of the greatest safe force a contact pushes back; 0 is none",
+        marked(
+            "teleoperation",
+            "Impedance: how much of the greatest safe force a contact pushes back; 0 is none",
+        ),
     ),
 )
 _BY_NAME = {field.name: field for field in FIELDS}
@@ -90,11 +125,17 @@ def bounds_text(field: ScaleField, coordinate: Coordinate) -> str:
     """Return what a field of a coordinate may hold, with its unit."""
     unit, bounds = shown(field, coordinate), coordinate.bounds
     if field.name == "way":
-        return f"above 0, up to {unit.text(bounds.high - bounds.low)}"
+        return translate("teleoperation", "above 0, up to {most}").format(
+            most=unit.text(bounds.high - bounds.low)
+        )
     if field.name == "speed":
-        return f"above 0, up to {unit.text(bounds.max_speed)}"
+        return translate("teleoperation", "above 0, up to {most}").format(
+            most=unit.text(bounds.max_speed)
+        )
     kept = _checked()[field.name]
-    return f"{unit.number(kept['minimum'])} to {unit.text(kept['maximum'])}"
+    return translate("teleoperation", "{least} to {most}").format(
+        least=unit.number(kept["minimum"]), most=unit.text(kept["maximum"])
+    )
 
 
 @cache
@@ -114,12 +155,17 @@ def changed(scale: Scale, name: str, text: str, coordinate: Coordinate) -> Scale
     """
     field = _BY_NAME[name]
     unit = shown(field, coordinate)
-    title = f"{field.title} of {coordinate.name}"
+    title = translate("teleoperation", "{title} of {name}").format(
+        title=field.shown_title, name=coordinate.name
+    )
     text = text.strip()
     if PLAIN_NUMBER.fullmatch(text) is None:
         unit_text = f" in {unit.unit}" if unit.unit else ""
         raise ScalingError(
-            f"{title}: {text!r} is no number; type one{unit_text} with a decimal point"
+            translate(
+                "teleoperation",
+                "{title}: {text!r} is no number; type one{unit} with a decimal point",
+            ).format(title=title, text=text, unit=unit_text)
         )
     value = float(text) / unit.factor
     if unit.number(value) == unit.number(getattr(scale, name)):
@@ -129,7 +175,11 @@ def changed(scale: Scale, name: str, text: str, coordinate: Coordinate) -> Scale
     try:
         made = replace(scale, **{name: value})
     except ValidationError as error:
-        raise ScalingError(f"{typed}: must be {_bound(error, unit)}") from error
+        raise ScalingError(
+            translate("teleoperation", "{typed}: must be {bound}").format(
+                typed=typed, bound=_bound(error, unit)
+            )
+        ) from error
     for kind in LawKind:
         made.law(kind, coordinate, 0.0)
     return made
@@ -152,13 +202,25 @@ def _check_reach(typed: str, name: str, value: float, coordinate: Coordinate) ->
     bounds, unit = coordinate.bounds, coordinate.unit
     if name == "way" and value > bounds.high - bounds.low:
         most = readable(bounds.high - bounds.low, unit)
-        raise ScalingError(f"{typed}: must be at most {most}, its range")
+        raise ScalingError(
+            translate("teleoperation", "{typed}: must be at most {most}, its range").format(
+                typed=typed, most=most
+            )
+        )
     if name == "speed" and value > bounds.max_speed:
         most = readable(bounds.max_speed, f"{unit}/s")
-        raise ScalingError(f"{typed}: must be at most {most}, its greatest speed")
+        raise ScalingError(
+            translate(
+                "teleoperation", "{typed}: must be at most {most}, its greatest speed"
+            ).format(typed=typed, most=most)
+        )
 
 
 def _bound(error: ValidationError, unit: Shown) -> str:
     context = error.errors(include_url=False)[0].get("ctx", {})
-    told = (text.format(unit.text(context[key])) for key, text in _BOUNDS.items() if key in context)
-    return next(told, "a finite number")
+    told = (
+        translate("teleoperation", text).format(bound=unit.text(context[key]))
+        for key, text in _BOUNDS.items()
+        if key in context
+    )
+    return next(told, translate("teleoperation", "a finite number"))

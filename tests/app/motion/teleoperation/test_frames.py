@@ -11,14 +11,8 @@ from rotemina.app.motion.teleoperation.frames import FrameError
 from rotemina.app.motion.teleoperation.hybrid import HybridFrame, Saturation
 from rotemina.app.motion.teleoperation.linear_rate import LinearRate
 from rotemina.app.motion.teleoperation.modes import Modes
-from rotemina.app.motion.teleoperation.plain_units import (
-    felt_text,
-    position_text,
-    rate_text,
-    tilt_text,
-)
+from rotemina.app.motion.teleoperation.plain_units import tilt_text
 from rotemina.app.motion.teleoperation.tip_frames import FineFrame, PivotFrame
-from rotemina.app.motion.teleoperation.virtual_impedance import VirtualImpedance
 from rotemina.sim.kinematics.chain import JOINTS, Chain
 from rotemina.sim.kinematics.forward import tip_position
 from rotemina.sim.robot.file import load_robot
@@ -258,18 +252,3 @@ def test_a_mode_does_not_begin_at_an_unknown_place(name):
     known = {axis: at for axis, at in CENTRE.items() if axis not in ("x", "thy")}
     with pytest.raises(FrameError, match="is not known; connect and home first"):
         MODES.begin(name, known)
-
-
-# --- in plain units -------------------------------------------------------------------------------
-
-
-def test_scales_are_told_in_plain_units():
-    assert position_text(2e-5, "m", "tip", 1e-2) == "1 mm of stick = 2 µm of tip"
-    assert position_text(1e-4, "rad", "thx", 1e-2) == "1 mm of stick = 10 µrad of thx"
-    assert rate_text(5e-4, "m") == "full stick = 0.5 mm/s"
-    glide = VirtualImpedance.gliding(5e-4, 0.3).felt
-    assert felt_text(glide, "m") == "full stick ends at 0.5 mm/s, time constant 0.3 s"
-    spring = VirtualImpedance.sprung(1e-3, 1.5, 0.5).felt
-    assert felt_text(spring, "m", 0.1) == (
-        "full stick ends 0.1 mm away: 1.5 Hz, damping ratio 0.5, time constant 0.212 s"
-    )

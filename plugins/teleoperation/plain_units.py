@@ -1,0 +1,47 @@
+"""Scales and felt dynamics in words: what an operator reads beside a law."""
+
+from rotemina.app.motion.teleoperation.virtual_impedance import FeltDynamics
+from rotemina.app.shell.language import translate
+from rotemina.sim.trajectory.wording import readable
+
+_MM = 1e-3
+
+
+def position_text(scale: float, unit: str, what: str, stick_travel_m: float) -> str:
+    """Return ``"1 mm of stick = 2 µm of tip"``.
+
+    ``scale`` is what full deflection moves, in ``unit`` (m or rad); ``stick_travel_m`` is the way
+    of the stick's tip from the middle to full deflection.
+    """
+    way = readable(scale * _MM / stick_travel_m, unit)
+    return translate("teleoperation", "1 mm of stick = {way} of {what}").format(way=way, what=what)
+
+
+def way_text(scale: float, unit: str) -> str:
+    """Return ``"full stick = 2 µm"``, for a way (m or rad) or a speed at full deflection."""
+    return translate("teleoperation", "full stick = {way}").format(way=readable(scale, unit))
+
+
+def rate_text(scale: float, unit: str) -> str:
+    """Return ``"full stick = 0.5 mm/s"``, for a speed at full deflection."""
+    return way_text(scale, f"{unit}/s")
+
+
+def felt_text(felt: FeltDynamics, unit: str, factor: float = 1.0) -> str:
+    """Return where full deflection leads, and how soon; ``factor`` is the law's scale."""
+    after_s = f"{felt.time_constant_s:.3g} s"
+    if felt.terminal_speed is not None:
+        glide = translate("teleoperation", "full stick ends at {speed}, time constant {after}")
+        speed = readable(factor * felt.terminal_speed, f"{unit}/s")
+        return glide.format(speed=speed, after=after_s)
+    swing = translate(
+        "teleoperation",
+        "full stick ends {travel} away: {hz:.3g} Hz, damping ratio {damping:.3g}, time constant "
+        "{after}",
+    )
+    return swing.format(
+        travel=readable(factor * (felt.travel or 0.0), unit),
+        hz=felt.natural_frequency_hz,
+        damping=felt.damping_ratio,
+        after=after_s,
+    )
