@@ -25,6 +25,7 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.loop_watch import LoopWatch
 from rotemina.app.shell.message_log import Message, MessageLog, chosen
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level
@@ -48,6 +49,11 @@ _LEVELS = {
     Level.ERROR: marked("shell", "error"),
 }
 _ROLES = {Level.WARNING: "warning", Level.ERROR: "danger_text", Level.GOOD: "good"}
+_ABOUT_LATENESS = marked(
+    "shell",
+    "How long the window took to react since it was started. When it does not react for a quarter "
+    "of a second, the log says what it did.",
+)
 _Index = QModelIndex | QPersistentModelIndex
 _TOP = QModelIndex()
 
@@ -111,11 +117,11 @@ class LogPage(QDialog):
 
     asked = Signal(str)
 
-    def __init__(self, log: MessageLog, theme: Theme, parent: QWidget) -> None:
+    def __init__(self, log: MessageLog, theme: Theme, watch: LoopWatch, parent: QWidget) -> None:
         super().__init__(parent)
         self.setWindowTitle(translate("shell", "Log"))
         self.resize(860, 420)
-        self._log, self._shown = log, -1
+        self._log, self._watch, self._shown = log, watch, -1
         self.model = MessageTable(theme)
         self.level, self.words = QComboBox(), QLineEdit()
         for least, text in _LEAST.items():
@@ -127,6 +133,9 @@ class LogPage(QDialog):
         self.table = self._make_table()
         self.count = QLabel()
         self.count.setProperty("quiet", True)
+        self.lateness = QLabel()
+        self.lateness.setProperty("quiet", True)
+        self.lateness.setToolTip(plain_tip(translate("shell", _ABOUT_LATENESS)))
         self.copy = QPushButton(translate("shell", "Copy"))
         self.copy.setAutoDefault(False)
         self.copy.clicked.connect(self.copy_messages)
@@ -145,6 +154,7 @@ class LogPage(QDialog):
         """Show what has been added since; a selection is left alone."""
         if self._log.count != self._shown and not self.table.selectionModel().hasSelection():
             self._show_messages()
+        self._show_lateness()
 
     def set_theme(self, theme: Theme) -> None:
         """Change the colours."""
@@ -161,6 +171,7 @@ class LogPage(QDialog):
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
         """Begin to look for new messages."""
         self._show_messages()
+        self._show_lateness()
         self._timer.start()
         super().showEvent(event)
 
@@ -180,6 +191,15 @@ class LogPage(QDialog):
         tip = translate("shell", "Copy the selected messages, or all that are shown")
         allow(self.copy, None if picked else translate("shell", "no message is shown"), tip)
         self._allow_help()
+
+    def _show_lateness(self) -> None:
+        late = self._watch.lateness
+        self.lateness.setVisible(late.watched_s > 0.0)
+        self.lateness.setText(
+            translate(
+                "shell", "Window late by {usual} ms at most in 99 %, worst {worst} ms"
+            ).format(usual=f"{1e3 * late.usual_s:.0f}", worst=f"{1e3 * late.worst_s:.0f}")
+        )
 
     def _page(self) -> str:
         rows = self.table.selectionModel().selectedRows()
@@ -226,3 +246,4 @@ class LogPage(QDialog):
         column = QVBoxLayout(self)
         column.addLayout(top)
         column.addWidget(self.table, 1)
+        column.addWidget(self.lateness)

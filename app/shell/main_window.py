@@ -33,6 +33,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.language_menu import LanguageMenu, language_entries
 from rotemina.app.shell.late_panels import LatePanels
 from rotemina.app.shell.log_page import LogPage
+from rotemina.app.shell.loop_watch import LoopWatch
 from rotemina.app.shell.message_log import MessageLog
 from rotemina.app.shell.motion_bar import MotionBar, StopWatch
 from rotemina.app.shell.notices import NoticeBar
@@ -83,7 +84,9 @@ class MainWindow(QMainWindow):
         self.arrangement = Arrangement(self)
         self._make_menus()
         self._make_status_bar()
-        self.log_page = LogPage(self.log, workbench.theme, self)
+        self.loop_watch = LoopWatch(self)  # started by whoever runs the window
+        workbench.closing.connect(self.loop_watch.close)
+        self.log_page = LogPage(self.log, workbench.theme, self.loop_watch, self)
         workbench.theme_changed.connect(self.log_page.set_theme)
         self.palette_page = Palette(self._entries, self)
         self.arrangement.restore()
@@ -322,7 +325,7 @@ class MainWindow(QMainWindow):
         if self._support is not None:
             self._support.close()
             self._support.deleteLater()
-        self._support = SupportPage(self.workbench, self.log, self)
+        self._support = SupportPage(self.workbench, self.log, self.loop_watch, self)
         _come_up(self._support)
 
     # --- what happens -----------------------------------------------------------------------------

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
+from types import MappingProxyType
 
 from rotemina.app.files import json_text
 from rotemina.app.motion.state import SessionState
@@ -52,6 +53,7 @@ def gather(
     robot: str,
     record: Record | None,
     scrubber: Scrubber,
+    lateness: Mapping[str, float] = MappingProxyType({}),
     reached: Reached = lambda _: None,
 ) -> tuple[Item, ...]:
     """Return what a bundle holds, scrubbed; a large record takes a while.
@@ -78,6 +80,11 @@ def gather(
             "machine.json",
             translate("shell", "Robot, driver, and how the connection stands"),
             _json(_machine(state, driver, robot)),
+        ),
+        Item(
+            "window.json",
+            translate("shell", "How late the window reacted; the log says to what"),
+            _json(lateness),
         ),
     ]
     reached(0.2)

@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 from rotemina.app.display import size_text
 from rotemina.app.shell.controls import allow
 from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.loop_watch import LoopWatch
 from rotemina.app.shell.message_log import MessageLog
 from rotemina.app.shell.progress import Progress
 from rotemina.app.shell.scrubbing import Scrubber
@@ -37,7 +38,9 @@ _INTRODUCTION = marked(
 class SupportPage(QDialog):
     """Lists the files of a bundle with their content, and saves it."""
 
-    def __init__(self, workbench: Workbench, log: MessageLog, parent: QWidget) -> None:
+    def __init__(
+        self, workbench: Workbench, log: MessageLog, watch: LoopWatch, parent: QWidget
+    ) -> None:
         super().__init__(parent)
         self.setWindowTitle(translate("shell", "Support bundle"))
         self.resize(820, 480)
@@ -68,7 +71,7 @@ class SupportPage(QDialog):
         column.addWidget(introduction)
         column.addLayout(middle, 1)
         column.addLayout(buttons)
-        self._gather(log)
+        self._gather(log, watch)
 
     def ask_where(self) -> None:
         """Ask where to, and write the bundle there."""
@@ -104,16 +107,17 @@ class SupportPage(QDialog):
         )
         self.close()
 
-    def _gather(self, log: MessageLog) -> None:
+    def _gather(self, log: MessageLog, watch: LoopWatch) -> None:
         bench = self._workbench
         preferences, state, record = bench.settings.values, bench.session.snapshot(), bench.record
         driver, robot = bench.session.driver.name, bench.robot.name
+        late = watch.lateness.as_json()
 
         def work(progress: Progress) -> tuple[Item, ...]:
             scrubber = Scrubber.of_this_user()
             told = log.messages()
             return gather(
-                told, preferences, state, driver, robot, record, scrubber, progress.reached
+                told, preferences, state, driver, robot, record, scrubber, late, progress.reached
             )
 
         bench.long_work(

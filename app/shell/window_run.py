@@ -69,6 +69,8 @@ def run(session: MotionSession, settings: Settings) -> int:
     gc.collect()
     gc.freeze()
     window.late_panels.done.connect(gc.freeze)  # no look before: the machine is connected by then
+    window.loop_watch.start()
+    window.late_panels.done.connect(window.loop_watch.restart)  # what it measures is use, no start
     window.workbench.start()
     # Only asked for here: a handler may interrupt anything, a lock that closing needs as well.
     signal.signal(signal.SIGINT, lambda *_: QTimer.singleShot(0, window.close))

@@ -73,7 +73,14 @@ def test_a_bundle_holds_log_settings_versions_and_record_and_names_nobody(items,
     with zipfile.ZipFile(path) as archive:
         assert archive.testzip() is None
         files = {name: archive.read(name).decode("utf-8") for name in archive.namelist()}
-    assert set(files) == {"log.txt", "settings.json", "versions.json", "machine.json", "record.csv"}
+    assert set(files) == {
+        "log.txt",
+        "settings.json",
+        "versions.json",
+        "machine.json",
+        "window.json",
+        "record.csv",
+    }
     assert "no such file" in files["log.txt"]
     assert json.loads(files["settings.json"])["files.folder"] == "<home>/data"
     assert "numpy" in json.loads(files["versions.json"])["libraries"]
