@@ -15,6 +15,7 @@ from PySide6.QtWidgets import (
 from rotemina.app.display import axis_scale, label
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Plan, Workbench
 from rotemina.plugins.trajectory.resampling import ResamplingDialog
 from rotemina.plugins.trajectory.table import (
@@ -29,34 +30,44 @@ from rotemina.plugins.trajectory.table import (
 from rotemina.plugins.trajectory.transport import Transport
 from rotemina.sim.errors import InputError
 
-EMPTY = "No trajectory is loaded. Load one to see what it asks of each axis before it is played."
-BOUND_TIP = (
+EMPTY = marked(
+    "trajectory",
+    "No trajectory is loaded. Load one to see what it asks of each axis before it is played.",
+)
+BOUND_TIP = marked(
+    "trajectory",
     "The playback pauses when readings are farther from the model than this for 20 ms; "
-    "double-click to change it, empty it for no bound"
+    "double-click to change it, empty it for no bound",
 )
 
 
 class TrajectoryPanel(Panel):
     """Load → dry run (limits, speed, duration) → play."""
 
-    title = "Trajectory"
+    title = marked("panels", "Trajectory")
     area = Area.BOTTOM
     order = 10
     help_page = "trajectory.md"
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
-        self.load = QPushButton("Load …")
-        self.load.setToolTip("Take a trajectory from a text file, and try it on the model (Ctrl+T)")
+        self.load = QPushButton(translate("trajectory", "Load …"))
+        self.load.setToolTip(
+            translate(
+                "trajectory", "Take a trajectory from a text file, and try it on the model (Ctrl+T)"
+            )
+        )
         self.load.clicked.connect(lambda: self.main_window.ask_trajectory())
-        self.resample = QPushButton("Resample …")
-        self.resample.setToolTip("Another rate, in Hz, for the trajectory in hand")
+        self.resample = QPushButton(translate("trajectory", "Resample …"))
+        self.resample.setToolTip(
+            translate("trajectory", "Another rate, in Hz, for the trajectory in hand")
+        )
         self.resample.setEnabled(False)
         self.resample.clicked.connect(self._resample)
         self.transport = Transport(workbench)
         self.name = QLabel("")
         self.name.setProperty("heading", True)
-        self.verdict = QLabel(EMPTY)
+        self.verdict = QLabel(translate("trajectory", EMPTY))
         self.verdict.setWordWrap(True)
         self.name.setTextFormat(Qt.TextFormat.PlainText)
         self.verdict.setTextFormat(Qt.TextFormat.PlainText)
@@ -87,17 +98,32 @@ class TrajectoryPanel(Panel):
 
     def _show_plan(self, plan: Plan) -> None:
         run = plan.dry_run
-        self.name.setText(f"{plan.name} – {run.duration_s:.3f} s, {run.rows} rows")
+        self.name.setText(
+            translate("trajectory", "{name} – {seconds:.3f} s, {rows} rows").format(
+                name=plan.name, seconds=run.duration_s, rows=run.rows
+            )
+        )
         self.name.show()
         self.resample.setEnabled(True)
         if run.allowed:
             self.verdict.setText(
-                "Dry run: inside all limits of range, speed and acceleration. "
-                "Play first moves the axes to the first row, within the same limits."
+                translate(
+                    "trajectory",
+                    "Dry run: inside all limits of range, speed and acceleration. "
+                    "Play first moves the axes to the first row, within the same limits.",
+                )
             )
         else:
-            more = f" (and {len(run.objections) - 1} more)" if len(run.objections) > 1 else ""
-            self.verdict.setText(f"Not playable: {run.objections[0]}{more}")
+            more = (
+                translate("trajectory", " (and {n} more)").format(n=len(run.objections) - 1)
+                if len(run.objections) > 1
+                else ""
+            )
+            self.verdict.setText(
+                translate("trajectory", "Not playable: {objection}{more}").format(
+                    objection=run.objections[0], more=more
+                )
+            )
         self.verdict.setProperty("bad", not run.allowed)
         self.verdict.style().polish(self.verdict)
         self.transport.show_plan()
@@ -111,7 +137,10 @@ class TrajectoryPanel(Panel):
 
         def use() -> None:
             if dialog.resampled is not None:
-                self.workbench.plan_trajectory(f"{plan.name}, resampled", dialog.resampled)
+                self.workbench.plan_trajectory(
+                    translate("trajectory", "{name}, resampled").format(name=plan.name),
+                    dialog.resampled,
+                )
 
         dialog.accepted.connect(use)
         dialog.show()
@@ -131,7 +160,7 @@ class TrajectoryPanel(Panel):
                     item.setFlags(item.flags() & ~Qt.ItemFlag.ItemIsEditable)
                     self.table.setItem(row, column, item)
                 item = QTableWidgetItem(bound_text(bounds[name], axis.unit))
-                item.setToolTip(BOUND_TIP)
+                item.setToolTip(translate("trajectory", BOUND_TIP))
                 self.table.setItem(row, BOUND, item)
 
     def _bound_typed(self, item: QTableWidgetItem) -> None:
@@ -166,12 +195,16 @@ class TrajectoryPanel(Panel):
                 for name, axis in plan.dry_run.axes.items()
                 if name in gaps
             ]
-            self.gaps.setText(f"Model and real apart: {' · '.join(parts)}")
+            self.gaps.setText(
+                translate("trajectory", "Model and real apart: {parts}").format(
+                    parts=" · ".join(parts)
+                )
+            )
 
 
 def _table() -> QTableWidget:
     table = QTableWidget(0, len(COLUMNS))
-    table.setHorizontalHeaderLabels(list(COLUMNS))
+    table.setHorizontalHeaderLabels([translate("trajectory", one) for one in COLUMNS])
     triggers = QAbstractItemView.EditTrigger
     table.setEditTriggers(triggers.DoubleClicked | triggers.EditKeyPressed)
     table.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)

@@ -12,15 +12,16 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.display import speed_changes
+from rotemina.app.shell.language import marked, translate
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.resampling import resample
 
 PAUSE_MS = 250
 METHODS = {
-    "hold – as a device does between rows": "hold",
-    "linear – straight lines between rows": "linear",
-    "cubic – smooth, may swing beyond the rows": "cubic",
+    marked("trajectory", "hold – as a device does between rows"): "hold",
+    marked("trajectory", "linear – straight lines between rows"): "linear",
+    marked("trajectory", "cubic – smooth, may swing beyond the rows"): "cubic",
 }
 
 
@@ -29,16 +30,16 @@ class ResamplingDialog(QDialog):
 
     def __init__(self, trajectory: Record, parent: QWidget) -> None:
         super().__init__(parent)
-        self.setWindowTitle("Resample the trajectory")
+        self.setWindowTitle(translate("trajectory", "Resample the trajectory"))
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._trajectory = trajectory
         self.resampled: Record | None = None
         self.rate = QLineEdit("1000")
-        self.rate.setAccessibleName("Rate in Hz")
-        self.rate.setToolTip("Rows per second, Hz; above 0")
+        self.rate.setAccessibleName(translate("trajectory", "Rate in Hz"))
+        self.rate.setToolTip(translate("trajectory", "Rows per second, Hz; above 0"))
         self.method = QComboBox()
         for text, name in METHODS.items():
-            self.method.addItem(text, name)
+            self.method.addItem(translate("trajectory", text), name)
         self.outcome = QLabel()
         self.outcome.setMinimumWidth(360)
         self.buttons = QDialogButtonBox(
@@ -47,9 +48,9 @@ class ResamplingDialog(QDialog):
         self.buttons.accepted.connect(self.accept)
         self.buttons.rejected.connect(self.reject)
         form = QFormLayout(self)
-        form.addRow("Rate [Hz]", self.rate)
-        form.addRow("Between rows", self.method)
-        form.addRow("Fastest command", self.outcome)
+        form.addRow(translate("trajectory", "Rate [Hz]"), self.rate)
+        form.addRow(translate("trajectory", "Between rows"), self.method)
+        form.addRow(translate("trajectory", "Fastest command"), self.outcome)
         form.addRow(self.buttons)
         # Not at every key: resampling a long trajectory takes its time.
         self._pause = QTimer(self, singleShot=True, interval=PAUSE_MS)

@@ -4,11 +4,19 @@ from typing import NamedTuple
 
 from rotemina.app.display import PLAIN_NUMBER, Scale
 from rotemina.app.motion.deviation import Gap
+from rotemina.app.shell.language import marked, translate
 from rotemina.sim.errors import InputError
 from rotemina.sim.trajectory.dry_run import AxisFigures
 from rotemina.sim.units import from_unit, symbol, to_unit
 
-COLUMNS = ("lowest", "highest", "speed", "acceleration", "predicted error", "stop beyond")
+COLUMNS = (
+    marked("trajectory", "lowest"),
+    marked("trajectory", "highest"),
+    marked("trajectory", "speed"),
+    marked("trajectory", "acceleration"),
+    marked("trajectory", "predicted error"),
+    marked("trajectory", "stop beyond"),
+)
 BOUND = len(COLUMNS) - 1  # the column that may be edited
 _OF_STROKE, _OF_RANGE = 0.25, 0.005  # what is taken for excessive until somebody says otherwise
 
@@ -23,7 +31,9 @@ class Cell(NamedTuple):
 def cells(axis: AxisFigures, scale: Scale) -> tuple[Cell, ...]:
     """Return one cell for each of :data:`COLUMNS` but the last one, which is the operator's."""
     low, high = axis.bounds.range
-    bounds = f"range {scale.text(low)} … {scale.text(high)}"
+    bounds = translate("trajectory", "range {low} … {high}").format(
+        low=scale.text(low), high=scale.text(high)
+    )
     return (
         Cell(scale.text(axis.lowest), bounds),
         Cell(scale.text(axis.highest), bounds),
@@ -46,7 +56,9 @@ def bound_text(bound: float | None, si_unit: str) -> str:
 
 def gap_text(gap: Gap, si_unit: str) -> str:
     """Return how far model and real are apart."""
-    return f"{_small(gap.rms, si_unit, 3)} rms, {_small(gap.peak, si_unit, 3)} peak"
+    return translate("trajectory", "{rms} rms, {peak} peak").format(
+        rms=_small(gap.rms, si_unit, 3), peak=_small(gap.peak, si_unit, 3)
+    )
 
 
 def read_bound(text: str, si_unit: str) -> float | None:
@@ -63,8 +75,11 @@ def read_bound(text: str, si_unit: str) -> float | None:
         return None
     if PLAIN_NUMBER.fullmatch(number) is None or float(number) <= 0.0:
         raise InputError(
-            f"{text!r} is no bound: type a number above 0 in {symbol(unit)}, with a decimal "
-            "point, or nothing"
+            translate(
+                "trajectory",
+                "{text!r} is no bound: type a number above 0 in {unit}, with a decimal "
+                "point, or nothing",
+            ).format(text=text, unit=symbol(unit))
         )
     return float(from_unit(float(number), unit))
 
@@ -78,17 +93,26 @@ def _rate(value: float, bound: float | None, si_unit: str, per: str) -> Cell:
     unit = "mrad" if si_unit == "rad" else "mm"
     text = f"{to_unit(value, unit):.4g} {symbol(unit)}{per}"
     if bound is None:
-        return Cell(text, "no bound is declared in the robot file")
+        return Cell(text, translate("trajectory", "no bound is declared in the robot file"))
     share = f"{100 * value / bound:.0f} %"
-    return Cell(f"{text} · {share}", f"{share} of {to_unit(bound, unit):g} {symbol(unit)}{per}")
+    return Cell(
+        f"{text} · {share}",
+        translate("trajectory", "{share} of {bound:g} {unit}{per}").format(
+            share=share, bound=to_unit(bound, unit), unit=symbol(unit), per=per
+        ),
+    )
 
 
 def _error(axis: AxisFigures) -> Cell:
     if axis.tracking_rms is None or axis.tracking_peak is None:
-        return Cell("–", "the model gives no prediction for this trajectory")
+        return Cell(
+            "–", translate("trajectory", "the model gives no prediction for this trajectory")
+        )
     unit = "urad" if axis.unit == "rad" else "um"
     rms, peak = (float(to_unit(v, unit)) for v in (axis.tracking_rms, axis.tracking_peak))
     return Cell(
-        f"{rms:.3g} {symbol(unit)} rms",
-        f"the model expects up to {peak:.3g} {symbol(unit)} between command and position",
+        translate("trajectory", "{rms:.3g} {unit} rms").format(rms=rms, unit=symbol(unit)),
+        translate(
+            "trajectory", "the model expects up to {peak:.3g} {unit} between command and position"
+        ).format(peak=peak, unit=symbol(unit)),
     )

@@ -13,12 +13,13 @@ from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.retiming import FASTEST, SLOWEST
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.samples import DeviceState
 
 STEPS = (1, 10, 100, 1000)  # rows
-_EMPTY = "no trajectory is loaded"
-_FORBIDDEN = "the dry run does not allow it"
+_EMPTY = marked("trajectory", "no trajectory is loaded")
+_FORBIDDEN = marked("trajectory", "the dry run does not allow it")
 
 
 class Transport(QWidget):
@@ -27,31 +28,44 @@ class Transport(QWidget):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
         self._workbench = workbench
-        self.play = QPushButton("Play")
+        self.play = QPushButton(translate("trajectory", "Play"))
         self.play.setProperty("primary", True)
         self.play.clicked.connect(workbench.toggle_playback)
-        self.end = QPushButton("End")
+        self.end = QPushButton(translate("trajectory", "End"))
         self.end.clicked.connect(workbench.end_playback)
-        self.back, self.forward = QPushButton("◂ Step"), QPushButton("Step ▸")
+        self.back, self.forward = (
+            QPushButton(translate("trajectory", "◂ Step")),
+            QPushButton(translate("trajectory", "Step ▸")),
+        )
         self.back.clicked.connect(lambda: self._step(-1))
         self.forward.clicked.connect(lambda: self._step(1))
         self.rows = QComboBox()
-        self.rows.setAccessibleName("Rows of a step")
-        self.rows.setToolTip("How many rows of the trajectory a step goes, 1 to 1000")
+        self.rows.setAccessibleName(translate("trajectory", "Rows of a step"))
+        self.rows.setToolTip(
+            translate("trajectory", "How many rows of the trajectory a step goes, 1 to 1000")
+        )
         for rows in STEPS:
-            self.rows.addItem("1 row" if rows == 1 else f"{rows} rows", rows)
+            self.rows.addItem(
+                translate("trajectory", "1 row")
+                if rows == 1
+                else translate("trajectory", "{rows} rows").format(rows=rows),
+                rows,
+            )
         self.speed = QDoubleSpinBox()
         self.speed.setRange(SLOWEST, FASTEST)
         self.speed.setDecimals(2)
         self.speed.setSingleStep(0.05)
         self.speed.setValue(1.0)
         self.speed.setSuffix(" ×")
-        self.speed.setAccessibleName("Speed factor")
+        self.speed.setAccessibleName(translate("trajectory", "Speed factor"))
         self.speed.valueChanged.connect(self._set_pace)
         self.speed.setToolTip(
-            f"Pace of the playback, {SLOWEST:g} to {FASTEST:g} times that of the trajectory; "
-            "a faster one is checked against all limits first. Changed in a pause, it holds "
-            "from there on"
+            translate(
+                "trajectory",
+                "Pace of the playback, {slowest:g} to {fastest:g} times that of the "
+                "trajectory; a faster one is checked against all limits first. Changed in a "
+                "pause, it holds from there on",
+            ).format(slowest=SLOWEST, fastest=FASTEST)
         )
         self.progress = QProgressBar()
         self.progress.setRange(0, 1000)
@@ -62,21 +76,42 @@ class Transport(QWidget):
         """Show what may be done now, and how far the playback is."""
         state = self._workbench.playback.state
         plan = self._workbench.plan
-        missing = _EMPTY if plan is None else None if plan.dry_run.allowed else _FORBIDDEN
+        missing = None
+        if plan is None or not plan.dry_run.allowed:
+            missing = translate("trajectory", _EMPTY if plan is None else _FORBIDDEN)
         playing = state.phase is PlaybackPhase.PLAYING
         paused = state.phase is PlaybackPhase.PAUSED
-        words = {PlaybackPhase.PLAYING: "Pause", PlaybackPhase.PAUSED: "Go on"}
-        self.play.setText(words.get(state.phase, "Play"))
-        busy = None if session.activity is DeviceState.IDLE else "the axes still move"
+        words = {
+            PlaybackPhase.PLAYING: translate("trajectory", "Pause"),
+            PlaybackPhase.PAUSED: translate("trajectory", "Go on"),
+        }
+        self.play.setText(words.get(state.phase, translate("trajectory", "Play")))
+        busy = (
+            None
+            if session.activity is DeviceState.IDLE
+            else translate("trajectory", "the axes still move")
+        )
         why = None if playing else (None if paused else missing) or session.locked or busy
-        allow(self.play, why, "Play, pause, go on (Ctrl+P)")
-        allow(self.end, None if playing or paused else "nothing plays", "Stop, and begin anew next")
-        still = "a trajectory is playing" if playing else missing or session.locked
+        allow(self.play, why, translate("trajectory", "Play, pause, go on (Ctrl+P)"))
+        allow(
+            self.end,
+            None if playing or paused else translate("trajectory", "nothing plays"),
+            translate("trajectory", "Stop, and begin anew next"),
+        )
+        still = (
+            translate("trajectory", "a trajectory is playing")
+            if playing
+            else missing or session.locked
+        )
         if paused and session.locked is None:
             still = None
-        tip = "Go to the next rows at the axes' own speed, and rest there"
+        tip = translate("trajectory", "Go to the next rows at the axes' own speed, and rest there")
         allow(self.forward, still, tip)
-        allow(self.back, still or (None if paused else "nothing is paused"), tip)
+        allow(
+            self.back,
+            still or (None if paused else translate("trajectory", "nothing is paused")),
+            tip,
+        )
         self._show_progress(state)
 
     def show_plan(self) -> None:
@@ -104,6 +139,16 @@ class Transport(QWidget):
         share = state.path_s / state.duration_s if state.duration_s else 0.0
         self.progress.setValue(round(1000 * share))
         left_s = (state.duration_s - state.path_s) / state.speed
-        row = f"row {state.row + 1} of {state.rows}" if state.row >= 0 else "before its first row"
-        paused = "paused, " if state.phase is PlaybackPhase.PAUSED else ""
-        self.progress.setFormat(f"{paused}{row}, {left_s:.1f} s left")
+        row = (
+            translate("trajectory", "row {row} of {rows}").format(
+                row=state.row + 1, rows=state.rows
+            )
+            if state.row >= 0
+            else translate("trajectory", "before its first row")
+        )
+        paused = translate("trajectory", "paused, ") if state.phase is PlaybackPhase.PAUSED else ""
+        self.progress.setFormat(
+            translate("trajectory", "{paused}{row}, {left_s:.1f} s left").format(
+                paused=paused, row=row, left_s=left_s
+            )
+        )

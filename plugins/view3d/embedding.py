@@ -14,6 +14,8 @@ from PySide6.QtCore import QObject, QProcess, QTimer, Signal
 from PySide6.QtGui import QGuiApplication, QWindow
 from PySide6.QtWidgets import QWidget
 
+from rotemina.app.shell.language import translate
+
 _COMMAND = ("-m", "rotemina.plugins.view3d.web_window")
 _FRAMELESS = "--frameless"
 _UNSAFE = "QTWEBENGINE_DISABLE_SANDBOX"
@@ -29,12 +31,13 @@ def why_not(environment: Mapping[str, str], user: int | None) -> str | None:
     ``user`` is the number of the user under Unix: as root, Qt WebEngine ends at once.
     """
     if find_spec("PySide6.QtWebEngineWidgets") is None:
-        return (
+        return translate(
+            "view3d",
             "Qt WebEngine is not installed, which shows the view inside the window. Install it "
-            "with  pip install 'rotemina[view3d]'  or use the browser."
+            "with  pip install 'rotemina[view3d]'  or use the browser.",
         )
     if user == 0 and environment.get(_UNSAFE) != "1":
-        return "Qt WebEngine does not run for the user root. Use the browser."
+        return translate("view3d", "Qt WebEngine does not run for the user root. Use the browser.")
     return None
 
 
@@ -99,7 +102,7 @@ class WebProcess(QObject):
             if word == "window":
                 self._adopt(int(rest[0]))
             elif word == "failed":
-                self.ended.emit("the page was not loaded")
+                self.ended.emit(translate("view3d", "the page was not loaded"))
             elif word in _SAYINGS:
                 getattr(self, _SAYINGS[word]).emit()
 
@@ -110,7 +113,7 @@ class WebProcess(QObject):
         self.made.emit(self._widget)
 
     def _finish(self, code: int, _: QProcess.ExitStatus) -> None:
-        self.ended.emit(f"exit status {code}")
+        self.ended.emit(translate("view3d", "exit status {code}").format(code=code))
 
     def _fail(self, error: QProcess.ProcessError) -> None:
         if error == QProcess.ProcessError.FailedToStart:

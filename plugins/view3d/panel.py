@@ -21,6 +21,7 @@ from rotemina.app.panel import STALE_S, Area, Panel
 from rotemina.app.scene.robot_scene import Reading, RobotScene
 from rotemina.app.scene.views import View
 from rotemina.app.shell.controls import allow
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.view3d import embedding, words
@@ -33,7 +34,7 @@ from rotemina.sim.robot.model import Robot
 class View3dPanel(Panel):
     """Asks first where to show the view: nothing is started before."""
 
-    title = "3-D view"
+    title = marked("panels", "3-D view")
     area = Area.BOTTOM
     order = 80
     help_page = "view3d.md#for-operators"
@@ -117,7 +118,9 @@ class View3dPanel(Panel):
             self._busy = False
             self.show_state()
 
-        self.workbench.work("view3d", words.STARTING, self.serving.start, done, failed)
+        self.workbench.work(
+            "view3d", translate("view3d", words.STARTING), self.serving.start, done, failed
+        )
 
     def _embed(self) -> None:
         server = self.serving and self.serving.server
@@ -135,7 +138,7 @@ class View3dPanel(Panel):
 
     def _adopt(self, widget: QWidget | None) -> None:
         if widget is not None:
-            widget.setAccessibleName("The robot in three dimensions")
+            widget.setAccessibleName(translate("view3d", "The robot in three dimensions"))
             self.stack.addWidget(widget)
             self.stack.setCurrentWidget(widget)
         self._own_window = widget is None
@@ -146,7 +149,7 @@ class View3dPanel(Panel):
 
     def _ended(self, why: str) -> None:
         self.close_view()
-        self.show_state(words.LOST.format(why))
+        self.show_state(translate("view3d", words.LOST).format(why=why))
 
     def _browse(self) -> None:
         server = self.serving and self.serving.server
@@ -155,7 +158,7 @@ class View3dPanel(Panel):
         if not QDesktopServices.openUrl(QUrl(server.url)):
             # The address is a secret: neither in a notice nor in the log.
             QGuiApplication.clipboard().setText(server.url)
-            self.workbench.notify(Level.WARNING, words.NO_BROWSER, about=self)
+            self.workbench.notify(Level.WARNING, translate("view3d", words.NO_BROWSER), about=self)
 
     def _close(self) -> None:
         self.close_view(wait=True)
@@ -174,48 +177,68 @@ class View3dPanel(Panel):
     def show_state(self, trouble: str = "") -> None:
         """Show what can be done now, and why not."""
         unfit = embedding.why_not(os.environ, embedding.user_number())
-        busy = "the view is being opened" if self._busy else None
+        busy = translate("view3d", "the view is being opened") if self._busy else None
         served = self.serving is not None and self.serving.server is not None
-        lines = [self._unfit or words.INTRODUCTION]
+        lines = [self._unfit or translate("view3d", words.INTRODUCTION)]
         if self._busy:
-            lines.append(words.STARTING)
+            lines.append(translate("view3d", words.STARTING))
         elif self._own_window:
-            lines.append(words.OWN_WINDOW)
+            lines.append(translate("view3d", words.OWN_WINDOW))
         elif self._unfit is None:
             lines += [unfit or "", trouble]
         self.words.setText("\n\n".join(line for line in lines if line))
-        here = "it is open here" if self._view else None
-        allow(self.here, self._unfit or unfit or busy or here, "Show the view in this panel")
-        allow(self.browser, self._unfit or busy, "Show the view in the browser of this desktop")
-        allow(self.end, None if self._view else "it is not open here", "Take the view away")
-        closed = None if served else "open the view first"
+        here = translate("view3d", "it is open here") if self._view else None
+        allow(
+            self.here,
+            self._unfit or unfit or busy or here,
+            translate("view3d", "Show the view in this panel"),
+        )
+        allow(
+            self.browser,
+            self._unfit or busy,
+            translate("view3d", "Show the view in the browser of this desktop"),
+        )
+        allow(
+            self.end,
+            None if self._view else translate("view3d", "it is not open here"),
+            translate("view3d", "Take the view away"),
+        )
+        closed = None if served else translate("view3d", "open the view first")
         for view, button in self.views.items():
-            allow(button, closed, words.VIEWS[view][1])
-        allow(self.ghosts, closed, "Which robots are drawn")
-        allow(self.factor, closed, "Draw thx, thy and zn larger than they are, from mid-range")
+            allow(button, closed, translate("view3d", words.VIEWS[view][1]))
+        allow(self.ghosts, closed, translate("view3d", "Which robots are drawn"))
+        allow(
+            self.factor,
+            closed,
+            translate("view3d", "Draw thx, thy and zn larger than they are, from mid-range"),
+        )
 
     def _make_widgets(self) -> None:
-        self.views = {view: QPushButton(text) for view, (text, _) in words.VIEWS.items()}
+        self.views = {
+            view: QPushButton(translate("view3d", text)) for view, (text, _) in words.VIEWS.items()
+        }
         for view, button in self.views.items():
             button.clicked.connect(lambda _=False, view=view: self.look(view))
         self.ghosts = QComboBox()
-        self.ghosts.addItems(list(words.GHOSTS))
-        self.ghosts.setAccessibleName("Which robots are drawn")
-        self.ghosts.currentTextChanged.connect(
-            lambda text: self._change(lambda scene: scene.choose(*words.GHOSTS[text]))
+        for name in words.GHOSTS:
+            self.ghosts.addItem(translate("view3d", name))
+        self.ghosts.setAccessibleName(translate("view3d", "Which robots are drawn"))
+        drawn = tuple(words.GHOSTS.values())
+        self.ghosts.currentIndexChanged.connect(
+            lambda at: self._change(lambda scene: scene.choose(*drawn[at]))
         )
         self.factor = QComboBox()
         for factor in words.FACTORS:
             self.factor.addItem(words.factor_text(factor), factor)
-        self.factor.setAccessibleName("How much larger nano motion is drawn")
+        self.factor.setAccessibleName(translate("view3d", "How much larger nano motion is drawn"))
         self.factor.currentIndexChanged.connect(
             lambda at: self._change(lambda scene: scene.exaggerate(float(words.FACTORS[at])))
         )
-        self.here = QPushButton("Show here")
+        self.here = QPushButton(translate("view3d", "Show here"))
         self.here.clicked.connect(self.open_here)
-        self.browser = QPushButton("Open in the browser")
+        self.browser = QPushButton(translate("view3d", "Open in the browser"))
         self.browser.clicked.connect(self.open_in_browser)
-        self.end = QPushButton("Close")
+        self.end = QPushButton(translate("view3d", "Close"))
         self.end.clicked.connect(self.close_view)
         self.words = QLabel()
         self.words.setTextFormat(Qt.TextFormat.PlainText)
@@ -254,4 +277,4 @@ def scene_of(robot: Robot, theme: Theme) -> tuple[RobotScene | None, str | None]
     try:
         return RobotScene(robot, words.colours_of(theme), old_s=STALE_S), None
     except ChainError as error:
-        return None, f"There is nothing to draw. {error}"
+        return None, translate("view3d", "There is nothing to draw. {error}").format(error=error)

@@ -1,0 +1,170 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="de" sourcelanguage="en">
+<context>
+    <name>panels</name>
+    <message>
+        <source>3-D view</source>
+        <translation>3-D-Ansicht</translation>
+    </message>
+</context>
+<context>
+    <name>view3d</name>
+    <message>
+        <source>Qt WebEngine is not installed, which shows the view inside the window. Install it with  pip install &apos;rotemina[view3d]&apos;  or use the browser.</source>
+        <translation>Qt WebEngine, das die Ansicht im Fenster zeigt, ist nicht installiert. Installieren mit  pip install &apos;rotemina[view3d]&apos;  oder den Browser benutzen.</translation>
+    </message>
+    <message>
+        <source>Qt WebEngine does not run for the user root. Use the browser.</source>
+        <translation>Qt WebEngine läuft nicht für den Benutzer root. Den Browser benutzen.</translation>
+    </message>
+    <message>
+        <source>the page was not loaded</source>
+        <translation>die Seite wurde nicht geladen</translation>
+    </message>
+    <message>
+        <source>exit status {code}</source>
+        <translation>Exit-Status {code}</translation>
+    </message>
+    <message>
+        <source>The robot in three dimensions</source>
+        <translation>Der Roboter in drei Dimensionen</translation>
+    </message>
+    <message>
+        <source>the view is being opened</source>
+        <translation>die Ansicht wird geöffnet</translation>
+    </message>
+    <message>
+        <source>it is open here</source>
+        <translation>sie ist hier offen</translation>
+    </message>
+    <message>
+        <source>Show the view in this panel</source>
+        <translation>Ansicht hier im Fenster zeigen</translation>
+    </message>
+    <message>
+        <source>Show the view in the browser of this desktop</source>
+        <translation>Ansicht im Browser zeigen</translation>
+    </message>
+    <message>
+        <source>it is not open here</source>
+        <translation>sie ist hier nicht offen</translation>
+    </message>
+    <message>
+        <source>Take the view away</source>
+        <translation>Ansicht entfernen</translation>
+    </message>
+    <message>
+        <source>open the view first</source>
+        <translation>zuerst die Ansicht öffnen</translation>
+    </message>
+    <message>
+        <source>Which robots are drawn</source>
+        <translation>Welche Roboter gezeichnet werden</translation>
+    </message>
+    <message>
+        <source>Draw thx, thy and zn larger than they are, from mid-range</source>
+        <translation>thx, thy und zn größer zeichnen als sie sind, von der Mitte aus</translation>
+    </message>
+    <message>
+        <source>How much larger nano motion is drawn</source>
+        <translation>Wie vergrößert Nanobewegung gezeichnet wird</translation>
+    </message>
+    <message>
+        <source>Show here</source>
+        <translation>Hier zeigen</translation>
+    </message>
+    <message>
+        <source>Open in the browser</source>
+        <translation>Im Browser</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Schließen</translation>
+    </message>
+    <message>
+        <source>There is nothing to draw. {error}</source>
+        <translation>Es gibt nichts zu zeichnen. {error}</translation>
+    </message>
+    <message>
+        <source>From below</source>
+        <translation>Von unten</translation>
+    </message>
+    <message>
+        <source>As the objective sees it</source>
+        <translation>Wie das Objektiv es sieht</translation>
+    </message>
+    <message>
+        <source>Front</source>
+        <translation>Vorn</translation>
+    </message>
+    <message>
+        <source>Along +y, z up</source>
+        <translation>Entlang +y, z nach oben</translation>
+    </message>
+    <message>
+        <source>Top</source>
+        <translation>Oben</translation>
+    </message>
+    <message>
+        <source>Along −z</source>
+        <translation>Entlang −z</translation>
+    </message>
+    <message>
+        <source>Iso</source>
+        <translation>Iso</translation>
+    </message>
+    <message>
+        <source>The whole robot, from aside</source>
+        <translation>Der ganze Roboter, von der Seite</translation>
+    </message>
+    <message>
+        <source>Cell</source>
+        <translation>Zelle</translation>
+    </message>
+    <message>
+        <source>The cell and the tip beside it, 0.3 mm away, true to scale</source>
+        <translation>Die Zelle und die Spitze daneben, 0.3 mm entfernt, maßstäblich</translation>
+    </message>
+    <message>
+        <source>Model and real</source>
+        <translation>Modell und Maschine</translation>
+    </message>
+    <message>
+        <source>Model</source>
+        <translation>Modell</translation>
+    </message>
+    <message>
+        <source>Real</source>
+        <translation>Maschine</translation>
+    </message>
+    <message>
+        <source>The whole robot in three dimensions, where the model says it is and where the readings say it is. It is drawn by this program alone; nothing leaves this computer.</source>
+        <translation>Der ganze Roboter in drei Dimensionen, nach dem Modell und nach den Messwerten. Nur dieses Programm zeichnet ihn; nichts verlässt diesen Rechner.</translation>
+    </message>
+    <message>
+        <source>Starting the 3-D view …</source>
+        <translation>3-D-Ansicht wird gestartet …</translation>
+    </message>
+    <message>
+        <source>On this display the view stands in a window of its own.</source>
+        <translation>Auf diesem Bildschirm steht die Ansicht in einem eigenen Fenster.</translation>
+    </message>
+    <message>
+        <source>The view has ended ({why}). The rest of the program goes on; show it again, or use the browser.</source>
+        <translation>Die Ansicht ist beendet ({why}). Der Rest des Programms läuft weiter; erneut zeigen oder den Browser benutzen.</translation>
+    </message>
+    <message>
+        <source>No browser could be opened. The address is on the clipboard: paste it into a browser on this computer.</source>
+        <translation>Kein Browser ließ sich öffnen. Die Adresse ist in der Zwischenablage: in einen Browser auf diesem Rechner einfügen.</translation>
+    </message>
+    <message>
+        <source>Nano motion to scale</source>
+        <translation>Nano maßstäblich</translation>
+    </message>
+    <message>
+        <source>Nano motion × {factor}</source>
+        <translation>Nano × {factor}</translation>
+    </message>
+</context>
+</TS>
