@@ -8,7 +8,7 @@ import re
 
 from rotemina.app.shell.language import marked, translate
 
-#: Whole sayings of the engine, with what changes in them as ``{fields}``.
+# Whole sayings of the engine, with what changes in them as ``{fields}``.
 SAYINGS = (
     marked("shell", "not connected; connect first"),
     marked("shell", "connecting; wait"),

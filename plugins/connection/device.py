@@ -6,6 +6,7 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QToolButton
 from rotemina.app.driver_settings import keep, kept
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.requests import OfferedPort
 from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.driver import Driver
@@ -21,15 +22,20 @@ class DriverChoice(QComboBox):
 
     def __init__(self, found: dict[str, type[Driver]], broken: dict[str, str]) -> None:
         super().__init__()
-        self.setAccessibleName("Driver")
-        self.setToolTip("What the program drives: the simulator, boards, or a device of a plugin")
+        self.setAccessibleName(translate("connection", "Driver"))
+        self.setToolTip(
+            translate(
+                "connection",
+                "What the program drives: the simulator, boards, or a device of a plugin",
+            )
+        )
         self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         for name, kind in found.items():
             self.addItem(name, kind)
         model = self.model()
         assert isinstance(model, QStandardItemModel)
         for name, reason in broken.items():
-            self.addItem(f"{name} – cannot be used")
+            self.addItem(translate("connection", "{name} – cannot be used").format(name=name))
             item = model.item(self.count() - 1)
             item.setEnabled(False)
             item.setToolTip(plain_tip(reason))
@@ -43,14 +49,14 @@ class DeviceSection(Section):
     """The choice of a driver, its settings, and the connection to it."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__("Device")
+        super().__init__(translate("connection", "Device"))
         self._workbench = workbench
         discovery = discover_drivers()
         self.choice = DriverChoice(discovery.found, discovery.broken)
         self.find = QToolButton()
         self.find.setText("⟳")
-        self.find.setAccessibleName("Look for ports again")
-        self.find.setToolTip("Look for serial ports again")
+        self.find.setAccessibleName(translate("connection", "Look for ports again"))
+        self.find.setToolTip(translate("connection", "Look for serial ports again"))
         row = QHBoxLayout()
         row.setSpacing(6)
         row.addWidget(self.choice, 1)
@@ -58,16 +64,19 @@ class DeviceSection(Section):
         self.column.addLayout(row)
         self.broken = self.add_text()
         self.broken.setText(
-            "\n".join(f"{name} is left out: {why}" for name, why in discovery.broken.items())
+            "\n".join(
+                translate("connection", "{name} is left out: {why}").format(name=name, why=why)
+                for name, why in discovery.broken.items()
+            )
         )
         self.broken.setVisible(bool(discovery.broken))
         self.form = SettingForm({}, {})
         self._place = self.column.count()
         self.column.addWidget(self.form)
-        self.connect_button = button("Connect", self._connect)
+        self.connect_button = button(translate("connection", "Connect"), self._connect)
         self.connect_button.setProperty("primary", True)
-        self.disconnect_button = button("Disconnect", workbench.let_go)
-        self.reconnect_button = button("Reconnect", workbench.reconnect)
+        self.disconnect_button = button(translate("connection", "Disconnect"), workbench.let_go)
+        self.reconnect_button = button(translate("connection", "Reconnect"), workbench.reconnect)
         self.add_row(self.connect_button, self.disconnect_button, self.reconnect_button)
         self._ports: list[OfferedPort] = []
         self._offered: tuple[OfferedPort, ...] = ()
@@ -87,19 +96,31 @@ class DeviceSection(Section):
 
     def refresh(self, state: SessionState) -> None:
         """Lock what cannot be done now."""
-        wrong = "no driver is chosen" if self.kind is None else self.form.complaint()
+        wrong = (
+            translate("connection", "no driver is chosen")
+            if self.kind is None
+            else self.form.complaint()
+        )
         why = wrong or reasons.against_connecting(state, same=wrong is None and self._same())
         name = self.choice.currentText()
-        allow(self.connect_button, why, f"Connect to {name}; any other device is let go")
+        allow(
+            self.connect_button,
+            why,
+            translate("connection", "Connect to {name}; any other device is let go").format(
+                name=name
+            ),
+        )
         allow(
             self.disconnect_button,
             reasons.against_disconnecting(state),
-            "Stop, and let go of the device; it holds where it stands",
+            translate("connection", "Stop, and let go of the device; it holds where it stands"),
         )
         allow(
             self.reconnect_button,
             reasons.against_reconnecting(state),
-            f"Connect again to {self._workbench.session.driver.name}, with the settings it had",
+            translate("connection", "Connect again to {name}, with the settings it had").format(
+                name=self._workbench.session.driver.name
+            ),
         )
 
     def offer_ports(self, ports: tuple[OfferedPort, ...]) -> None:

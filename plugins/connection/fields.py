@@ -8,9 +8,23 @@ from PySide6.QtWidgets import QCheckBox, QComboBox, QFormLayout, QLabel, QLineEd
 
 from rotemina.app.driver_settings import typed
 from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.requests import OfferedPort
 from rotemina.drivers.settings import SettingError, SettingValue
 
+# Settings of the program's own drivers, as people say them.
+NAMES = (
+    marked("connection", "sample rate"),
+    marked("connection", "seed"),
+    marked("connection", "settle"),
+    marked("connection", "start fraction"),
+    marked("connection", "start homed"),
+    marked("connection", "port"),
+    marked("connection", "second port"),
+    marked("connection", "baud"),
+    marked("connection", "watchdog"),
+    marked("connection", "latency"),
+)
 _UNITS = {"s": "s", "ms": "ms", "hz": "Hz", "v": "V", "m": "m"}
 
 
@@ -25,7 +39,7 @@ class PortChoice(QComboBox):
         self.setMinimumContentsLength(12)
         edit = self.lineEdit()
         assert edit is not None
-        edit.setPlaceholderText("none")
+        edit.setPlaceholderText(translate("connection", "none"))
 
     def offer(self, ports: Sequence[OfferedPort]) -> None:
         """Put ports into the list; what is written stays."""
@@ -58,8 +72,12 @@ class SettingField(QObject):
         super().__init__()
         self.name, self._default = name, default
         self.widget = self._made(value)
-        self.widget.setAccessibleName(f"Setting {spoken(name)}")
-        self._about = f"{spoken(name)}; preset {default!r}"
+        self.widget.setAccessibleName(
+            translate("connection", "Setting {name}").format(name=spoken(name))
+        )
+        self._about = translate("connection", "{name}; preset {default!r}").format(
+            name=spoken(name), default=default
+        )
         self.widget.setToolTip(plain_tip(self._about))
 
     @property
@@ -180,5 +198,9 @@ def spoken(name: str) -> str:
     """Return a setting's name as people say it: ``settle_s`` is ``settle [s]``."""
     head, _, unit = name.rpartition("_")
     if head and unit in _UNITS:
-        return f"{head.replace('_', ' ')} [{_UNITS[unit]}]"
-    return name.replace("_", " ")
+        return f"{_translated(head)} [{_UNITS[unit]}]"
+    return _translated(name)
+
+
+def _translated(name: str) -> str:
+    return translate("connection", name.replace("_", " "))

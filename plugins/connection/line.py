@@ -1,18 +1,32 @@
 """How the line to the device does, and how long a stop takes."""
 
 from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.connection.section import Figures, Section
 
-_LINE = ("Frames sent", "Frames received", "Rejected", "Repeated", "Round trip", "Load")
-_STOP = ("Latest", "99.9 % of stops within", "Worst", "Last stop handed over in", "At rest after")
+_LINE = (
+    marked("connection", "Frames sent"),
+    marked("connection", "Frames received"),
+    marked("connection", "Rejected"),
+    marked("connection", "Repeated"),
+    marked("connection", "Round trip"),
+    marked("connection", "Load"),
+)
+_STOP = (
+    marked("connection", "Latest"),
+    marked("connection", "99.9 % of stops within"),
+    marked("connection", "Worst"),
+    marked("connection", "Last stop handed over in"),
+    marked("connection", "At rest after"),
+)
 
 
 class LineSection(Section):
     """Frames, losses, round trip and load."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__("Line")
+        super().__init__(translate("connection", "Line"))
         self._session = workbench.session
         self.text = self.add_text()
         self.figures = Figures(*_LINE)
@@ -24,7 +38,11 @@ class LineSection(Section):
         self.text.setVisible(link is None)
         self.figures.setVisible(link is not None)
         if link is None:
-            self.text.setText(f"{self._session.driver.name} has no line, or has not opened it yet.")
+            self.text.setText(
+                translate("connection", "{name} has no line, or has not opened it yet.").format(
+                    name=self._session.driver.name
+                )
+            )
             return
         self.figures.show_values(
             f"{link.sent}",
@@ -40,7 +58,7 @@ class StopSection(Section):
     """How long a stop takes to be out on the line, as of all the time."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__("Stop latency")
+        super().__init__(translate("connection", "Stop latency"))
         self.figures = Figures(*_STOP)
         self.column.addWidget(self.figures)
 

@@ -5,13 +5,18 @@ from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableWidget, QTab
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.abilities import Parameterised
 from rotemina.drivers.driver import Driver
 from rotemina.plugins.connection import reasons
 from rotemina.plugins.connection.section import Section, button
 
-COLUMNS = ("Parameter", "Device", "Robot file")
+COLUMNS = (
+    marked("connection", "Parameter"),
+    marked("connection", "Device"),
+    marked("connection", "Robot file"),
+)
 _MOST_ROWS_SHOWN = 6
 
 
@@ -19,13 +24,13 @@ class ParameterSection(Section):
     """A table of what differs, and the two ways to settle it."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__("Parameters")
+        super().__init__(translate("connection", "Parameters"))
         self._session = workbench.session
         self._shown: tuple[str, ...] = ()
         self.text = self.add_text()
         self.table = QTableWidget(0, len(COLUMNS))
-        self.table.setAccessibleName("Parameters that differ")
-        self.table.setHorizontalHeaderLabels(list(COLUMNS))
+        self.table.setAccessibleName(translate("connection", "Parameters that differ"))
+        self.table.setHorizontalHeaderLabels([translate("connection", name) for name in COLUMNS])
         self.table.verticalHeader().hide()
         self.table.verticalHeader().setDefaultSectionSize(24)
         self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
@@ -34,8 +39,8 @@ class ParameterSection(Section):
         self.table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         self.table.setVisible(False)
         self.column.addWidget(self.table)
-        self.write = button("Write to device", workbench.write_parameters)
-        self.accept = button("Accept", workbench.accept_parameters)
+        self.write = button(translate("connection", "Write to device"), workbench.write_parameters)
+        self.accept = button(translate("connection", "Accept"), workbench.accept_parameters)
         self.add_row(self.write, self.accept)
 
     def refresh(self, state: SessionState) -> None:
@@ -47,14 +52,36 @@ class ParameterSection(Section):
         why = reasons.against_writing(state, driver)
         count = len(state.differences)
         if count:
-            are = "One parameter differs" if count == 1 else f"{count} parameters differ"
-            self.text.setText(f"{are} from the robot file; nothing moves until that is settled.")
+            are = (
+                translate("connection", "One parameter differs")
+                if count == 1
+                else translate("connection", "{count} parameters differ").format(count=count)
+            )
+            self.text.setText(
+                translate(
+                    "connection", "{are} from the robot file; nothing moves until that is settled."
+                ).format(are=are)
+            )
         else:
             keeps = isinstance(driver, Parameterised)
-            none = f"{driver.name} keeps no parameters of its own."
-            self.text.setText("Nothing differs from the robot file." if keeps else none)
-        allow(self.write, why, "Write the robot file's values into the device, which keeps them")
-        allow(self.accept, why, "Move with the device's own values until it is opened again")
+            none = translate("connection", "{name} keeps no parameters of its own.").format(
+                name=driver.name
+            )
+            self.text.setText(
+                translate("connection", "Nothing differs from the robot file.") if keeps else none
+            )
+        allow(
+            self.write,
+            why,
+            translate(
+                "connection", "Write the robot file's values into the device, which keeps them"
+            ),
+        )
+        allow(
+            self.accept,
+            why,
+            translate("connection", "Move with the device's own values until it is opened again"),
+        )
 
     def _fill(self, rows: list[tuple[str, ...]]) -> None:
         self.table.setRowCount(len(rows))

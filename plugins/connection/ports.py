@@ -4,6 +4,7 @@ from PySide6.QtCore import QObject, Signal
 from serial.tools import list_ports
 
 from rotemina.app.shell.background import Background
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.requests import OfferedPort
 from rotemina.app.shell.workbench import Level, Workbench
 
@@ -36,4 +37,10 @@ class PortFinder(QObject):
         self._background.run("ports", serial_ports, self.found.emit, self._failed)
 
     def _failed(self, message: str) -> None:
-        self._notify(Level.WARNING, f"Serial ports cannot be listed: {message}", about=self)
+        self._notify(
+            Level.WARNING,
+            translate("connection", "Serial ports cannot be listed: {message}").format(
+                message=message
+            ),
+            about=self,
+        )

@@ -5,6 +5,7 @@ from PySide6.QtWidgets import QHBoxLayout, QPushButton
 from rotemina.app.display import label
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase import driven
 from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.abilities import Homer
@@ -16,14 +17,16 @@ class PositionSection(Section):
     """Homing of all axes or of one, confirming, and taking back a move."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__("Position")
+        super().__init__(translate("connection", "Position"))
         self._workbench = workbench
         self.text = self.add_text()
-        self.home_all = button("Home all", workbench.home)
+        self.home_all = button(translate("connection", "Home all"), workbench.home)
         self.home: dict[str, QPushButton] = {}
         self._axes: QHBoxLayout = self.add_row(self.home_all)
-        self.confirm = button("Confirm position", workbench.confirm_position)
-        self.back = button("Back", workbench.undo)
+        self.confirm = button(
+            translate("connection", "Confirm position"), workbench.confirm_position
+        )
+        self.back = button(translate("connection", "Back"), workbench.undo)
         self.add_row(self.confirm, self.back)
         self.owners = self.add_text()
 
@@ -33,20 +36,36 @@ class PositionSection(Section):
         self._offer(driver.homing_axes if isinstance(driver, Homer) else ())
         self.text.setText(_known(state))
         why = reasons.against_homing(state, driver)
-        allow(self.home_all, why, "Find the limit switches of all axes that have some")
+        allow(
+            self.home_all,
+            why,
+            translate("connection", "Find the limit switches of all axes that have some"),
+        )
         for axis, one in self.home.items():
-            allow(one, why, f"Find the limit switch of {label(axis)}")
+            allow(
+                one,
+                why,
+                translate("connection", "Find the limit switch of {label}").format(
+                    label=label(axis)
+                ),
+            )
         allow(
             self.confirm,
             reasons.against_confirming(state),
-            "You have looked: the machine stands where it stood when the connection was lost",
+            translate(
+                "connection",
+                "You have looked: the machine stands where it stood when the connection was lost",
+            ),
         )
         allow(
             self.back,
             reasons.against_going_back(state, undoable=self._workbench.session.undoable),
-            "Go back to where the axes rested before the latest move: up, across, down",
+            translate(
+                "connection",
+                "Go back to where the axes rested before the latest move: up, across, down",
+            ),
         )
-        self.owners.setText(driven(state) or "No axis is driven now.")
+        self.owners.setText(driven(state) or translate("connection", "No axis is driven now."))
 
     def _offer(self, axes: tuple[str, ...]) -> None:
         """Have a button for each axis that has a switch."""
@@ -62,11 +81,17 @@ class PositionSection(Section):
 
     def _button(self, axis: str) -> QPushButton:
         made = button(label(axis), lambda: self._workbench.home((axis,)))
-        made.setAccessibleName(f"Home {label(axis)}")
+        made.setAccessibleName(translate("connection", "Home {label}").format(label=label(axis)))
         return made
 
 
 def _known(state: SessionState) -> str:
     if state.unhomed:
-        return f"Unknown, to be homed: {', '.join(label(axis) for axis in state.unhomed)}"
-    return "All positions are known." if state.position_known else "Nothing is known yet."
+        return translate("connection", "Unknown, to be homed: {axes}").format(
+            axes=", ".join(label(axis) for axis in state.unhomed)
+        )
+    return (
+        translate("connection", "All positions are known.")
+        if state.position_known
+        else translate("connection", "Nothing is known yet.")
+    )

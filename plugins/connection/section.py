@@ -13,6 +13,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from rotemina.app.shell.language import translate
+
 
 class Section(QFrame):
     """A heading over a column of widgets."""
@@ -55,12 +57,12 @@ class Figures(QWidget):
         grid.setColumnStretch(1, 1)
         self.values: dict[str, QLabel] = {}
         for row, name in enumerate(names):
-            title, value = QLabel(name), QLabel("–")
+            title, value = QLabel(translate("connection", name)), QLabel("–")
             title.setProperty("quiet", True)
             value.setTextFormat(Qt.TextFormat.PlainText)
             value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
             value.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-            value.setAccessibleName(name)
+            value.setAccessibleName(title.text())
             grid.addWidget(title, row, 0)
             grid.addWidget(value, row, 1)
             self.values[name] = value

@@ -4,6 +4,8 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow
+from rotemina.app.shell.engine_words import spoken
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase import PhaseLabel
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.connection import reasons
@@ -14,7 +16,7 @@ class StandingSection(Section):
     """The phase in one word, and the reason why motion is locked."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__("State")
+        super().__init__(translate("connection", "State"))
         self.phase = PhaseLabel()
         self.device = QLabel()
         self.device.setProperty("quiet", True)
@@ -24,9 +26,9 @@ class StandingSection(Section):
         row.addWidget(self.device, 1)
         self.column.addLayout(row)
         self.reason = self.add_text()
-        self.emergency = button("E-stop", workbench.emergency_stop)
-        self.release = button("Release", workbench.release)
-        self.clear = button("Clear fault", workbench.clear_fault)
+        self.emergency = button(translate("connection", "E-stop"), workbench.emergency_stop)
+        self.release = button(translate("connection", "Release"), workbench.release)
+        self.clear = button(translate("connection", "Clear fault"), workbench.clear_fault)
         self.add_row(self.emergency, self.release, self.clear)
         self._session = workbench.session
 
@@ -35,12 +37,32 @@ class StandingSection(Section):
         self.phase.show_state(state)
         self.device.setText(self._session.driver.name)
         locked = state.locked
-        self.reason.setText("Motion is possible." if locked is None else f"Locked: {locked}.")
-        latched = f"{state.latched} is latched already" if state.latched is not None else None
-        allow(self.emergency, latched, "Stop all axes, and let nothing move until it is released")
+        self.reason.setText(
+            translate("connection", "Motion is possible.")
+            if locked is None
+            else translate("connection", "Locked: {locked}.").format(locked=spoken(locked))
+        )
+        latched = (
+            translate("connection", "{latched} is latched already").format(
+                latched=spoken(state.latched)
+            )
+            if state.latched is not None
+            else None
+        )
+        allow(
+            self.emergency,
+            latched,
+            translate("connection", "Stop all axes, and let nothing move until it is released"),
+        )
         allow(
             self.release,
-            None if state.latched is not None else "no emergency stop is latched",
-            "Let the machine move again; it stands until it is told to",
+            None
+            if state.latched is not None
+            else translate("connection", "no emergency stop is latched"),
+            translate("connection", "Let the machine move again; it stands until it is told to"),
         )
-        allow(self.clear, reasons.against_clearing(state), "Acknowledge the device's fault")
+        allow(
+            self.clear,
+            reasons.against_clearing(state),
+            translate("connection", "Acknowledge the device's fault"),
+        )

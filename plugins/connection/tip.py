@@ -7,11 +7,17 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QVBoxLayout
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.connection import reasons
 from rotemina.plugins.connection.section import Figures, Section, button, quiet_text
 
 _STILL_M = 1e-9  # a tip that has moved more than this is not where the question was asked
+_FIGURES = (
+    marked("connection", "Tip height"),
+    marked("connection", "Floor"),
+    marked("connection", "Above the floor"),
+)
 
 
 class Question(QFrame):
@@ -22,10 +28,10 @@ class Question(QFrame):
         self.setObjectName("question")
         self.text = quiet_text()
         self.text.setProperty("quiet", False)
-        self.yes = button("Yes", self._agree)
-        self.yes.setToolTip("Do what the question asks")
-        self.no = button("Cancel", self.hide)
-        self.no.setToolTip("Leave it as it is")
+        self.yes = button(translate("connection", "Yes"), self._agree)
+        self.yes.setToolTip(translate("connection", "Do what the question asks"))
+        self.no = button(translate("connection", "Cancel"), self.hide)
+        self.no.setToolTip(translate("connection", "Leave it as it is"))
         row = QHBoxLayout()
         row.setSpacing(6)
         row.addWidget(self.yes, 1)
@@ -54,14 +60,14 @@ class TipSection(Section):
     """Tip, floor and what is between them."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__("Tip")
+        super().__init__(translate("connection", "Tip"))
         self._workbench = workbench
         self._height: float | None = None
         self._asked: float | None = None  # the tip's height at which a floor is to be taught
-        self.figures = Figures("Tip height", "Floor", "Above the floor")
+        self.figures = Figures(*_FIGURES)
         self.column.addWidget(self.figures)
-        self.teach = button("Teach floor …", self._ask_teach)
-        self.remove = button("Remove floor …", self._ask_remove)
+        self.teach = button(translate("connection", "Teach floor …"), self._ask_teach)
+        self.remove = button(translate("connection", "Remove floor …"), self._ask_remove)
         self.question = Question()
         self.column.addWidget(self.question)  # above what asks it, which is in sight
         self.add_row(self.teach, self.remove)
@@ -74,13 +80,21 @@ class TipSection(Section):
         floor = self._floor()
         above = None if floor is None or self._height is None else self._height - floor
         self.figures.show_values(
-            "unknown" if self._height is None else height(self._height),
-            "none" if floor is None else height(floor),
+            translate("connection", "unknown") if self._height is None else height(self._height),
+            translate("connection", "none") if floor is None else height(floor),
             "–" if above is None else height(above),
         )
         why = reasons.against_teaching(state, zone)
-        allow(self.teach, why, "Put the floor where the tip is now; below it nothing moves")
-        allow(self.remove, reasons.against_removing(zone), "Let the tip go as low as its axes can")
+        allow(
+            self.teach,
+            why,
+            translate("connection", "Put the floor where the tip is now; below it nothing moves"),
+        )
+        allow(
+            self.remove,
+            reasons.against_removing(zone),
+            translate("connection", "Let the tip go as low as its axes can"),
+        )
         self._withdraw(why)
 
     def _withdraw(self, why: str | None) -> None:
@@ -92,7 +106,10 @@ class TipSection(Section):
             self.question.hide()
             self._workbench.notify(
                 Level.WARNING,
-                "The tip has moved: no floor was taught. Ask again where it rests.",
+                translate(
+                    "connection",
+                    "The tip has moved: no floor was taught. Ask again where it rests.",
+                ),
                 about=self,
             )
 
@@ -104,10 +121,16 @@ class TipSection(Section):
         if self._height is None:
             return
         self._asked, floor = self._height, self._floor()
-        old = "there is none yet" if floor is None else f"it is at {height(floor)}"
+        old = (
+            translate("connection", "there is none yet")
+            if floor is None
+            else translate("connection", "it is at {height}").format(height=height(floor))
+        )
         self.question.ask(
-            f"Put the floor at {height(self._height)}, where the tip is now? So far {old}.",
-            "Teach",
+            translate(
+                "connection", "Put the floor at {height}, where the tip is now? So far {old}."
+            ).format(height=height(self._height), old=old),
+            translate("connection", "Teach"),
             self._workbench.teach_floor,
         )
 
@@ -117,9 +140,12 @@ class TipSection(Section):
             return
         self._asked = None
         self.question.ask(
-            f"Take the floor at {height(floor)} away? New floor: none; only the ranges of the axes "
-            "hold the tip then.",
-            "Remove",
+            translate(
+                "connection",
+                "Take the floor at {height} away? New floor: none; only the ranges of "
+                "the axes hold the tip then.",
+            ).format(height=height(floor)),
+            translate("connection", "Remove"),
             self._workbench.clear_floor,
         )
 

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushBut
 from rotemina.app.display import Scale, axis_scale, label
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import ElidedLabel, allow, plain_tip
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.samples import DeviceState
@@ -56,16 +57,24 @@ class AxisRow(QFrame):
         self.confirmation = Confirmation(self._described.span)
         self.holding = Holding(workbench, axis, self)
         self._bar = RangeBar(workbench, axis)
-        self._readout = Readout(workbench, f"{label(axis)} position")
+        self._readout = Readout(
+            workbench, translate("control", "{label} position").format(label=label(axis))
+        )
         self.status = ElidedLabel()
-        self.status.setAccessibleName(f"{label(axis)} state")
+        self.status.setAccessibleName(
+            translate("control", "{label} state").format(label=label(axis))
+        )
         self.left = text_label()
         self.left.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        self.left.setAccessibleName(f"{label(axis)} range left")
+        self.left.setAccessibleName(
+            translate("control", "{label} range left").format(label=label(axis))
+        )
         self.minus, self.plus = self._jog_button("−", -1), self._jog_button("+", +1)
         self.target = self._target_field()
-        self.go = QPushButton("Go")
-        self.go.setAccessibleName(f"Go to the typed {label(axis)}")
+        self.go = QPushButton(translate("control", "Go"))
+        self.go.setAccessibleName(
+            translate("control", "Go to the typed {label}").format(label=label(axis))
+        )
         self.go.clicked.connect(self._go)
         self._lay_out()
 
@@ -76,7 +85,8 @@ class AxisRow(QFrame):
         position = state.measured[self._axis] if known else None
         self._command = state.command[self._axis] if known else None
         self._readout.show_value(
-            "unknown" if position is None else self._scale.text(position), stale=stale or not known
+            translate("control", "unknown") if position is None else self._scale.text(position),
+            stale=stale or not known,
         )
         self._bar.show_position(position, self._command, stale=stale)
         self._bar.setToolTip(
@@ -122,9 +132,15 @@ class AxisRow(QFrame):
 
     def _target_field(self) -> TargetField:
         field = TargetField()
-        field.setPlaceholderText(f"go to [{self._scale.symbol}]")
+        field.setPlaceholderText(
+            translate("control", "go to [{symbol}]").format(symbol=self._scale.symbol)
+        )
         field.setMinimumWidth(60)
-        field.setAccessibleName(f"{label(self._axis)} target in {self._scale.symbol}")
+        field.setAccessibleName(
+            translate("control", "{label} target in {symbol}").format(
+                label=label(self._axis), symbol=self._scale.symbol
+            )
+        )
         field.textEdited.connect(lambda _: self.confirmation.withdraw())
         field.returnPressed.connect(self._go)
         return field
@@ -141,7 +157,11 @@ class AxisRow(QFrame):
         super().showEvent(event)
 
     def _fit(self) -> None:
-        self.left.setFixedWidth(self.left.fontMetrics().horizontalAdvance("8888.8 µrad left"))
+        self.left.setFixedWidth(
+            self.left.fontMetrics().horizontalAdvance(
+                translate("control", "{way} left").format(way="8888.8 µrad")
+            )
+        )
         sign = self.plus.fontMetrics().horizontalAdvance("−")
         for button in (self.minus, self.plus):
             button.setFixedWidth(max(34, 3 * sign))
@@ -161,7 +181,9 @@ class AxisRow(QFrame):
         if speed is None:
             self._workbench.notify(
                 Level.WARNING,
-                f"{label(self._axis)}: the robot file gives no max_speed; use steps instead.",
+                translate(
+                    "control", "{label}: the robot file gives no max_speed; use steps instead."
+                ).format(label=label(self._axis)),
                 about=self,
             )
             return
@@ -198,7 +220,7 @@ class AxisRow(QFrame):
         self.status.show_text(meant or status_text(self._axis, state, self._scale))
         set_property(self.status, "quiet", not meant)
         set_property(self.status, "bad", not meant and self._axis in state.unhomed)
-        word = "Move?" if asked else "Go"
+        word = translate("control", "Move?") if asked else translate("control", "Go")
         if word != self.go.text():
             self.go.setText(word)
             self.go.setProperty("primary", asked)
@@ -207,20 +229,36 @@ class AxisRow(QFrame):
 
     def _lock(self, why_not: str | None) -> None:
         name, held = label(self._axis), self._steps.step(self._axis) is None
-        how = "while it is held" if held else "one step"
+        how = translate("control", "while it is held") if held else translate("control", "one step")
         for button in (self.minus, self.plus):
             button.setProperty("held", held)  # the command palette can only click
-        allow(self.minus, why_not, f"Move {name} down {how}")
-        allow(self.plus, why_not, f"Move {name} up {how}")
+        allow(
+            self.minus,
+            why_not,
+            translate("control", "Move {name} down {how}").format(name=name, how=how),
+        )
+        allow(
+            self.plus,
+            why_not,
+            translate("control", "Move {name} up {how}").format(name=name, how=how),
+        )
         low, high = (self._scale.number(end) for end in self._described.range)
-        bounds = f"{low} to {high} {self._scale.symbol}"
-        allow(self.target, why_not, f"Where {name} is to go, {bounds}; Enter, or Go")
+        bounds = translate("control", "{low} to {high} {symbol}").format(
+            low=low, high=high, symbol=self._scale.symbol
+        )
+        allow(
+            self.target,
+            why_not,
+            translate("control", "Where {name} is to go, {bounds}; Enter, or Go").format(
+                name=name, bounds=bounds
+            ),
+        )
         allow(
             self.go,
             why_not,
-            "A large move: press once more to make it"
+            translate("control", "A large move: press once more to make it")
             if self.confirmation.asked is not None
-            else f"Move {name} to the typed position",
+            else translate("control", "Move {name} to the typed position").format(name=name),
         )
 
 
@@ -229,7 +267,11 @@ def _against(state: SessionState, *, known: bool, stale: bool) -> str | None:
     if state.locked is not None:
         return state.locked
     if not known:
-        return "its position is not known"
+        return translate("control", "its position is not known")
     if stale:
-        return "its reading is too old"
-    return "a trajectory is playing" if state.activity is DeviceState.PLAYING else None
+        return translate("control", "its reading is too old")
+    return (
+        translate("control", "a trajectory is playing")
+        if state.activity is DeviceState.PLAYING
+        else None
+    )

@@ -15,10 +15,11 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.motion.teleoperation.scaling import STEP_PRESETS
 from rotemina.app.panel import STALE_S
 from rotemina.app.shell.controls import ElidedLabel, allow, plain_tip
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.control.parts import SteadyChoice, button
 from rotemina.plugins.control.wording import owners_text, taken
-from rotemina.plugins.teleoperation.wording import LAWS, mode_choice, reason_text, trust_text
+from rotemina.plugins.teleoperation.wording import law_choices, mode_choice, reason_text, trust_text
 
 
 class HandPage(QWidget):
@@ -29,22 +30,31 @@ class HandPage(QWidget):
         self._workbench, self._operation = workbench, workbench.operation
         steered = self._operation.teleoperator
         self.modes: dict[str, QPushButton] = {}
-        self.law = SteadyChoice("Scaling", "What the stick's place means")
-        for kind, choice in LAWS.items():
+        self.law = SteadyChoice(
+            translate("control", "Scaling"), translate("control", "What the stick's place means")
+        )
+        for kind, choice in law_choices():
             self.law.addItem(choice.text, kind)
         self.law.activated.connect(
             lambda _: workbench.ask(lambda: steered.use_law(self.law.currentData()))
         )
-        self.preset = SteadyChoice("Step preset", "Factor on way, speed and force of the stick")
+        self.preset = SteadyChoice(
+            translate("control", "Step preset"),
+            translate("control", "Factor on way, speed and force of the stick"),
+        )
         for factor in STEP_PRESETS:
             self.preset.addItem(f"× {factor:g}", factor)
         self.preset.activated.connect(lambda _: steered.use_preset(self.preset.currentData()))
         self.trust, self.reason, self.owners = ElidedLabel(), ElidedLabel(), ElidedLabel()
         self.reason.setProperty("quiet", True)
-        self.over = button("Take over", "", self._take_over)
+        self.over = button(translate("control", "Take over"), "", self._take_over)
         scaling = QHBoxLayout()
         scaling.setSpacing(6)
-        for widget, stretch in ((QLabel("Scaling"), 0), (self.law, 1), (self.preset, 1)):
+        for widget, stretch in (
+            (QLabel(translate("control", "Scaling")), 0),
+            (self.law, 1),
+            (self.preset, 1),
+        ):
             scaling.addWidget(widget, stretch)
         owned = QHBoxLayout()
         owned.addWidget(self.owners, 1)
@@ -69,12 +79,17 @@ class HandPage(QWidget):
                 box.setCurrentIndex(box.findData(value))
         self.trust.show_text(trust_text(view))
         self.reason.show_text(steered.refused or reason_text(steered, stale=stale))
-        self.owners.show_text(owners_text(state) or "No axis is driven now.")
+        self.owners.show_text(owners_text(state) or translate("control", "No axis is driven now."))
         others = taken(state)
         allow(
             self.over,
-            None if others else "nobody else drives an axis that could be taken over",
-            "Make the axes yours that somebody else drives; they go on until told otherwise",
+            None
+            if others
+            else translate("control", "nobody else drives an axis that could be taken over"),
+            translate(
+                "control",
+                "Make the axes yours that somebody else drives; they go on until told otherwise",
+            ),
         )
 
     def _mode_buttons(self) -> QGridLayout:
@@ -87,7 +102,7 @@ class HandPage(QWidget):
             one = QPushButton(choice.text)
             one.setCheckable(True)
             one.setToolTip(plain_tip(choice.tip))
-            one.setAccessibleName(f"Mode {choice.text}")
+            one.setAccessibleName(translate("control", "Mode {text}").format(text=choice.text))
             one.clicked.connect(
                 lambda _, name=name: self._workbench.ask(lambda: steered.use_mode(name))
             )

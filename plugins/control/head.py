@@ -5,6 +5,7 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QWi
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S
 from rotemina.app.shell.controls import ElidedLabel, plain_tip
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase import Tone, set_tone
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.control.parts import set_property
@@ -26,12 +27,12 @@ class Head(QWidget):
         self.speed.choose(workbench.settings.get(_SPEED_KEY, 1.0))
         self.speed.activated.connect(lambda _: workbench.settings.set(_SPEED_KEY, self.speed.share))
         self.stick = QLabel("–")
-        self.stick.setAccessibleName("How the joystick stands")
+        self.stick.setAccessibleName(translate("control", "How the joystick stands"))
         self.stick.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         set_tone(self.stick, Tone.QUIET)
         self.device, self.tip = ElidedLabel(), ElidedLabel()
-        self.device.setAccessibleName("Device, mode and scaling")
-        self.tip.setAccessibleName("Height of the tip")
+        self.device.setAccessibleName(translate("control", "Device, mode and scaling"))
+        self.tip.setAccessibleName(translate("control", "Height of the tip"))
         first = QHBoxLayout()
         first.setSpacing(8)
         first.addWidget(self.stick)
@@ -42,7 +43,7 @@ class Head(QWidget):
         grid.addLayout(first, 0, 0, 1, 3)
         grid.addWidget(self.tip, 1, 0)
         grid.setColumnStretch(0, 1)
-        grid.addWidget(QLabel("Speed"), 1, 1)
+        grid.addWidget(QLabel(translate("control", "Speed")), 1, 1)
         grid.addWidget(self.speed, 1, 2)
 
     def refresh(self, state: SessionState) -> None:

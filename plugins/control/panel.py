@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
 from rotemina.app.display import stages
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
-from rotemina.app.shell.language import marked
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.control.axis_row import AxisRow
 from rotemina.plugins.control.hand_page import HandPage
@@ -30,6 +30,11 @@ _CLOSE = """
 QPushButton, QLineEdit, QComboBox { min-height: 19px; padding: 1px 6px; }
 QPushButton[jog="true"] { padding: 0; }
 """
+_STAGES = {
+    "micro": marked("control", "Micro stage"),
+    "nano": marked("control", "Nano stage"),
+    "axes": marked("control", "Axes"),
+}
 
 
 class ControlPanel(Panel):
@@ -67,10 +72,10 @@ class ControlPanel(Panel):
 
     def _pages(self) -> tuple[tuple[str, QWidget], ...]:
         return (
-            ("Hand", self.hand),
-            ("Positions", self.positions),
-            ("Tip", self.tip),
-            ("Penetration", self.penetration),
+            (translate("control", "Hand"), self.hand),
+            (translate("control", "Positions"), self.positions),
+            (translate("control", "Tip"), self.tip),
+            (translate("control", "Penetration"), self.penetration),
         )
 
     def _scrolled_axes(self) -> QScrollArea:
@@ -93,7 +98,11 @@ class ControlPanel(Panel):
         return scroll
 
     def _add_stage(self, column: QVBoxLayout, stage: str, axes: tuple[str, ...]) -> None:
-        heading = QLabel(f"{stage.capitalize()} stage" if stage != "axes" else "Axes")
+        heading = QLabel(
+            translate("control", _STAGES[stage])
+            if stage in _STAGES
+            else translate("control", "{name} stage").format(name=stage.capitalize())
+        )
         heading.setProperty("heading", True)
         heading.setTextFormat(Qt.TextFormat.PlainText)
         steps = StepChoice(self.workbench.robot, axes)

@@ -8,10 +8,13 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QVB
 from rotemina.app.motion.penetration.status import UNDER_WAY, Phase
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.engine_words import spoken
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase import Tone, set_tone
 from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.clock import Clock
 from rotemina.plugins.control.parts import text_label
+from rotemina.plugins.penetration.engine_words import spoken as phase_word
 from rotemina.plugins.penetration.prospect import Prospect
 from rotemina.plugins.penetration.words import (
     against_button,
@@ -44,18 +47,18 @@ class PenetrationPage(QWidget):
         self._shown = Phase.DISARMED
         self._prospect: Prospect | None = None
         self._planned_for: object = None
-        self.arm = QPushButton("Arm")
-        self.arm.setToolTip("Prepare the penetration; nothing moves yet")
+        self.arm = QPushButton(translate("penetration", arm_word(self._shown)))
+        self.arm.setToolTip(translate("control", "Prepare the penetration; nothing moves yet"))
         self.arm.clicked.connect(lambda _: self._arm())
-        self.button = QPushButton("Start")
-        self.button.setToolTip("Begin the armed penetration")
+        self.button = QPushButton(translate("penetration", button_word(self._shown)))
+        self.button.setToolTip(translate("control", "Begin the armed penetration"))
         self.button.setProperty("primary", True)
         # By Tab alone: no space bar that follows a click may start or end anything.
         self.button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         # On pressing, not on release: what stops must not wait for the finger to lift.
         self.button.pressed.connect(self._press)
         self.phase = QLabel()
-        self.phase.setAccessibleName("Phase of the penetration")
+        self.phase.setAccessibleName(translate("control", "Phase of the penetration"))
         self.phase.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.message = text_label(lines=3)
         self.parameters = text_label()
@@ -78,13 +81,19 @@ class PenetrationPage(QWidget):
         """Show a moment, and lock what cannot be done now."""
         status = self._operation.penetration.status
         self._shown = phase = status.phase
-        self.arm.setText(arm_word(phase))
-        against = f"it is in {phase}; stop it first" if phase in UNDER_WAY else None
+        self.arm.setText(translate("penetration", arm_word(phase)))
+        against = (
+            translate("control", "it is in {phase}; stop it first").format(phase=phase_word(phase))
+            if phase in UNDER_WAY
+            else None
+        )
         if arm_word(phase) == "Arm" and against is None:
             against = self._against_arming(state)
-        allow(self.arm, against, arm_tip(phase))
-        self.button.setText(button_word(phase))
-        allow(self.button, against_button(status, state), button_tip(phase))
+        allow(self.arm, against, translate("penetration", arm_tip(phase)))
+        self.button.setText(translate("penetration", button_word(phase)))
+        allow(
+            self.button, against_button(status, state), translate("penetration", button_tip(phase))
+        )
         self.phase.setText(headline(status))
         set_tone(self.phase, _TONES.get(phase, Tone.BUSY))
         told = message(status, against)
@@ -92,7 +101,9 @@ class PenetrationPage(QWidget):
             self.message.setText(told)
             self.message.setToolTip(plain_tip(told))
         axis = self._operation.penetration_parameters.axis
-        told = f"Axis {axis}; parameters: see the Penetration panel."
+        told = translate("control", "Axis {axis}; parameters: see the Penetration panel.").format(
+            axis=axis
+        )
         if told != self.parameters.text():
             self.parameters.setText(told)
 
@@ -104,7 +115,9 @@ class PenetrationPage(QWidget):
         if self._prospect.plan is None:
             return self._prospect.problem
         if state.locked is not None:
-            return f"motion is locked: {state.locked}"
+            return translate("control", "motion is locked: {locked}").format(
+                locked=spoken(state.locked)
+            )
         return self._operation.penetration.why_not(parameters, self._prospect.plan)
 
     def _arm(self) -> None:

@@ -9,6 +9,7 @@ from rotemina.app.display import axis_scale, label
 from rotemina.app.motion.saved_positions import LONGEST_NAME, SavedPositions
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.connection.reasons import against_going_back, against_homing, in_motion
 from rotemina.plugins.control.parts import SteadyChoice, button, text_label
@@ -23,21 +24,28 @@ class PositionsPage(QWidget):
         self._workbench, self._speed = workbench, speed
         self.positions = SavedPositions(workbench.settings.folder, workbench.robot)
         self._again: str | None = None  # what the next press replaces or deletes
-        self.names = SteadyChoice("Saved positions", "Places of all axes, by name")
-        self.names.setPlaceholderText("none saved yet")
+        self.names = SteadyChoice(
+            translate("control", "Saved positions"),
+            translate("control", "Places of all axes, by name"),
+        )
+        self.names.setPlaceholderText(translate("control", "none saved yet"))
         self.names.currentIndexChanged.connect(lambda _: self._choose())
         self.name = QLineEdit()
-        self.name.setPlaceholderText("name of this place")
+        self.name.setPlaceholderText(translate("control", "name of this place"))
         self.name.setMaxLength(LONGEST_NAME)
-        self.name.setAccessibleName("Name for where the robot is now")
-        self.name.setToolTip(f"What to call where the robot is now; at most {LONGEST_NAME} letters")
+        self.name.setAccessibleName(translate("control", "Name for where the robot is now"))
+        self.name.setToolTip(
+            translate(
+                "control", "What to call where the robot is now; at most {most} letters"
+            ).format(most=LONGEST_NAME)
+        )
         self.name.textEdited.connect(lambda _: self._forget())
-        self.go = button("Go there", "", self._go)
-        self.delete = button("Delete", "", self._delete)
-        self.keep = button("Save", "", self._keep)
+        self.go = button(translate("control", "Go there"), "", self._go)
+        self.delete = button(translate("control", "Delete"), "", self._delete)
+        self.keep = button(translate("control", "Save"), "", self._keep)
         self.place = text_label(lines=3)
-        self.home = button("Home all", "", workbench.home)
-        self.back = button("Back", "", workbench.undo)
+        self.home = button(translate("control", "Home all"), "", workbench.home)
+        self.back = button(translate("control", "Back"), "", workbench.undo)
         column = QVBoxLayout(self)
         column.setContentsMargins(10, 6, 10, 4)
         column.setSpacing(5)
@@ -51,23 +59,38 @@ class PositionsPage(QWidget):
 
     def refresh(self, state: SessionState) -> None:
         """Lock what cannot be done now."""
-        none = None if self.names.currentText() else "no position is chosen"
+        none = None if self.names.currentText() else translate("control", "no position is chosen")
         moving = in_motion(state)
         allow(
             self.go,
             none or state.locked or moving,
-            "Lift the tip above both places, go across, come down",
+            translate("control", "Lift the tip above both places, go across, come down"),
         )
-        allow(self.delete, none, "Forget this position; asks once more")
-        known = None if state.position_known and state.command else "the position is not known"
-        nameless = None if self.name.text().strip() else "type a name first"
-        allow(self.keep, known or moving or nameless, "Keep where all axes are told to be")
+        allow(self.delete, none, translate("control", "Forget this position; asks once more"))
+        known = (
+            None
+            if state.position_known and state.command
+            else translate("control", "the position is not known")
+        )
+        nameless = None if self.name.text().strip() else translate("control", "type a name first")
+        allow(
+            self.keep,
+            known or moving or nameless,
+            translate("control", "Keep where all axes are told to be"),
+        )
         driver = self._workbench.session.driver
-        allow(self.home, against_homing(state, driver), "Find the limit switches of all axes")
+        allow(
+            self.home,
+            against_homing(state, driver),
+            translate("control", "Find the limit switches of all axes"),
+        )
         allow(
             self.back,
             against_going_back(state, undoable=self._workbench.session.undoable),
-            "Go back to where the axes rested before the latest move: up, across, down",
+            translate(
+                "control",
+                "Go back to where the axes rested before the latest move: up, across, down",
+            ),
         )
 
     # --- what buttons do --------------------------------------------------------------------------
@@ -80,16 +103,20 @@ class PositionsPage(QWidget):
 
     def _keep(self) -> None:
         name, place = self.name.text().strip(), self._workbench.session.snapshot().command
-        if name in self.positions.kept and not self._sure(f"keep {name}", self.keep, "Replace?"):
+        if name in self.positions.kept and not self._sure(
+            f"keep {name}", self.keep, translate("control", "Replace?")
+        ):
             return
         self._forget()
         if self._do(lambda: self.positions.keep(name, place), name):
             self.name.clear()
-            self._workbench.notify(Level.GOOD, f"Position {name!r} is saved.")
+            self._workbench.notify(
+                Level.GOOD, translate("control", "Position {name!r} is saved.").format(name=name)
+            )
 
     def _delete(self) -> None:
         name = self.names.currentText()
-        if self._sure(f"delete {name}", self.delete, "Sure?"):
+        if self._sure(f"delete {name}", self.delete, translate("control", "Sure?")):
             self._forget()
             self._do(lambda: self.positions.delete(name), "")
 
@@ -109,8 +136,8 @@ class PositionsPage(QWidget):
 
     def _forget(self) -> None:
         self._again = None
-        self.keep.setText("Save")
-        self.delete.setText("Delete")
+        self.keep.setText(translate("control", "Save"))
+        self.delete.setText(translate("control", "Delete"))
 
     # --- what is shown ----------------------------------------------------------------------------
 

@@ -4,6 +4,7 @@ from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.control.parts import set_property
 from rotemina.plugins.control.wording import LITTLE
@@ -26,7 +27,7 @@ class Readout(QLabel):
             self.setText(text)
         if bool(self.property("stale")) != stale:
             set_property(self, "stale", stale)
-            self.setAccessibleDescription("old" if stale else "")
+            self.setAccessibleDescription(translate("control", "old") if stale else "")
             self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)

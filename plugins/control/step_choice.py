@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
 from rotemina.app.display import step_presets
+from rotemina.app.shell.language import translate
 from rotemina.plugins.control.parts import SteadyChoice
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.units import symbol, to_unit
@@ -24,7 +25,7 @@ class StepChoice(QWidget):
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(6)
-        row.addWidget(QLabel("Step"))
+        row.addWidget(QLabel(translate("control", "Step")))
         self.boxes: dict[str, SteadyChoice] = {}
         self._quantities = {name: robot.axes[name].unit or "m" for name in axes}
         for quantity in dict.fromkeys(self._quantities.values()):
@@ -48,7 +49,10 @@ class SpeedChoice(SteadyChoice):
     """The share of each axis' greatest speed that jog and go-to use."""
 
     def __init__(self, robot: Robot) -> None:
-        super().__init__("Speed of moves", "Speed of steps, hold and go-to, of the axis' greatest")
+        super().__init__(
+            translate("control", "Speed of moves"),
+            translate("control", "Speed of steps, hold and go-to, of the axis' greatest"),
+        )
         self._robot = robot
         for share in SPEEDS:
             self.addItem(f"{100 * share:g} %", share)
@@ -80,16 +84,19 @@ class SpeedChoice(SteadyChoice):
 
 
 def _box(quantity: str, span: float) -> SteadyChoice:
-    kind = "angles" if quantity == "rad" else "lengths"
+    kind = translate("control", "angles") if quantity == "rad" else translate("control", "lengths")
     box = SteadyChoice(
-        f"Jog step, {kind}",
-        f"How far one press of + or − moves an axis ({kind}); hold: while the button is held",
+        translate("control", "Jog step, {kind}").format(kind=kind),
+        translate(
+            "control",
+            "How far one press of + or − moves an axis ({kind}); hold: while the button is held",
+        ).format(kind=kind),
     )
     for step in step_presets(quantity, span):
         box.addItem(step_text(step, quantity), step)
         if step <= span / 1000:
             box.setCurrentIndex(box.count() - 1)
-    box.addItem("hold", None)
+    box.addItem(translate("control", "hold"), None)
     return box
 
 

@@ -5,6 +5,7 @@ from PySide6.QtGui import QBrush, QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
 
 from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.control.parts import text_label
 from rotemina.plugins.control.wording import above_floor, bounds_text, tip_text
@@ -23,8 +24,8 @@ class HeightGauge(QWidget):
         self.setFixedWidth(46)
         self.setMinimumHeight(80)
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
-        self.setAccessibleName("Height of the tip above its floor")
-        self.setToolTip("0 to 2 mm above the floor; hatched: the slow zone")
+        self.setAccessibleName(translate("control", "Height of the tip above its floor"))
+        self.setToolTip(translate("control", "0 to 2 mm above the floor; hatched: the slow zone"))
 
     def show_height(self, above: float | None) -> None:
         """Show another height, m; None: it is not known."""
@@ -81,7 +82,10 @@ class TipPage(QWidget):
         place = "" if tip is None else " · ".join(f"{1e3 * at:.4f}" for at in tip)
         texts = (
             (self.height_text, tip_text(state, zone)),
-            (self.place, f"x, y, z [mm]: {place}" if place else ""),
+            (
+                self.place,
+                translate("control", "x, y, z [mm]: {place}").format(place=place) if place else "",
+            ),
             (self.bounds, bounds_text(zone)),
         )
         for text_shown, text in texts:

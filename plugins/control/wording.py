@@ -1,16 +1,29 @@
-"""What the control menu says of an axis, and what a typed target means. Free of Qt."""
+"""What the control menu says of an axis, and what a typed target means."""
 
 from rotemina.app.display import PLAIN_NUMBER, Scale, label
 from rotemina.app.motion.ownership import HOMING, OPERATOR, PLAYBACK
 from rotemina.app.motion.state import SessionState
 from rotemina.app.motion.teleoperation.views import TeleoperationState
 from rotemina.app.panel import STALE_S
+from rotemina.app.shell.engine_words import spoken
+from rotemina.app.shell.language import marked, translate
 from rotemina.sim.kinematics.keep_out import SLOW_HEIGHT, SLOW_SPEED, KeepOutZone
 from rotemina.sim.robot.model import Axis
 from rotemina.sim.trajectory.wording import readable
 from rotemina.sim.units import from_unit
 
 LITTLE = 0.1  # of the range: what is left below it is pointed at
+# Modes and laws of the stick, as the engine names them.
+MODES_AND_LAWS = (
+    marked("control", "micro"),
+    marked("control", "nano"),
+    marked("control", "hybrid"),
+    marked("control", "fine"),
+    marked("control", "pivot"),
+    marked("control", "position"),
+    marked("control", "rate"),
+    marked("control", "impedance"),
+)
 _NOT_TAKEN = (OPERATOR, PLAYBACK, HOMING)
 
 
@@ -25,30 +38,34 @@ def is_stale(state: SessionState) -> bool:
 def age_text(age_s: float | None) -> str:
     """Return how old a reading is that is too old."""
     if age_s is None:
-        return "no data"
+        return translate("control", "no data")
     if age_s < 100.0:
-        return f"{age_s:.1f} s old"
-    return f"{age_s / 60.0:.0f} min old" if age_s < 6000.0 else f"{age_s / 3600.0:.0f} h old"
+        return translate("control", "{age:.1f} s old").format(age=age_s)
+    return (
+        translate("control", "{age:.0f} min old").format(age=age_s / 60.0)
+        if age_s < 6000.0
+        else translate("control", "{age:.0f} h old").format(age=age_s / 3600.0)
+    )
 
 
 def status_text(axis: str, state: SessionState, scale: Scale) -> str:
     """Return the one thing that matters most of an axis, beside its reading."""
     if axis in state.unhomed:
-        return "not homed"
+        return translate("control", "not homed")
     if is_stale(state) and state.measured:
         return age_text(state.age_s)
     if not state.position_known or axis not in state.command:
         return ""
     owner = state.owners.get(axis)
     told = f"→ {scale.number(state.command[axis])}"
-    return told if owner in (None, OPERATOR) else f"{owner} {told}"
+    return told if owner in (None, OPERATOR) else f"{spoken(owner)} {told}"
 
 
 def left_text(position: float | None, axis: Axis, scale: Scale) -> str:
     """Return how far it is to the nearer end of the range."""
     if position is None:
         return ""
-    return f"{_rough(_left(position, axis), scale)} left"
+    return translate("control", "{way} left").format(way=_rough(_left(position, axis), scale))
 
 
 def is_little(position: float | None, axis: Axis) -> bool:
@@ -59,11 +76,15 @@ def is_little(position: float | None, axis: Axis) -> bool:
 def range_tip(axis: str, position: float | None, described: Axis, scale: Scale) -> str:
     """Return the range of an axis, and what is left of it on both sides."""
     low, high = described.range
-    text = f"{label(axis)} range: {scale.text(low)} … {scale.text(high)}"
+    text = translate("control", "{label} range: {low} … {high}").format(
+        label=label(axis), low=scale.text(low), high=scale.text(high)
+    )
     if position is None:
         return text
     down, up = max(position - low, 0.0), max(high - position, 0.0)
-    return f"{text}; left: {scale.text(down)} down, {scale.text(up)} up"
+    return translate("control", "{range}; left: {down} down, {up} up").format(
+        range=text, down=scale.text(down), up=scale.text(up)
+    )
 
 
 def _left(position: float, axis: Axis) -> float:
@@ -94,8 +115,12 @@ def echo(text: str, scale: Scale) -> str:
         return ""
     target = typed(text, scale)
     if target is None:
-        return "a point, no comma" if "," in text else "no number"
-    return f"to {scale.text(target)}"
+        return (
+            translate("control", "a point, no comma")
+            if "," in text
+            else translate("control", "no number")
+        )
+    return translate("control", "to {target}").format(target=scale.text(target))
 
 
 def way(text: str, scale: Scale, command: float | None) -> str:
@@ -109,10 +134,10 @@ def way(text: str, scale: Scale, command: float | None) -> str:
 
 def no_position(axis: str, text: str, scale: Scale) -> str:
     """Return why a text moves nothing."""
-    return (
-        f"{label(axis)}: {text.strip()!r} is no position; type a number in {scale.symbol} with a "
-        "decimal point."
-    )
+    return translate(
+        "control",
+        "{label}: {text!r} is no position; type a number in {symbol} with a decimal point.",
+    ).format(label=label(axis), text=text.strip(), symbol=scale.symbol)
 
 
 # --- tip ------------------------------------------------------------------------------------------
@@ -121,16 +146,22 @@ def no_position(axis: str, text: str, scale: Scale) -> str:
 def tip_text(state: SessionState, zone: KeepOutZone | None) -> str:
     """Return where the tip is, and what is below it."""
     if zone is None:
-        return "No tip: this robot has no chain of axes to one."
+        return translate("control", "No tip: this robot has no chain of axes to one.")
     if state.tip is None or not state.position_known:
-        return "Tip: unknown."
+        return translate("control", "Tip: unknown.")
     above = above_floor(state, zone)
     if above is None:
-        return f"Tip {_millimetres(state.tip[2])} high; no floor is taught."
+        return translate("control", "Tip {height} high; no floor is taught.").format(
+            height=_millimetres(state.tip[2])
+        )
     if above < 0.0:
-        return f"Tip {_millimetres(-above)} below its floor."
-    slow = "; slow zone" if above < SLOW_HEIGHT else ""
-    return f"Tip {_millimetres(above)} above its floor{slow}."
+        return translate("control", "Tip {height} below its floor.").format(
+            height=_millimetres(-above)
+        )
+    slow = translate("control", "; slow zone") if above < SLOW_HEIGHT else ""
+    return translate("control", "Tip {height} above its floor{slow}.").format(
+        height=_millimetres(above), slow=slow
+    )
 
 
 def tip_short(state: SessionState, zone: KeepOutZone | None) -> str:
@@ -139,9 +170,9 @@ def tip_short(state: SessionState, zone: KeepOutZone | None) -> str:
         return ""
     above = above_floor(state, zone)
     if above is not None:
-        return f"Tip over floor {_millimetres(above)}"
+        return translate("control", "Tip over floor {height}").format(height=_millimetres(above))
     known = state.tip is not None and state.position_known
-    return "No floor taught" if known else "Tip unknown"
+    return translate("control", "No floor taught") if known else translate("control", "Tip unknown")
 
 
 def above_floor(state: SessionState, zone: KeepOutZone | None) -> float | None:
@@ -155,23 +186,35 @@ def above_floor(state: SessionState, zone: KeepOutZone | None) -> float | None:
 def bounds_text(zone: KeepOutZone | None) -> str:
     """Return what bounds the tip, and what the slow zone means."""
     if zone is None:
-        return "Only the ranges of the axes hold this robot."
+        return translate("control", "Only the ranges of the axes hold this robot.")
     bounds = []
     if abs(zone.low) < float("inf"):
-        bounds.append(f"floor at {_millimetres(zone.low)}")
+        bounds.append(
+            translate("control", "floor at {height}").format(height=_millimetres(zone.low))
+        )
     if abs(zone.high) < float("inf"):
-        bounds.append(f"objective at {_millimetres(zone.high)}")
+        bounds.append(
+            translate("control", "objective at {height}").format(height=_millimetres(zone.high))
+        )
     if zone.radius < float("inf"):
-        bounds.append(f"at most {_millimetres(zone.radius)} from the middle")
+        bounds.append(
+            translate("control", "at most {height} from the middle").format(
+                height=_millimetres(zone.radius)
+            )
+        )
     if not bounds:
-        return "Nothing bounds the tip but its axes. Teach a floor in Connection, Tip."
+        return translate(
+            "control", "Nothing bounds the tip but its axes. Teach a floor in Connection, Tip."
+        )
     slow = (
-        f" Within {readable(SLOW_HEIGHT, 'm')} above the floor it goes down at "
-        f"{readable(SLOW_SPEED, 'm')}/s at most."
+        translate(
+            "control", " Within {height} above the floor it goes down at {speed}/s at most."
+        ).format(height=readable(SLOW_HEIGHT, "m"), speed=readable(SLOW_SPEED, "m"))
         if abs(zone.low) < float("inf")
         else ""
     )
-    return f"{', '.join(bounds).capitalize()}.{slow}"
+    text = ", ".join(bounds)
+    return f"{text[:1].upper()}{text[1:]}.{slow}"
 
 
 def _millimetres(metres: float) -> str:
@@ -191,9 +234,10 @@ def owners_text(state: SessionState) -> str:
     by_owner: dict[str, list[str]] = {}
     for axis, owner in state.owners.items():
         by_owner.setdefault(owner, []).append(label(axis))
-    return "; ".join(f"{owner}: {', '.join(axes)}" for owner, axes in by_owner.items())
+    return "; ".join(f"{spoken(owner)}: {', '.join(axes)}" for owner, axes in by_owner.items())
 
 
 def steering_text(state: TeleoperationState, device: str) -> str:
     """Return what drives, and how."""
-    return f"{device} · {state.mode} · {state.law} × {state.factor:g}"
+    mode, law = translate("control", state.mode), translate("control", state.law)
+    return f"{device} · {mode} · {law} × {state.factor:g}"
