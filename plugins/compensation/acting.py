@@ -6,13 +6,23 @@ from rotemina.app.motion.compensation import NamedInverse
 from rotemina.app.motion.regulation import NamedRegulation, regulation_of
 from rotemina.app.motion.state import Event, PlaybackFinished, SessionState
 from rotemina.app.shell.controls import allow
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.compensation.controls import Controls
 from rotemina.plugins.compensation.learning import Learned
 from rotemina.plugins.compensation.trial import Help, Trial, trial_motion, trial_of
 from rotemina.plugins.compensation.views import LiveView
-from rotemina.plugins.compensation.words import AT_A_LIMIT, NO_FRONT, SWEEP, beyond, left, owned
+from rotemina.plugins.compensation.words import (
+    APPLY,
+    AT_A_LIMIT,
+    NO_FRONT,
+    SWEEP,
+    SWITCH,
+    beyond,
+    left,
+    owned,
+)
 from rotemina.sim.compensate.conditioning import conditioning
 from rotemina.sim.compensate.judgement import NAMES
 from rotemina.sim.records.record import Record
@@ -62,7 +72,7 @@ class Acting:
 
         workbench.work(
             "apply gains",
-            "Checking the loop …",
+            translate("compensation", "Checking the loop …"),
             lambda: regulation_of(robot, tuning, name),
             done,
         )
@@ -101,35 +111,58 @@ class Acting:
         for one, told in controls.residuals.items():
             told.setText(left(self.trials.get(one), self._unit))
         inverse_on, loop_on = axis in session.compensated, axis in session.regulated
-        controls.switch.setText("Take off" if inverse_on else "Put on")
-        controls.apply.setText("Take loop off" if loop_on else "Apply point")
+        controls.switch.setText(translate("compensation", SWITCH[inverse_on]))
+        controls.apply.setText(translate("compensation", APPLY[loop_on]))
         said = beyond(session.beyond_inverse(axis))
-        at_limit = AT_A_LIMIT if axis in session.regulation_limited else ""
+        at_limit = (
+            translate("compensation", AT_A_LIMIT) if axis in session.regulation_limited else ""
+        )
         controls.beyond.setText(" ".join(filter(None, (said, at_limit))))
-        moves = None if state.activity is DeviceState.IDLE else "it moves"
+        moves = (
+            None if state.activity is DeviceState.IDLE else translate("compensation", "it moves")
+        )
         still = state.locked or moves or owned(state.owners)
-        no_axis = None if axis else "the robot has no piezo in open loop"
+        no_axis = None if axis else translate("compensation", "the robot has no piezo in open loop")
         allow(controls.switch, still or (None if inverse_on else other), self._switch_tip())
         no_loop = session.no_regulation or self._no_point(tuning)
-        tip = "Close the marked point's loop around the axis, which stays in place, or open it"
+        tip = translate(
+            "compensation",
+            "Close the marked point's loop around the axis, which stays in place, or open it",
+        )
         allow(controls.apply, still or (None if loop_on else no_loop), tip)
-        no_inverse = None if inverse_on else "no inverse is on: put one on first"
+        no_inverse = (
+            None if inverse_on else translate("compensation", "no inverse is on: put one on first")
+        )
         if inverse_on and not session.compensates_all:
-            no_inverse = "this device sends only trajectories through the inverse"
-        allow(controls.sweep, still or no_inverse, SWEEP)
-        allow(controls.trial, still or no_axis, "Play 6 s of swings over 60 % of the range")
+            no_inverse = translate(
+                "compensation", "this device sends only trajectories through the inverse"
+            )
+        allow(controls.sweep, still or no_inverse, translate("compensation", SWEEP))
+        allow(
+            controls.trial,
+            still or no_axis,
+            translate("compensation", "Play 6 s of swings over 60 % of the range"),
+        )
 
     def _no_point(self, tuning: Tuning | None) -> str | None:
         """Return why no point of a front can be applied to the axis; None if one can."""
         if tuning is None:
-            return NO_FRONT
-        mine = tuning.axis == self._controls.chosen
-        return None if mine else f"the gains in hand are of axis {tuning.axis}"
+            return translate("compensation", NO_FRONT)
+        if tuning.axis == self._controls.chosen:
+            return None
+        text = translate("compensation", "the gains in hand are of axis {axis}")
+        return text.format(axis=tuning.axis)
 
     def _switch_tip(self) -> str:
         if self._workbench.session.compensates_all:
-            return "Every set-point of this axis goes through the inverse; the axis stays in place"
-        return "Played trajectories go through the inverse; single moves go as they are told"
+            return translate(
+                "compensation",
+                "Every set-point of this axis goes through the inverse; the axis stays in place",
+            )
+        return translate(
+            "compensation",
+            "Played trajectories go through the inverse; single moves go as they are told",
+        )
 
     def _play(self, motion: Callable[[], Record]) -> bool:
         session = self._workbench.session

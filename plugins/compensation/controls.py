@@ -14,11 +14,17 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.display import label
+from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.compensation.trial import Help
-from rotemina.plugins.compensation.words import LIVE_LOOP
+from rotemina.plugins.compensation.words import APPLY, LIVE_LOOP, SWITCH
 from rotemina.sim.robot.model import PiezoAxis, Robot
 
-_LEFT = dict(zip(Help, ("Without", "Inverse", "Feedback", "Both"), strict=True))
+_LEFT = {
+    Help.NONE: marked("compensation", "Without"),
+    Help.INVERSE: marked("compensation", "Inverse"),
+    Help.LOOP: marked("compensation", "Feedback"),
+    Help.BOTH: marked("compensation", "Both"),
+}
 
 
 class Controls(QWidget):
@@ -27,33 +33,57 @@ class Controls(QWidget):
     def __init__(self, robot: Robot) -> None:
         super().__init__()
         self.axis = QComboBox()
-        self.axis.setAccessibleName("Axis")
-        self.axis.setToolTip("Piezo axis in open loop that is compensated")
+        self.axis.setAccessibleName(translate("compensation", "Axis"))
+        self.axis.setToolTip(
+            translate("compensation", "Piezo axis in open loop that is compensated")
+        )
         for name, axis in robot.axes.items():
             if isinstance(axis, PiezoAxis) and axis.controller is None:
                 self.axis.addItem(label(name), name)
-        self.simulate, self.record = QPushButton("Simulator"), QPushButton("Last record")
+        self.simulate, self.record = (
+            QPushButton(translate("compensation", "Simulator")),
+            QPushButton(translate("compensation", "Last record")),
+        )
         self.files, self.open, self.save = (
-            QPushButton(text) for text in ("Records …", "Open …", "Save …")
+            QPushButton(text)
+            for text in (
+                translate("compensation", "Records …"),
+                translate("compensation", "Open …"),
+                translate("compensation", "Save …"),
+            )
         )
         self.kind = QComboBox()
-        self.kind.setAccessibleName("Which inverse is put on")
-        self.kind.setToolTip("Which of the trained inverses is put on")
-        self.switch, self.trial = QPushButton("Put on"), QPushButton("Try it")
-        self.switch.setProperty("primary", True)
-        self.sweep = QPushButton("Sweep")
+        self.kind.setAccessibleName(translate("compensation", "Which inverse is put on"))
+        self.kind.setToolTip(translate("compensation", "Which of the trained inverses is put on"))
+        self.switch, self.trial = (
+            _switch(SWITCH, primary=True),
+            QPushButton(translate("compensation", "Try it")),
+        )
+        self.sweep = QPushButton(translate("compensation", "Sweep"))
         self.residuals = {one: _told("") for one in Help}
         self.beyond = _told("")
-        self.tune, self.open_gains = QPushButton("Tune"), QPushButton("Open …")
-        self.keep, self.apply = QPushButton("Keep …"), QPushButton("Apply point")
+        self.tune, self.open_gains = (
+            QPushButton(translate("compensation", "Tune")),
+            QPushButton(translate("compensation", "Open …")),
+        )
+        self.keep, self.apply = (
+            QPushButton(translate("compensation", "Keep …")),
+            _switch(APPLY),
+        )
         self.generations = QSpinBox()
         self.generations.setRange(1, 500)
         self.generations.setValue(50)
-        self.generations.setAccessibleName("Generations of 60 individuals")
-        self.generations.setToolTip("1 to 500 generations of 60 individuals each")
-        self.forward = QCheckBox("through the inverse")
-        self.forward.setToolTip("Feed the reference forward through the inverse in hand")
-        self.stop = QPushButton("Stop")
+        self.generations.setAccessibleName(
+            translate("compensation", "Generations of 60 individuals")
+        )
+        self.generations.setToolTip(
+            translate("compensation", "1 to 500 generations of 60 individuals each")
+        )
+        self.forward = QCheckBox(translate("compensation", "through the inverse"))
+        self.forward.setToolTip(
+            translate("compensation", "Feed the reference forward through the inverse in hand")
+        )
+        self.stop = QPushButton(translate("compensation", "Stop"))
         self.progress = QProgressBar()
         self.progress.setRange(0, 1000)
         self.progress.setTextVisible(False)
@@ -75,20 +105,23 @@ class Controls(QWidget):
         grid = QGridLayout()
         grid.setSpacing(5)
         rows: tuple[tuple[tuple[QWidget, int], ...], ...] = (
-            ((_plain("Axis"), 1), (self.axis, 2)),
-            ((_head("Learn from"), 3),),
+            ((_plain(translate("compensation", "Axis")), 1), (self.axis, 2)),
+            ((_head(translate("compensation", "Learn from")), 3),),
             ((self.simulate, 1), (self.record, 1), (self.files, 1)),
             ((self.open, 1), (self.save, 1)),
-            ((_head("Feed-forward"), 3),),
+            ((_head(translate("compensation", "Feed-forward")), 3),),
             ((self.kind, 3),),
             ((self.switch, 1), (self.sweep, 1), (self.trial, 1)),
-            ((_head("Feedback"), 3),),
+            ((_head(translate("compensation", "Feedback")), 3),),
             ((self.tune, 1), (self.generations, 1)),
             ((self.forward, 3),),
             ((self.point, 3),),
             ((self.apply, 1), (self.keep, 1), (self.open_gains, 1)),
-            ((_head("What is left of the error on a trial"), 3),),
-            *(((_plain(_LEFT[one]), 1), (told, 2)) for one, told in self.residuals.items()),
+            ((_head(translate("compensation", "What is left of the error on a trial")), 3),),
+            *(
+                ((_plain(translate("compensation", _LEFT[one])), 1), (told, 2))
+                for one, told in self.residuals.items()
+            ),
             ((self.beyond, 3),),
         )
         for number, row in enumerate(rows):
@@ -96,7 +129,7 @@ class Controls(QWidget):
             for widget, span in row:
                 grid.addWidget(widget, number, column, 1, span)
                 column += span
-        remark = _told(LIVE_LOOP)
+        remark = _told(translate("compensation", LIVE_LOOP))
         remark.setProperty("quiet", True)
         whole = QVBoxLayout(self)
         whole.setContentsMargins(0, 0, 4, 0)
@@ -122,3 +155,15 @@ def _head(text: str) -> QLabel:
     head = QLabel(text)
     head.setProperty("heading", True)
     return head
+
+
+def _switch(texts: tuple[str, str], *, primary: bool = False) -> QPushButton:
+    """Return a button with room for both of its texts, which shows the first."""
+    button = QPushButton()
+    button.setProperty("primary", primary)  # its bold text takes more room
+    width = 0
+    for text in reversed(texts):
+        button.setText(translate("compensation", text))
+        width = max(width, button.sizeHint().width())
+    button.setMinimumWidth(width)
+    return button

@@ -22,6 +22,7 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.controls import allow
 from rotemina.app.shell.job import Job, Tell
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
 from rotemina.drivers.samples import DeviceState
@@ -36,23 +37,23 @@ from rotemina.plugins.compensation.learning import (
 from rotemina.plugins.compensation.searching import Searching
 from rotemina.plugins.compensation.trial import NAME
 from rotemina.plugins.compensation.views import CheckView, FrontView, LiveView
-from rotemina.plugins.compensation.words import NO_FRONT, NOTHING
+from rotemina.plugins.compensation.words import NO_FRONT, NOTHING, kind_name, stage
 from rotemina.sim.compensate.file import read_trained, write_trained
-from rotemina.sim.compensate.judgement import NAMES
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.robot.model import Robot
 
-RECORDS = "Records (*.csv *.txt *.dat *.gz);;All files (*)"
-INVERSES, TUNINGS = "Inverses (*.json)", "Tunings (*.toml)"
+RECORDS = marked("compensation", "Records (*.csv *.txt *.dat *.gz);;All files (*)")
+INVERSES = marked("compensation", "Inverses (*.json)")
+TUNINGS = marked("compensation", "Tunings (*.toml)")
 CHECK, LIVE, FRONT = range(3)  # tabs
-_WIDTH = 300  # of the controls, px
+_WIDTH = 300  # of the controls at least, px
 _SEED = 0
 
 
 class CompensationPanel(Panel):
     """Controls beside the judgement, the live loops and the search of gains."""
 
-    title = "Compensation"
+    title = marked("panels", "Compensation")
     area = Area.BOTTOM
     order = 33
     help_page = "compensation.md#the-panel"
@@ -69,14 +70,19 @@ class CompensationPanel(Panel):
         self.learned: Learned | None = None
         self._source = ""
         self.views, self.tabs = QStackedWidget(), QTabBar()
-        self.tabs.setAccessibleName("What is shown")
+        self.tabs.setAccessibleName(translate("compensation", "What is shown"))
         self.tabs.setExpanding(False)
         self.tabs.setDrawBase(False)
-        for view, name in ((self.check, "Check"), (self.live, "Live"), (self.front, "Tuning")):
+        for view, name in (
+            (self.check, translate("compensation", "Check")),
+            (self.live, translate("compensation", "Live")),
+            (self.front, translate("compensation", "Tuning")),
+        ):
             self.views.addWidget(view)
             self.tabs.addTab(name)
         self._lay_out()
         self._connect()
+        self._change_axis()
         self.controls.tell("", None)
 
     # --- learn ------------------------------------------------------------------------------------
@@ -120,7 +126,12 @@ class CompensationPanel(Panel):
             self._source = path.name
             self._take(learned)
 
-        self.workbench.work("open inverse", f"Reading {path.name} …", work, done)
+        self.workbench.work(
+            "open inverse",
+            translate("compensation", "Reading {name} …").format(name=path.name),
+            work,
+            done,
+        )
 
     def save_file(self, path: Path) -> None:
         """Keep the inverses in hand."""
@@ -130,11 +141,13 @@ class CompensationPanel(Panel):
 
         def done(_: None) -> None:
             self._source = path.name
-            self.workbench.notify(Level.GOOD, f"Saved {path}")
+            self.workbench.notify(
+                Level.GOOD, translate("compensation", "Saved {path}").format(path=path)
+            )
 
         self.workbench.work(
             "save inverse",
-            f"Writing {path.name} …",
+            translate("compensation", "Writing {name} …").format(name=path.name),
             lambda: write_trained(path, learned.trained, learned.provenance),
             done,
         )
@@ -159,7 +172,7 @@ class CompensationPanel(Panel):
             self.search.enough()
         elif self.job.running:
             self.job.stop()
-            self.controls.tell("Stopped; nothing was replaced.", None)
+            self.controls.tell(translate("compensation", "Stopped; nothing was replaced."), None)
         else:
             self.workbench.stop()
 
@@ -174,11 +187,11 @@ class CompensationPanel(Panel):
         def named(tell: Tell) -> tuple[str, Learned]:
             return source, work(lambda what, share: tell(what, share, None))
 
-        self.controls.tell("Learning …", 0.0)
+        self.controls.tell(translate("compensation", "Learning …"), 0.0)
         self.job.start(named)
 
     def _told(self, what: str, share: float, _news: object) -> None:
-        self.controls.tell(what, share)
+        self.controls.tell(stage(what), share)
 
     def _finished(self, answer: tuple[str, Learned]) -> None:
         self.controls.tell("", None)
@@ -186,16 +199,19 @@ class CompensationPanel(Panel):
         self._take(learned)
 
     def _failed(self, message: str) -> None:
-        self.controls.tell("It failed; nothing was replaced.", None)
-        self.workbench.notify(Level.ERROR, f"Compensation: {message}", about=self)
+        self.controls.tell(translate("compensation", "It failed; nothing was replaced."), None)
+        text = translate("compensation", "Compensation: {message}")
+        self.workbench.notify(Level.ERROR, text.format(message=message), about=self)
 
     def _take(self, learned: Learned) -> None:
         self.learned = learned
         kinds = self.controls.kind
         kinds.clear()
         for kind in learned.trained.models:
-            said = " (recommended)" if kind == learned.trained.chosen else ""
-            kinds.addItem(NAMES[kind] + said, kind)
+            name = kind_name(kind)
+            if kind == learned.trained.chosen:
+                name = translate("compensation", "{inverse} (recommended)").format(inverse=name)
+            kinds.addItem(name, kind)
         kinds.setCurrentIndex(kinds.findData(learned.trained.chosen))
         self.controls.axis.setCurrentIndex(self.controls.axis.findData(learned.axis))
         self.check.show_learned(learned)
@@ -215,32 +231,72 @@ class CompensationPanel(Panel):
 
     def _refresh(self, state: SessionState) -> None:
         controls, axis = self.controls, self.controls.chosen
-        no_axis = None if axis else "the robot has no piezo in open loop"
+        no_axis = None if axis else translate("compensation", "the robot has no piezo in open loop")
         running = self.job.running or self.search.running
-        busy = "work is under way; stop it or wait" if running else no_axis
-        record = None if self.workbench.record is not None else "no record is in hand"
-        none = None if self.learned is not None else NOTHING
+        busy = (
+            translate("compensation", "work is under way; stop it or wait") if running else no_axis
+        )
+        record = (
+            None
+            if self.workbench.record is not None
+            else translate("compensation", "no record is in hand")
+        )
+        none = None if self.learned is not None else translate("compensation", NOTHING)
         other = self._other(axis)
-        point = None if self.search.tuning is not None else NO_FRONT
+        point = None if self.search.tuning is not None else translate("compensation", NO_FRONT)
         self.acting.refresh(state, other, self.search.tuning)
-        allow(controls.simulate, busy, "Move the simulated axis over its range and learn from it")
-        allow(controls.record, busy or record, "Learn from the record in hand")
-        allow(controls.files, busy, "Learn from records with cmd and meas, or ref")
-        allow(controls.open, busy, "Take the inverses of a file")
-        allow(controls.save, none, "Keep these inverses in a file")
-        allow(controls.tune, busy, "Search gains of a PID loop at 5 kHz on the simulated axis")
-        allow(controls.forward, other, "Feed the reference forward through the inverse in hand")
-        allow(controls.keep, busy or point, "Write the front with the point that is marked")
-        allow(controls.open_gains, busy, "Take the gains of a file, as rotemina tune writes one")
+        allow(
+            controls.simulate,
+            busy,
+            translate("compensation", "Move the simulated axis over its range and learn from it"),
+        )
+        allow(
+            controls.record,
+            busy or record,
+            translate("compensation", "Learn from the record in hand"),
+        )
+        allow(
+            controls.files,
+            busy,
+            translate("compensation", "Learn from records with cmd and meas, or ref"),
+        )
+        allow(controls.open, busy, translate("compensation", "Take the inverses of a file"))
+        allow(controls.save, none, translate("compensation", "Keep these inverses in a file"))
+        allow(
+            controls.tune,
+            busy,
+            translate("compensation", "Search gains of a PID loop at 5 kHz on the simulated axis"),
+        )
+        allow(
+            controls.forward,
+            other,
+            translate("compensation", "Feed the reference forward through the inverse in hand"),
+        )
+        allow(
+            controls.keep,
+            busy or point,
+            translate("compensation", "Write the front with the point that is marked"),
+        )
+        allow(
+            controls.open_gains,
+            busy,
+            translate("compensation", "Take the gains of a file, as rotemina tune writes one"),
+        )
         working = running or state.activity is DeviceState.PLAYING
-        allow(controls.stop, None if working else "nothing is under way", "End it")
+        allow(
+            controls.stop,
+            None if working else translate("compensation", "nothing is under way"),
+            translate("compensation", "End it"),
+        )
 
     def _other(self, axis: str) -> str | None:
         """Return why the inverse in hand is none for an axis; None if it is one."""
         if self.learned is None:
-            return NOTHING
+            return translate("compensation", NOTHING)
         mine = self.learned.axis
-        return None if mine == axis else f"the inverse in hand is of axis {mine}"
+        if mine == axis:
+            return None
+        return translate("compensation", "the inverse in hand is of axis {axis}").format(axis=mine)
 
     def _connect(self) -> None:
         controls = self.controls
@@ -255,12 +311,34 @@ class CompensationPanel(Panel):
             (controls.stop, self.stop),
         ):
             button.clicked.connect(action)
-        controls.axis.currentIndexChanged.connect(lambda _: self.acting.forget())
-        self._ask(controls.files, "Records", RECORDS, self.learn_files)
-        self._ask(controls.open, "Inverses", INVERSES, lambda paths: self.open_file(paths[0]))
-        self._ask(controls.save, "Keep inverses", INVERSES, lambda paths: self.save_file(paths[0]))
-        self._ask(controls.keep, "Keep gains", TUNINGS, lambda paths: self.search.keep(paths[0]))
-        self._ask(controls.open_gains, "Gains", TUNINGS, lambda paths: self.search.open(paths[0]))
+        controls.axis.currentIndexChanged.connect(lambda _: self._change_axis())
+        self._ask(controls.files, translate("compensation", "Records"), RECORDS, self.learn_files)
+        self._ask(
+            controls.open,
+            translate("compensation", "Inverses"),
+            INVERSES,
+            lambda paths: self.open_file(paths[0]),
+        )
+        self._ask(
+            controls.save,
+            translate("compensation", "Keep inverses"),
+            INVERSES,
+            lambda paths: self.save_file(paths[0]),
+            keep=True,
+        )
+        self._ask(
+            controls.keep,
+            translate("compensation", "Keep gains"),
+            TUNINGS,
+            lambda paths: self.search.keep(paths[0]),
+            keep=True,
+        )
+        self._ask(
+            controls.open_gains,
+            translate("compensation", "Gains"),
+            TUNINGS,
+            lambda paths: self.search.open(paths[0]),
+        )
         self.job.told.connect(self._told)
         self.job.finished.connect(self._finished)
         self.job.failed.connect(self._failed)
@@ -274,16 +352,22 @@ class CompensationPanel(Panel):
         self.workbench.closing.connect(self._close)
 
     def _ask(
-        self, button: QPushButton, title: str, kinds: str, done: Callable[[list[Path]], None]
+        self,
+        button: QPushButton,
+        title: str,
+        kinds: str,
+        done: Callable[[list[Path]], None],
+        *,
+        keep: bool = False,
     ) -> None:
-        """Let a button ask for files; one that begins with "Keep" or "Save" names a new one."""
+        """Let a button ask for files of some kinds, a marked text; to ``keep`` is a new one."""
 
         def ask() -> None:
             folder = self.workbench.settings.get("files.folder", "")
-            dialog = QFileDialog(self, title, folder, kinds)
+            dialog = QFileDialog(self, title, folder, translate("compensation", kinds))
             dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
             dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-            if title.startswith("Keep"):
+            if keep:
                 dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
                 dialog.setDefaultSuffix(kinds[kinds.index("*.") + 2 :].rstrip(")"))
             elif kinds is RECORDS:
@@ -294,6 +378,17 @@ class CompensationPanel(Panel):
             dialog.show()
 
         button.clicked.connect(ask)
+
+    def _change_axis(self) -> None:
+        """Forget the trials of another axis; what is drawn of none yet has this one's unit."""
+        self.acting.forget()
+        axis = self.controls.chosen
+        unit = (self.workbench.robot.unit(axis) if axis else None) or "m"
+        self.live.set_unit(unit)
+        if self.learned is None:
+            self.check.set_unit(unit)
+        if self.search.tuning is None:
+            self.front.set_unit(unit)
 
     def _use_theme(self, theme: Theme) -> None:
         for view in (self.check, self.live, self.front):
@@ -311,7 +406,8 @@ class CompensationPanel(Panel):
         scroll.setWidgetResizable(True)
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         scroll.setWidget(self.controls)
-        scroll.setFixedWidth(_WIDTH)
+        bar = scroll.verticalScrollBar().sizeHint().width()
+        scroll.setFixedWidth(max(self.controls.minimumSizeHint().width() + bar, _WIDTH))
         right = QVBoxLayout()
         right.setSpacing(4)
         right.addWidget(self.tabs)

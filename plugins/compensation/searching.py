@@ -6,6 +6,7 @@ from threading import Event as Flag
 from PySide6.QtCore import QObject, Signal
 
 from rotemina.app.shell.job import Job, Tell
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.compensation.controls import Controls
 from rotemina.plugins.compensation.tuning import problem_of, search
@@ -57,12 +58,11 @@ class Searching(QObject):
         self.tuning = self._problem = None
 
         def work(tell: Tell) -> tuple[TuningProblem, Tuning]:
-            tell("Preparing the simulated loop", 0.0, None)
+            tell(marked("compensation", "Preparing the simulated loop"), 0.0, None)
             problem = problem_of(robot, axis, model)
 
             def told(found: Generation) -> bool:
-                done = f"{found.done} of {found.total} generations, {len(found.front)} points"
-                tell(done, found.share, found)
+                tell("", found.share, found)
                 return not enough.is_set()
 
             return problem, search(problem, settings, told, source if model is not None else "")
@@ -87,11 +87,16 @@ class Searching(QObject):
 
         def done(_: None) -> None:
             self.name = path.name
-            self._workbench.notify(Level.GOOD, f"Saved {path}")
+            self._workbench.notify(
+                Level.GOOD, translate("compensation", "Saved {path}").format(path=path)
+            )
 
         if tuning is not None:
             self._workbench.work(
-                "keep tuning", f"Writing {path.name} …", lambda: save_tuning(tuning, path), done
+                "keep tuning",
+                translate("compensation", "Writing {name} …").format(name=path.name),
+                lambda: save_tuning(tuning, path),
+                done,
             )
 
     def open(self, path: Path) -> None:
@@ -101,7 +106,10 @@ class Searching(QObject):
             self._take(tuning, None, path.name)
 
         self._workbench.work(
-            "open tuning", f"Reading {path.name} …", lambda: load_tuning(path), done
+            "open tuning",
+            translate("compensation", "Reading {name} …").format(name=path.name),
+            lambda: load_tuning(path),
+            done,
         )
 
     def enough(self) -> None:
@@ -115,9 +123,12 @@ class Searching(QObject):
         self._trying.close()
 
     def _told(self, what: str, share: float, news: object) -> None:
-        self._controls.tell(what, share)
+        told = translate("compensation", what) if what else ""
         if isinstance(news, Generation):
+            text = translate("compensation", "{done} of {total} generations, {points} points")
+            told = text.format(done=news.done, total=news.total, points=len(news.front))
             self._front.show_generation(news, SearchSettings().against)
+        self._controls.tell(told, share)
 
     def _finished(self, answer: tuple[TuningProblem, Tuning]) -> None:
         self._controls.tell("", None)

@@ -1,10 +1,11 @@
-"""The motion by which compensation is tried, and what is left on it; free of Qt."""
+"""The motion by which compensation is tried, and what is left on it; free of widgets."""
 
 from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
 
+from rotemina.app.shell.language import marked
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
@@ -18,10 +19,10 @@ _ONSET_S, _SKIPPED_S = 1.0, 2.0
 class Help(StrEnum):
     """What helped the axis on a trial."""
 
-    NONE = "without"
-    INVERSE = "with the inverse"
-    LOOP = "with feedback"
-    BOTH = "with both"
+    NONE = marked("compensation", "without")
+    INVERSE = marked("compensation", "with the inverse")
+    LOOP = marked("compensation", "with feedback")
+    BOTH = marked("compensation", "with both")
 
     @classmethod
     def of(cls, *, inverse: bool, loop: bool) -> "Help":

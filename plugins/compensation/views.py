@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.plot import SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.compensation.learning import Learned
@@ -28,6 +29,9 @@ from rotemina.sim.tuning.problem import Try
 from rotemina.sim.tuning.result import Tuning
 from rotemina.sim.tuning.search import Generation, objectives_of
 
+# Names of curves.
+_POSITION, _WANTED = marked("compensation", "position"), marked("compensation", "wanted")
+_INVERTED, _FRONT = marked("compensation", "inverse of it"), marked("compensation", "front")
 _MICRO = 1e6
 _AXIS_WIDTH = 52
 _NEAR_PX = 40.0  # of a click to the point that it means
@@ -44,7 +48,10 @@ class _Plot(SignalPlot):
 
 
 class Curves(QWidget):
-    """A title with the names of curves in their colours, above a plot of them."""
+    """A title with the names of curves in their colours, above a plot of them.
+
+    Titles and names are marked texts, translated here; a title may hold ``{unit}``.
+    """
 
     def __init__(self, theme: Theme, title: str, roles: dict[str, str], bottom: str) -> None:
         super().__init__()
@@ -84,13 +91,17 @@ class Curves(QWidget):
         """Change all colours."""
         self._theme = theme
         self.plot.set_theme(theme)
-        micro = f"[µ{self._unit}]"
-        self.plot.getPlotItem().setLabel("bottom", self._bottom.replace("[µ]", micro))
+        title, bottom = (
+            translate("compensation", text).format(unit=f"µ{self._unit}")
+            for text in (self._title, self._bottom)
+        )
+        self.plot.getPlotItem().setLabel("bottom", bottom)
+        shown = ((translate("compensation", name), role) for name, role in self._roles.items())
         names = ", ".join(
             f'<span style="color:{getattr(theme, role)}">{escape(name)}</span>'
-            for name, role in self._roles.items()
+            for name, role in shown
         )
-        self.title.setText(f"{escape(self._title.replace('[µ]', micro))}: {names}")
+        self.title.setText(f"{escape(title)}: {names}")
 
 
 class CheckView(QWidget):
@@ -99,18 +110,25 @@ class CheckView(QWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self.table = QTableWidget(0, len(HEAD))
-        self.table.setHorizontalHeaderLabels(list(HEAD))
-        self.table.setAccessibleName("What each inverse leaves of the command, on unseen rows")
+        self.table.setHorizontalHeaderLabels([translate("compensation", text) for text in HEAD])
+        self.table.setAccessibleName(
+            translate("compensation", "What each inverse leaves of the command, on unseen rows")
+        )
         self.table.verticalHeader().hide()
         self.table.verticalHeader().setDefaultSectionSize(22)
         self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.table.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
         self.table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        self.why = QLabel(NOTHING)
+        self.why = QLabel(translate("compensation", NOTHING))
         self.why.setTextFormat(Qt.TextFormat.PlainText)
         self.why.setWordWrap(True)
-        roles = {"position": "quiet", "inverse of it": "accent"}
-        self.loop = Curves(theme, "Unseen, over the command [µ]", roles, "command [µ]")
+        roles = {_POSITION: "quiet", _INVERTED: "accent"}
+        self.loop = Curves(
+            theme,
+            marked("compensation", "Unseen, over the command [{unit}]"),
+            roles,
+            marked("compensation", "command [{unit}]"),
+        )
         left = QVBoxLayout()
         left.addWidget(self.table, 1)
         left.addWidget(self.why)
@@ -118,6 +136,10 @@ class CheckView(QWidget):
         row.setContentsMargins(0, 0, 0, 0)
         row.addLayout(left, 3)
         row.addWidget(self.loop, 2)
+
+    def set_unit(self, unit: str) -> None:
+        """Name the unit, "m" or "rad", of what will be drawn."""
+        self.loop.set_unit(unit)
 
     def show_learned(self, learned: Learned) -> None:
         """Show the figures of inverses, and the loop of the recommended one."""
@@ -134,8 +156,8 @@ class CheckView(QWidget):
         self.loop.set_unit(next(iter(learned.trained.models.values())).unit)
         loop = learned.loops.get(learned.trained.chosen)
         if loop is not None:
-            self.loop.draw("position", _MICRO * loop.command, _MICRO * loop.position)
-            self.loop.draw("inverse of it", _MICRO * loop.command, _MICRO * loop.inverted)
+            self.loop.draw(_POSITION, _MICRO * loop.command, _MICRO * loop.position)
+            self.loop.draw(_INVERTED, _MICRO * loop.command, _MICRO * loop.inverted)
 
     def set_theme(self, theme: Theme) -> None:
         """Change all colours."""
@@ -149,17 +171,31 @@ class LiveView(QWidget):
         super().__init__()
         names = zip(Help, ("quiet", "accent", "warning", "good"), strict=True)
         roles = {one.value: role for one, role in names}
-        self.loop = Curves(theme, "Reading over what is wanted [µ]", roles, "wanted [µ]")
-        self.left = Curves(theme, "Reading − wanted, mean off [µ]", roles, "wanted [µ]")
+        self.loop = Curves(
+            theme,
+            marked("compensation", "Reading over what is wanted [{unit}]"),
+            roles,
+            marked("compensation", "wanted [{unit}]"),
+        )
+        self.left = Curves(
+            theme,
+            marked("compensation", "Reading − wanted, mean off [{unit}]"),
+            roles,
+            marked("compensation", "wanted [{unit}]"),
+        )
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.addWidget(self.loop, 1)
         row.addWidget(self.left, 1)
 
-    def show_trial(self, trial: Trial, unit: str) -> None:
-        """Draw a trial beside the other one."""
+    def set_unit(self, unit: str) -> None:
+        """Name the unit, "m" or "rad", of what will be drawn."""
         self.loop.set_unit(unit)
         self.left.set_unit(unit)
+
+    def show_trial(self, trial: Trial, unit: str) -> None:
+        """Draw a trial beside the other one."""
+        self.set_unit(unit)
         name = trial.by.value
         wanted, left = _MICRO * trial.wanted, trial.position - trial.wanted
         self.loop.draw(name, wanted, _MICRO * trial.position)
@@ -190,23 +226,45 @@ class FrontView(QWidget):
         super().__init__()
         self._front: FloatArray = np.zeros((0, 2))
         self._marked: int | None = None
-        roles = {"front": "accent"}
-        self.front = Curves(theme, "Effort [ranges/s] over tracking [%]", roles, "tracking rms [%]")
+        roles = {_FRONT: "accent"}
+        self.front = Curves(
+            theme,
+            marked("compensation", "Effort [ranges/s] over tracking [%]"),
+            roles,
+            marked("compensation", "tracking rms [%]"),
+        )
         self._dots = pg.ScatterPlotItem(size=8, pen=None)
         self._mark = pg.ScatterPlotItem(size=14, brush=None)
         self.front.plot.addItem(self._dots)
         self.front.plot.addItem(self._mark)
-        self.front.plot.setToolTip("Click a point: its step and triangle are tried at once")
-        self.front.plot.setAccessibleName("Pareto front")
+        self.front.plot.setToolTip(
+            translate("compensation", "Click a point: its step and triangle are tried at once")
+        )
+        self.front.plot.setAccessibleName(translate("compensation", "Pareto front"))
         self.front.plot.scene().sigMouseClicked.connect(self._clicked)
-        tries = {"wanted": "quiet", "position": "accent"}
-        self.step = Curves(theme, "Step [µ]", tries, "time [ms]")
-        self.triangle = Curves(theme, "Triangle [µ]", tries, "time [ms]")
+        tries = {_WANTED: "quiet", _POSITION: "accent"}
+        self.step = Curves(
+            theme,
+            marked("compensation", "Step [{unit}]"),
+            tries,
+            marked("compensation", "time [ms]"),
+        )
+        self.triangle = Curves(
+            theme,
+            marked("compensation", "Triangle [{unit}]"),
+            tries,
+            marked("compensation", "time [ms]"),
+        )
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         for view in (self.front, self.step, self.triangle):
             row.addWidget(view, 1)
         self.set_theme(theme)
+
+    def set_unit(self, unit: str) -> None:
+        """Name the unit, "m" or "rad", of what will be drawn."""
+        self.step.set_unit(unit)
+        self.triangle.set_unit(unit)
 
     def show_generation(self, found: Generation, against: Against) -> None:
         """Draw the front of a search that goes on."""
@@ -226,11 +284,11 @@ class FrontView(QWidget):
 
     def show_tries(self, step: Try, triangle: Try, unit: str) -> None:
         """Draw how the loop answers."""
+        self.set_unit(unit)
         for view, one in ((self.step, step), (self.triangle, triangle)):
-            view.set_unit(unit)
             time_ms = 1e3 * one.traces.time_s
-            view.draw("wanted", time_ms, _MICRO * one.traces.reference)
-            view.draw("position", time_ms, _MICRO * one.traces.position)
+            view.draw(_WANTED, time_ms, _MICRO * one.traces.reference)
+            view.draw(_POSITION, time_ms, _MICRO * one.traces.position)
 
     def nearest(self, x: float, y: float) -> int | None:
         """Return the number of the point next to a place of the plot; None: none is near."""
@@ -252,7 +310,7 @@ class FrontView(QWidget):
     def _draw(self, front: FloatArray) -> None:
         self._front = front
         self._dots.setData(100.0 * front[:, 0], front[:, 1])
-        self.front.draw("front", 100.0 * front[:, 0], front[:, 1])
+        self.front.draw(_FRONT, 100.0 * front[:, 0], front[:, 1])
 
     def _clicked(self, event: "pg.GraphicsScene.mouseEvents.MouseClickEvent") -> None:
         place = self.front.plot.getViewBox().mapSceneToView(event.scenePos())
