@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.display import label
 from rotemina.app.panel import Area, Panel
-from rotemina.app.shell.language import marked
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.plot import SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Run, Workbench
@@ -29,8 +29,17 @@ from rotemina.sim.records.record import Tap
 from rotemina.sim.units import drawing_unit, symbol, to_unit
 
 RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
-EMPTY = "Play a trajectory, or open a record of the real machine, to see how far the model is."
-COLUMNS = ("tap", "rms", "noise floor", "rel. error", "delay")
+EMPTY = marked(
+    "comparison",
+    "Play a trajectory, or open a record of the real machine, to see how far the model is.",
+)
+COLUMNS = (
+    marked("comparison", "tap"),
+    marked("comparison", "rms"),
+    marked("comparison", "noise floor"),
+    marked("comparison", "rel. error"),
+    marked("comparison", "delay"),
+)
 
 
 class ComparisonPanel(Panel):
@@ -43,14 +52,16 @@ class ComparisonPanel(Panel):
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
-        self.open = QPushButton("Open record …")
-        self.open.setToolTip("Compare a record of the real machine with the model (Ctrl+O)")
+        self.open = QPushButton(translate("comparison", "Open record …"))
+        self.open.setToolTip(
+            translate("comparison", "Compare a record of the real machine with the model (Ctrl+O)")
+        )
         self.open.clicked.connect(lambda: self.main_window.ask_record())
-        self.save = QPushButton("Save record …")
-        self.save.setToolTip("Write the record in hand to a file (Ctrl+S)")
+        self.save = QPushButton(translate("comparison", "Save record …"))
+        self.save.setToolTip(translate("comparison", "Write the record in hand to a file (Ctrl+S)"))
         self.save.clicked.connect(lambda: self.main_window.ask_save())
         self.save.setEnabled(False)
-        self.summary = QLabel(EMPTY)
+        self.summary = QLabel(translate("comparison", EMPTY))
         self.summary.setWordWrap(True)
         self.summary.setTextFormat(Qt.TextFormat.PlainText)
         self.table = _table()
@@ -84,9 +95,11 @@ class ComparisonPanel(Panel):
 
     def _show_run(self, run: Run) -> None:
         record = run.record
-        state = "" if run.completed else ", stopped early"
+        state = "" if run.completed else translate("comparison", ", stopped early")
         self.summary.setText(
-            f"{run.name}: {record.duration_s:.3f} s, {len(record.time_s)} samples{state}"
+            translate("comparison", "{name}: {duration:.3f} s, {n} samples{state}").format(
+                name=run.name, duration=record.duration_s, n=len(record.time_s), state=state
+            )
         )
         self.save.setEnabled(True)
         self.table.setRowCount(len(run.comparison.taps))
@@ -117,12 +130,15 @@ class ComparisonPanel(Panel):
         self.gap.show_signal("gap", time_s, to_unit(real - model, gap_unit))
         self.signals.set_time(0.0, max(record.duration_s, 1e-9))
         theme = self.workbench.theme
+        told_real, told_model = translate("comparison", "real"), translate("comparison", "model")
         self.signals_title.setText(
             f"{escape(label(tap.axis))} {tap.tap} [{symbol(unit)}]: "
-            f'<span style="color:{theme.real}">real</span>, '
-            f'<span style="color:{theme.model}">model</span>'
+            f'<span style="color:{theme.real}">{told_real}</span>, '
+            f'<span style="color:{theme.model}">{told_model}</span>'
         )
-        self.gap_title.setText(f"real − model [{symbol(gap_unit)}]")
+        self.gap_title.setText(
+            translate("comparison", "real − model [{symbol}]").format(symbol=symbol(gap_unit))
+        )
         self.signals.enableAutoRange(axis="y")
         self.gap.enableAutoRange(axis="y")
 
@@ -150,7 +166,7 @@ def _titled(title: QLabel, plot: SignalPlot) -> QWidget:
 
 def _table() -> QTableWidget:
     table = QTableWidget(0, len(COLUMNS))
-    table.setHorizontalHeaderLabels(list(COLUMNS))
+    table.setHorizontalHeaderLabels([translate("comparison", name) for name in COLUMNS])
     table.verticalHeader().hide()
     table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
     table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)

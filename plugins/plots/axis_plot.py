@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 from rotemina.app.display import axis_scale, label
 from rotemina.app.motion.history import LiveWindow
 from rotemina.app.shell.controls import ElidedLabel, plain_tip
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.plots.analysis import spectrum
@@ -101,8 +102,10 @@ class AxisPlot(QWidget):
             return
         gap = (window.measured - window.model)[:, self._column]
         self.figures.show_text(
-            f"gap rms {to_unit(np.sqrt(np.mean(gap**2)), self._gap_unit):.3g} "
-            f"{symbol(self._gap_unit)}"
+            translate("plots", "gap rms {value:.3g} {unit}").format(
+                value=to_unit(np.sqrt(np.mean(gap**2)), self._gap_unit),
+                unit=symbol(self._gap_unit),
+            )
         )
         {
             Shown.POSITION: self._draw_position,
@@ -134,7 +137,13 @@ class AxisPlot(QWidget):
             return
         self._view = shown
         spectral, loop = shown is Shown.SPECTRUM, shown is Shown.LOOP
-        across = "frequency [Hz]" if spectral else "" if loop else "time [s]"
+        across = (
+            translate("plots", "frequency [Hz]")
+            if spectral
+            else ""
+            if loop
+            else translate("plots", "time [s]")
+        )
         self.plot.show_scales(across, logarithmic=spectral, numbers=loop or self._times)
         unit = self._scale.symbol
         if shown is Shown.GAP:

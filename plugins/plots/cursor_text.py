@@ -1,10 +1,11 @@
-"""What two cursors read: places, differences, and their inverse. Free of Qt."""
+"""What two cursors read: places, differences, and their inverse."""
 
 from enum import StrEnum
 from typing import NamedTuple
 
 import numpy as np
 
+from rotemina.app.shell.language import translate
 from rotemina.sim.arrays import FloatArray
 
 
@@ -36,7 +37,7 @@ def nearest(x: FloatArray, y: FloatArray, at: float) -> float | None:
 def across_text(shown: Shown, a: float, b: float) -> str:
     """Return what the cursors say of time or frequency, for all plots together."""
     if shown is Shown.LOOP:
-        return "Cursors: Δx and Δy of each loop stand above it."
+        return translate("plots", "Cursors: Δx and Δy of each loop stand above it.")
     unit, inverse = ("Hz", "s") if shown is Shown.SPECTRUM else ("s", "Hz")
     difference = b - a
     text = f"A {a:.4g} {unit}  B {b:.4g} {unit}  Δ {difference:.4g} {unit}"
@@ -46,7 +47,10 @@ def across_text(shown: Shown, a: float, b: float) -> str:
 def values_text(a: float | None, b: float | None, unit: str) -> Reading:
     """Return what a signal has at the cursors, and the difference."""
     if a is None or b is None:
-        return Reading("cursor outside", "a cursor stands where nothing was measured")
+        return Reading(
+            translate("plots", "cursor outside"),
+            translate("plots", "a cursor stands where nothing was measured"),
+        )
     short = f"Δ {b - a:.4g} {unit}"
     return Reading(short, f"A {a:.7g} {unit}, B {b:.7g} {unit}, {short}")
 

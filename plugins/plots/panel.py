@@ -23,7 +23,7 @@ from rotemina.app.display import stages
 from rotemina.app.motion.history import LiveWindow
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.controls import plain_tip
-from rotemina.app.shell.language import marked
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
 from rotemina.drivers.clock import Clock
@@ -36,12 +36,16 @@ from rotemina.sim.records.writing import write_record
 
 SPANS_S = (2, 5, 10, 30, 60)
 SPECTRUM_S = 0.25  # a spectrum is computed no oftener
-LEGEND = (("command", "command"), ("model", "model"), ("measured", "real"))
+LEGEND = (
+    (marked("plots", "command"), "command"),
+    (marked("plots", "model"), "model"),
+    (marked("plots", "measured"), "real"),
+)
 VIEWS = {
-    Shown.POSITION: "Position",
-    Shown.GAP: "Gap: measured − model",
-    Shown.LOOP: "Loop: over command",
-    Shown.SPECTRUM: "Spectrum",
+    Shown.POSITION: marked("plots", "Position"),
+    Shown.GAP: marked("plots", "Gap: measured − model"),
+    Shown.LOOP: marked("plots", "Loop: over command"),
+    Shown.SPECTRUM: marked("plots", "Spectrum"),
 }
 _ALONE, _KEPT, _IN_HAND = "alone", "kept", "run"
 
@@ -98,14 +102,19 @@ class PlotsPanel(Panel):
         """Move the other run in time to where its commands are those that are shown."""
         if self.other is None:
             self.workbench.notify(
-                Level.WARNING, "There is no other run to align: choose one.", about=self
+                Level.WARNING,
+                translate("plots", "There is no other run to align: choose one."),
+                about=self,
             )
             return
         window = self._whole()
         shift = alignment(window, self.other)
         if shift is None and len(window):
             self.workbench.notify(
-                Level.INFO, f"{self.other.name} has no motion to align by: the ends are aligned."
+                Level.INFO,
+                translate(
+                    "plots", "{name} has no motion to align by: the ends are aligned."
+                ).format(name=self.other.name),
             )
             shift = float(window.device_time_s[-1] - self.other.time_s[-1])
         self._shift_s = shift or 0.0
@@ -118,48 +127,67 @@ class PlotsPanel(Panel):
             "save plots",
             f"Writing {path.name} …",
             lambda: write_record(as_record(window, robot), path),
-            lambda _: self.workbench.notify(Level.GOOD, f"Saved {path}"),
+            lambda _: self.workbench.notify(
+                Level.GOOD, translate("plots", "Saved {path}").format(path=path)
+            ),
         )
 
     def save_picture(self, path: Path) -> None:
         """Write a picture of all plots, PNG or SVG by the name."""
         if self.workbench.ask(lambda: save_picture(self.area_of_plots, path)):
-            self.workbench.notify(Level.GOOD, f"Saved {path}")
+            self.workbench.notify(Level.GOOD, translate("plots", "Saved {path}").format(path=path))
 
     # --- parts ------------------------------------------------------------------------------------
 
     def _header(self) -> QHBoxLayout:
-        self.shown = _choice("What the plots show", VIEWS.items())
-        self.span = _choice("How far back the plots show", ((s, f"{s} s") for s in SPANS_S))
+        self.shown = _choice(
+            translate("plots", "What the plots show"),
+            ((key, translate("plots", text)) for key, text in VIEWS.items()),
+        )
+        self.span = _choice(
+            translate("plots", "How far back the plots show"), ((s, f"{s} s") for s in SPANS_S)
+        )
         for box in (self.shown, self.span):
             box.setSizeAdjustPolicy(box.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.shown.setMinimumContentsLength(11)
         self.span.setMinimumContentsLength(4)
         self.span.setCurrentIndex(SPANS_S.index(10))
         self.beside = _choice(
-            "Another run beside the present one",
-            ((_ALONE, "No other run"), (_KEPT, "Keep this run"), (_IN_HAND, "Run in hand")),
+            translate("plots", "Another run beside the present one"),
+            (
+                (_ALONE, translate("plots", "No other run")),
+                (_KEPT, translate("plots", "Keep this run")),
+                (_IN_HAND, translate("plots", "Run in hand")),
+            ),
         )
         self.beside.setToolTip(
             plain_tip(
-                "Keep this run: what is shown now stays, in green, beside what comes.",
-                "Run in hand: the record that was opened or played last.",
+                translate(
+                    "plots", "Keep this run: what is shown now stays, in green, beside what comes."
+                ),
+                translate("plots", "Run in hand: the record that was opened or played last."),
             )
         )
         self.shown.currentIndexChanged.connect(lambda _: self._change_view())
         self.span.currentIndexChanged.connect(lambda _: self._draw_again())
         self.beside.activated.connect(lambda _: self._choose_other())
-        self.cursors = QPushButton("Cursors")
+        self.cursors = QPushButton(translate("plots", "Cursors"))
         self.cursors.setCheckable(True)
-        self.cursors.setToolTip("Two lines to be dragged; what they read stands above each plot")
+        self.cursors.setToolTip(
+            translate("plots", "Two lines to be dragged; what they read stands above each plot")
+        )
         self.cursors.toggled.connect(lambda _: self._show_cursors())
-        self.pause = QPushButton("Pause")
+        self.pause = QPushButton(translate("plots", "Pause"))
         self.pause.setCheckable(True)
-        self.pause.setToolTip("Hold the picture still; motion, recording and replay go on")
+        self.pause.setToolTip(
+            translate("plots", "Hold the picture still; motion, recording and replay go on")
+        )
         self.pause.toggled.connect(self._hold)
-        self.more = QPushButton("More")
+        self.more = QPushButton(translate("plots", "More"))
         self.more.setMenu(self._menu())
-        self.more.setToolTip("Further views, alignment, and files of what is shown")
+        self.more.setToolTip(
+            translate("plots", "Further views, alignment, and files of what is shown")
+        )
         self._legend = QLabel()
         self._legend.setTextFormat(Qt.TextFormat.RichText)
         self._legend.setMinimumWidth(1)  # it is cut before the window is made wider
@@ -174,11 +202,21 @@ class PlotsPanel(Panel):
 
     def _menu(self) -> QMenu:
         menu = QMenu(self)
-        menu.addAction("Align the other run", self.align)
+        menu.addAction(translate("plots", "Align the other run"), self.align)
         menu.addSeparator()
         for text, name, kinds, save in (
-            ("Save picture …", "plots.png", "Pictures (*.png *.svg)", self.save_picture),
-            ("Save data …", "plots.csv", "Records (*.csv *.csv.gz)", self.save_data),
+            (
+                translate("plots", "Save picture …"),
+                "plots.png",
+                translate("plots", "Pictures (*.png *.svg)"),
+                self.save_picture,
+            ),
+            (
+                translate("plots", "Save data …"),
+                "plots.csv",
+                translate("plots", "Records (*.csv *.csv.gz)"),
+                self.save_data,
+            ),
         ):
             menu.addAction(text, partial(_ask_path, self, text, name, kinds, save))
         return menu
@@ -240,7 +278,10 @@ class PlotsPanel(Panel):
         self._draw_again()
 
     def _keep(self, window: LiveWindow) -> None:
-        self.other, self._shift_s = OtherRun.of_window("The kept run", window), 0.0
+        self.other, self._shift_s = (
+            OtherRun.of_window(translate("plots", "The kept run"), window),
+            0.0,
+        )
 
     def _take_run(self, run: Run | None) -> None:
         """Put the run in hand beside the present one, where that is chosen."""
@@ -249,7 +290,9 @@ class PlotsPanel(Panel):
         self.other = None
         if run is None:
             self.workbench.notify(
-                Level.WARNING, "There is no run in hand: open or play one.", about=self
+                Level.WARNING,
+                translate("plots", "There is no run in hand: open or play one."),
+                about=self,
             )
         else:
             self.other = OtherRun.of_record(run.name, run.record, self.workbench.robot)
@@ -295,11 +338,12 @@ class PlotsPanel(Panel):
             plot.read_cursors()
 
     def _use_theme(self, theme: Theme) -> None:
+        own = ((translate("plots", name), role) for name, role in LEGEND)
         other = () if self.other is None else ((self.other.name, "good"),)
         self._legend.setText(
             "&nbsp;&nbsp;".join(
                 f'<span style="color:{getattr(theme, role)}">▬</span> {escape(name)}'
-                for name, role in (*LEGEND, *other)
+                for name, role in (*own, *other)
             )
         )
         for plot in self.plots.values():

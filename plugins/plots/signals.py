@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotemina.app.motion.history import LiveWindow
+from rotemina.app.shell.language import translate
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Channel, Record, Tap
@@ -58,7 +59,9 @@ class OtherRun:
             If nothing is.
         """
         if len(window) == 0:
-            raise NothingShownError("plots: no samples are shown, so there is no run to keep")
+            raise NothingShownError(
+                translate("plots", "plots: no samples are shown, so there is no run to keep")
+            )
         return cls(name, window.device_time_s, window.command, window.measured)
 
 
@@ -84,7 +87,9 @@ def as_record(window: LiveWindow, robot: Robot) -> Record:
         If nothing is.
     """
     if len(window) == 0:
-        raise NothingShownError("plots: no samples are shown, so there is nothing to save")
+        raise NothingShownError(
+            translate("plots", "plots: no samples are shown, so there is nothing to save")
+        )
     time_s = window.device_time_s - window.device_time_s[0]
     signals: dict[tuple[str, Tap], FloatArray] = {}
     for column, axis in enumerate(window.axes):

@@ -18,14 +18,29 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.display import duration_text
 from rotemina.app.recorded_events import Happening, Weight, happenings
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
 
-COLUMNS = ("Time", "What", "Text")
+COLUMNS = (marked("recorder", "Time"), marked("recorder", "What"), marked("recorder", "Text"))
 Index = QModelIndex | QPersistentModelIndex
 _NONE = QModelIndex()
 _AFTER_S = 1e-6
-_EMPTY = "Open a recording to see what happened in it."
+# Kinds of events, as the engine names them.
+KINDS = (
+    marked("recorder", "Fault"),
+    marked("recorder", "Stop"),
+    marked("recorder", "Refused"),
+    marked("recorder", "Recorder"),
+    marked("recorder", "Note"),
+    marked("recorder", "Action"),
+    marked("recorder", "Playback begins"),
+    marked("recorder", "Playback ends"),
+    marked("recorder", "Connection"),
+    marked("recorder", "State"),
+    marked("recorder", "Log"),
+)
+_EMPTY = marked("recorder", "Open a recording to see what happened in it.")
 
 
 class EventsModel(QAbstractTableModel):
@@ -66,13 +81,14 @@ class EventsModel(QAbstractTableModel):
     ) -> object:
         """Return what a column is called."""
         shown = role == Qt.ItemDataRole.DisplayRole and orientation is Qt.Orientation.Horizontal
-        return COLUMNS[section] if shown else None
+        return translate("recorder", COLUMNS[section]) if shown else None
 
     def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> object:
         """Return text, tooltip and colour of a cell."""
         one = self.events[index.row()]
         if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
-            return (duration_text(one.at_s, 2), one.word, one.text)[index.column()]
+            word = translate("recorder", one.word)
+            return (duration_text(one.at_s, 2), word, one.text)[index.column()]
         if role == Qt.ItemDataRole.ForegroundRole and index.column() == 1:
             return self._colours[one.weight]
         return None
@@ -89,10 +105,12 @@ class EventsView(QWidget):
         self.table = _table(self.model)
         self.table.clicked.connect(lambda index: self.jump(index.row()))
         self.table.activated.connect(lambda index: self.jump(index.row()))
-        self.details = QCheckBox("with states and log lines")
-        self.details.setToolTip("Show these too, beside what the operator did and was told")
+        self.details = QCheckBox(translate("recorder", "with states and log lines"))
+        self.details.setToolTip(
+            translate("recorder", "Show these too, beside what the operator did and was told")
+        )
         self.details.toggled.connect(self._choose)
-        self.title = QLabel(_EMPTY)
+        self.title = QLabel(translate("recorder", _EMPTY))
         self.title.setProperty("quiet", True)
         self.title.setTextFormat(Qt.TextFormat.PlainText)
         head = QHBoxLayout()
@@ -125,10 +143,14 @@ class EventsView(QWidget):
         chosen = [one for one in self._all if details or one.weight is not Weight.DETAIL]
         self.model.show_events(chosen)
         if self._replaying.paced is None:
-            self.title.setText(_EMPTY)
+            self.title.setText(translate("recorder", _EMPTY))
         else:
             name = self._replaying.paced.replay.recording.path.name
-            self.title.setText(f"{name}: {len(chosen)} of {len(self._all)} events; click to jump")
+            self.title.setText(
+                translate("recorder", "{name}: {n} of {all} events; click to jump").format(
+                    name=name, n=len(chosen), all=len(self._all)
+                )
+            )
 
     def _follow(self) -> None:
         """Choose the row of what happened last."""
@@ -145,7 +167,7 @@ class EventsView(QWidget):
 def _table(model: EventsModel) -> QTableView:
     table = QTableView()
     table.setModel(model)
-    table.setAccessibleName("Events of the recording that is shown")
+    table.setAccessibleName(translate("recorder", "Events of the recording that is shown"))
     table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
     table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
     table.setTabKeyNavigation(False)

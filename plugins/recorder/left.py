@@ -6,6 +6,7 @@ from pathlib import Path
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton
 
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.recorder.listing import Left, recovered
 from rotemina.plugins.recorder.words import left_text, listed
@@ -30,8 +31,10 @@ class LeftBox(QFrame):
         self.text = QLabel()
         self.text.setWordWrap(True)
         self.text.setTextFormat(Qt.TextFormat.PlainText)
-        self.recover = QPushButton("Recover")
-        self.recover.setToolTip("Make finished recordings of all that was recorded of them")
+        self.recover = QPushButton(translate("recorder", "Recover"))
+        self.recover.setToolTip(
+            translate("recorder", "Make finished recordings of all that was recorded of them")
+        )
         self.recover.clicked.connect(self._recover)
         row = QHBoxLayout(self)
         row.setContentsMargins(8, 4, 8, 4)
@@ -49,21 +52,27 @@ class LeftBox(QFrame):
     def _show(self) -> None:
         self.recover.setVisible(bool(self._waiting))
         self.recover.setEnabled(not self._doing)
-        self.recover.setText("Recovering …" if self._doing else "Recover")
+        self.recover.setText(
+            translate("recorder", "Recovering …")
+            if self._doing
+            else translate("recorder", "Recover")
+        )
 
     def _recover(self) -> None:
         self._doing = True
         self._show()
         waiting = self._waiting
         names = listed([path.name for path in waiting])
-        doing = f"Recovering {names} …"
+        doing = translate("recorder", "Recovering {names} …").format(names=names)
         self._workbench.work("recover", doing, lambda: recovered(waiting), self._take, self._end)
 
     def _take(self, answer: tuple[tuple[Path, ...], tuple[str, ...]]) -> None:
         done, refused = answer
         if done:
             names = listed([path.name for path in done])
-            self._workbench.notify(Level.GOOD, f"Recovered {names}")
+            self._workbench.notify(
+                Level.GOOD, translate("recorder", "Recovered {names}").format(names=names)
+            )
         for reason in refused:
             self._workbench.notify(Level.ERROR, reason, about=self)
         self._end()

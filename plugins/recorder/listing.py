@@ -1,4 +1,4 @@
-"""What is in the folder of recordings: the finished ones, and what a crash has left. Free of Qt."""
+"""What is in the folder of recordings: the finished ones, and what a crash has left."""
 
 import shutil
 from collections.abc import Mapping
@@ -10,6 +10,7 @@ from rotemina.app.motion.recording.errors import RecordingError
 from rotemina.app.motion.recording.merging import SUFFIX, being_recorded, recover, unfinished
 from rotemina.app.motion.recording.reading import Recording
 from rotemina.app.recorded_events import Weight, happenings
+from rotemina.app.shell.language import translate
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +76,11 @@ def look(folder: Path, own: frozenset[Path], known: Mapping[Path, Listed]) -> Fo
         found = [_listed(path, known) for path in folder.glob(f"*{SUFFIX}")]
         parts = [path for path in unfinished(folder) if path not in own]
     except OSError as error:
-        raise RecordingError(f"{folder}: cannot be read ({error.strerror or error})") from error
+        raise RecordingError(
+            translate("recorder", "{folder}: cannot be read ({reason})").format(
+                folder=folder, reason=error.strerror or error
+            )
+        ) from error
     left = tuple(Left(path, _size(path), being_recorded(path)) for path in parts)
     listed = sorted((one for one in found if one is not None), key=_age, reverse=True)
     return Found(tuple(listed), left)
@@ -124,7 +129,11 @@ def _listed(path: Path, known: Mapping[Path, Listed]) -> Listed | None:
             sum(one.weight is not Weight.DETAIL for one in told),
         )
     except (RecordingError, KeyError, ValueError) as error:
-        problem = str(error) if isinstance(error, RecordingError) else f"damaged ({error})"
+        problem = (
+            str(error)
+            if isinstance(error, RecordingError)
+            else translate("recorder", "damaged ({error})").format(error=error)
+        )
         return Listed(path, about.st_size, about.st_mtime_ns, problem=problem)
 
 

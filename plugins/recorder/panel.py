@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.background import Background
-from rotemina.app.shell.language import marked
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.recorder.events import EventsView
 from rotemina.plugins.recorder.left import LeftBox
@@ -48,10 +48,13 @@ class RecorderPanel(Panel):
         self.events = EventsView(workbench)
         self.views = QStackedWidget()
         self.tabs = QTabBar()
-        self.tabs.setAccessibleName("What is shown")
+        self.tabs.setAccessibleName(translate("recorder", "What is shown"))
         self.tabs.setExpanding(False)
         self.tabs.setDrawBase(False)
-        for view, name in ((self.recordings, "Recordings"), (self.events, "Events")):
+        for view, name in (
+            (self.recordings, translate("recorder", "Recordings")),
+            (self.events, translate("recorder", "Events")),
+        ):
             self.views.addWidget(view)
             self.tabs.addTab(name)
         self.tabs.currentChanged.connect(self.views.setCurrentIndex)
@@ -96,8 +99,10 @@ class RecorderPanel(Panel):
         if names:
             self.workbench.notify(
                 Level.WARNING,
-                f"Recordings that were cut off: {listed(names)}. Recover them in the panel "
-                f"{self.title}.",
+                translate(
+                    "recorder",
+                    "Recordings that were cut off: {names}. Recover them in the panel {title}.",
+                ).format(names=listed(names), title=translate("panels", self.title)),
                 about=self,
             )
 

@@ -19,6 +19,7 @@ from rotemina.app.display import duration_text, size_text
 from rotemina.app.motion.recording.merging import UNFINISHED
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.controls import ElidedLabel, allow
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.recorder.listing import free_bytes
 from rotemina.plugins.recorder.words import room_text, scarce
@@ -52,12 +53,12 @@ class RecordingSection(QWidget):
         self._lay_out()
 
     def _make_widgets(self) -> None:
-        self.record = QPushButton("● Record")
+        self.record = QPushButton(translate("recorder", "● Record"))
         self.record.setMinimumHeight(32)
         self.record.clicked.connect(self.toggle)
         self.elapsed = QLabel("–")
         self.elapsed.setProperty("readout", True)
-        self.elapsed.setAccessibleName("Time since the recording began")
+        self.elapsed.setAccessibleName(translate("recorder", "Time since the recording began"))
         self.file, self.size, self.room = ElidedLabel(), ElidedLabel(), ElidedLabel()
         self.complaint = QLabel()
         self.complaint.setWordWrap(True)
@@ -65,24 +66,28 @@ class RecordingSection(QWidget):
         self.complaint.setProperty("bad", True)
         self.complaint.hide()
         self.note = QLineEdit()
-        self.note.setPlaceholderText("remark")
-        self.note.setAccessibleName("Remark for the recording")
-        self.note.setToolTip("Written into the recording with the time of Enter")
+        self.note.setPlaceholderText(translate("recorder", "remark"))
+        self.note.setAccessibleName(translate("recorder", "Remark for the recording"))
+        self.note.setToolTip(
+            translate("recorder", "Written into the recording with the time of Enter")
+        )
         self.note.setEnabled(False)  # until something is recorded
         self.note.returnPressed.connect(self.remark)
-        self.keep = QPushButton("Note")
-        self.keep.setToolTip("Write the remark into the recording")
+        self.keep = QPushButton(translate("recorder", "Note"))
+        self.keep.setToolTip(translate("recorder", "Write the remark into the recording"))
         self.keep.clicked.connect(self.remark)
-        self.at_start = QCheckBox("Record from every start on")
-        self.at_start.setToolTip("Begin a recording by itself when the program is started")
+        self.at_start = QCheckBox(translate("recorder", "Record from every start on"))
+        self.at_start.setToolTip(
+            translate("recorder", "Begin a recording by itself when the program is started")
+        )
         with QSignalBlocker(self.at_start):
             self.at_start.setChecked(self._wanted)
         self.at_start.toggled.connect(lambda on: self._workbench.settings.set(AT_START, on))
         self.folder = QLineEdit(str(self._operation.recordings))
         self.folder.setReadOnly(True)
         self.folder.setCursorPosition(0)
-        self.folder.setAccessibleName("Folder of recordings")
-        self.folder.setToolTip("The folder of recordings, to be copied")
+        self.folder.setAccessibleName(translate("recorder", "Folder of recordings"))
+        self.folder.setToolTip(translate("recorder", "The folder of recordings, to be copied"))
 
     def _lay_out(self) -> None:
         top = QHBoxLayout()
@@ -92,11 +97,17 @@ class RecordingSection(QWidget):
         figures.setHorizontalSpacing(10)
         figures.setVerticalSpacing(2)
         figures.setColumnStretch(1, 1)
-        named = {"File": self.file, "Size": self.size, "Free": self.room}
+        named = {
+            translate("recorder", "File"): self.file,
+            translate("recorder", "Size"): self.size,
+            translate("recorder", "Free"): self.room,
+        }
         for row, (name, value) in enumerate(named.items()):
             title = QLabel(name)
             title.setProperty("quiet", True)
-            value.setAccessibleName(f"Recording: {name.lower()}")
+            value.setAccessibleName(
+                translate("recorder", "Recording: {what}").format(what=name.lower())
+            )
             figures.addWidget(title, row, 0)
             figures.addWidget(value, row, 1)
         remark = QHBoxLayout()
@@ -150,12 +161,35 @@ class RecordingSection(QWidget):
         self._look()
         recorder = self._operation.recording
         running = recorder is not None and not self._doing
-        self.record.setText(self._doing or ("■ End recording" if running else "● Record"))
-        tip = "End it and keep it in one file" if running else "Record everything from now on"
-        allow(self.record, "wait until that is done" if self._doing else None, tip)
-        why_not = None if running else "nothing is being recorded"
-        allow(self.note, why_not, "Enter puts it into the recording, at this time")
-        allow(self.keep, why_not, "Put the remark into the recording, at this time")
+        self.record.setText(
+            self._doing
+            or (
+                translate("recorder", "■ End recording")
+                if running
+                else translate("recorder", "● Record")
+            )
+        )
+        tip = (
+            translate("recorder", "End it and keep it in one file")
+            if running
+            else translate("recorder", "Record everything from now on")
+        )
+        allow(
+            self.record,
+            translate("recorder", "wait until that is done") if self._doing else None,
+            tip,
+        )
+        why_not = None if running else translate("recorder", "nothing is being recorded")
+        allow(
+            self.note,
+            why_not,
+            translate("recorder", "Enter puts it into the recording, at this time"),
+        )
+        allow(
+            self.keep,
+            why_not,
+            translate("recorder", "Put the remark into the recording, at this time"),
+        )
         if recorder is None:
             self._show("–", "–", "–", room_text(self._free, 0, 0.0), None)
             return
@@ -170,18 +204,20 @@ class RecordingSection(QWidget):
             room_text(self._free, written, since_s),
             scarce(self._free, written)
             if failure is None
-            else f"Nothing is recorded now: {failure}. Make room; motion goes on.",
+            else translate(
+                "recorder", "Nothing is recorded now: {failure}. Make room; motion goes on."
+            ).format(failure=failure),
         )
 
     # --- inside -----------------------------------------------------------------------------------
 
     def _begin(self) -> None:
-        self._doing = "Beginning …"
+        self._doing = translate("recorder", "Beginning …")
         preferences = self._workbench.settings.values
         told = {key: each for key, each in preferences.items() if not key.startswith(_SCREEN)}
         self._workbench.work(
             "recording",
-            "Beginning to record …",
+            translate("recorder", "Beginning to record …"),
             lambda: self._operation.start_recording(told),
             lambda _: self._settle(),
             self._settle,
@@ -191,18 +227,22 @@ class RecordingSection(QWidget):
         recorder = self._operation.recording
         if recorder is None:
             return
-        self._doing = "Ending …"
+        self._doing = translate("recorder", "Ending …")
         size = size_text(recorder.writer.bytes_written)
         self._workbench.work(
             "recording",
-            f"Ending the recording: {size} are put together …",
+            translate("recorder", "Ending the recording: {size} are put together …").format(
+                size=size
+            ),
             self._operation.stop_recording,
             self._kept,
             self._settle,
         )
 
     def _kept(self, path: Path) -> None:
-        self._workbench.notify(Level.GOOD, f"Recorded {path}")
+        self._workbench.notify(
+            Level.GOOD, translate("recorder", "Recorded {path}").format(path=path)
+        )
         self._settle()
 
     def _settle(self) -> None:

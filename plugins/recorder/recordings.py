@@ -23,14 +23,15 @@ from rotemina.app.motion.recording.errors import RecordingError
 from rotemina.app.motion.recording.merging import SUFFIX
 from rotemina.app.motion.recording.reading import Recording
 from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.recorder.listing import Listed
-from rotemina.plugins.recorder.words import COLUMNS, cells, span
+from rotemina.plugins.recorder.words import BEGIN, COLUMNS, END, cells, span
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
 
 _WIDTHS = (150, 62, 66, 60, 76)  # of all columns but the last, px
-_NONE = "choose a recording in the table"
+_NONE = marked("recorder", "choose a recording in the table")
 
 
 class RecordingsView(QWidget):
@@ -91,15 +92,25 @@ class RecordingsView(QWidget):
 
         def work() -> int:
             if target.exists() and target.samefile(one.path):
-                raise RecordingError(f"{target}: it is the recording itself; name another file")
+                raise RecordingError(
+                    translate(
+                        "recorder", "{target}: it is the recording itself; name another file"
+                    ).format(target=target)
+                )
             recording = Recording.open(one.path)
             begin_s, end_s = (recording.began_s + at_s for at_s in stretch)
             return exporting.export(recording, target, begin_s, end_s)
 
         def done(rows: int) -> None:
-            self._workbench.notify(Level.GOOD, f"Exported {target}: {rows} rows")
+            self._workbench.notify(
+                Level.GOOD,
+                translate("recorder", "Exported {target}: {rows} rows").format(
+                    target=target, rows=rows
+                ),
+            )
 
-        self._workbench.work(f"export {target}", f"Exporting {target.name} …", work, done)
+        doing = translate("recorder", "Exporting {name} …").format(name=target.name)
+        self._workbench.work(f"export {target}", doing, work, done)
 
     def take_in_hand(self, one: Listed) -> None:
         """Make the commands of the stretch that is typed the trajectory in hand."""
@@ -114,31 +125,35 @@ class RecordingsView(QWidget):
             return exporting.trajectory(recording, begin_s, end_s, period_s, robot).commands
 
         def done(commands: Record) -> None:
-            self._workbench.plan_trajectory(f"{one.path.stem} again", commands)
+            self._workbench.plan_trajectory(
+                translate("recorder", "{stem} again").format(stem=one.path.stem), commands
+            )
 
-        doing = f"Reading the commands of {one.path.name} …"
+        doing = translate("recorder", "Reading the commands of {name} …").format(name=one.path.name)
         self._workbench.work("recorded trajectory", doing, work, done)
 
     # --- parts ------------------------------------------------------------------------------------
 
     def _make_buttons(self) -> None:
-        self.open = _button("Replay", self._open_chosen)
-        self.other = _button("Other file …", self._ask_other)
-        self.other.setToolTip("Show a recording from another folder")
-        self.to_record = _button("Export …", self._ask_export)
-        self.to_trajectory = _button("To trajectory", lambda: self._with_chosen(self.take_in_hand))
-        self.again = _button("Look again", self.looked_for.emit)
-        self.again.setToolTip("Look into the folder again")
-        self.begin, self.end = _field("begin"), _field("end")
-        self.begin_here = _button("▏Here", lambda: self._here(self.begin))
-        self.end_here = _button("Here▕", lambda: self._here(self.end))
+        self.open = _button(translate("recorder", "Replay"), self._open_chosen)
+        self.other = _button(translate("recorder", "Other file …"), self._ask_other)
+        self.other.setToolTip(translate("recorder", "Show a recording from another folder"))
+        self.to_record = _button(translate("recorder", "Export …"), self._ask_export)
+        self.to_trajectory = _button(
+            translate("recorder", "To trajectory"), lambda: self._with_chosen(self.take_in_hand)
+        )
+        self.again = _button(translate("recorder", "Look again"), self.looked_for.emit)
+        self.again.setToolTip(translate("recorder", "Look into the folder again"))
+        self.begin, self.end = _field(BEGIN), _field(END)
+        self.begin_here = _button(translate("recorder", "▏Here"), lambda: self._here(self.begin))
+        self.end_here = _button(translate("recorder", "Here▕"), lambda: self._here(self.end))
 
     def _lay_out(self, left: QWidget) -> None:
         stretch = QHBoxLayout()
-        stretch.addWidget(QLabel("From"))
+        stretch.addWidget(QLabel(translate("recorder", "From")))
         stretch.addWidget(self.begin)
         stretch.addWidget(self.begin_here)
-        stretch.addWidget(QLabel("to"))
+        stretch.addWidget(QLabel(translate("recorder", "to")))
         stretch.addWidget(self.end)
         stretch.addWidget(QLabel("s"))
         stretch.addWidget(self.end_here)
@@ -155,18 +170,31 @@ class RecordingsView(QWidget):
 
     def _allow(self) -> None:
         chosen = self.chosen
-        why_not = _NONE if chosen is None else chosen.problem or None
-        allow(self.open, why_not, "Show the recording in place of the machine")
-        tip = "Write the stretch as an ASCII record, to be compared and diagnosed"
+        why_not = translate("recorder", _NONE) if chosen is None else chosen.problem or None
+        allow(
+            self.open, why_not, translate("recorder", "Show the recording in place of the machine")
+        )
+        tip = translate(
+            "recorder", "Write the stretch as an ASCII record, to be compared and diagnosed"
+        )
         allow(self.to_record, why_not, tip)
-        tip = (
+        tip = translate(
+            "recorder",
             "Take the commands of the stretch in hand, to be played on the machine; every axis "
-            "must stand at both ends"
+            "must stand at both ends",
         )
         allow(self.to_trajectory, why_not, tip)
-        here = None if self._shown_s() is not None else "this recording is not shown"
-        allow(self.begin_here, here, "Let the stretch begin where the replay is")
-        allow(self.end_here, here, "Let the stretch end where the replay is")
+        here = (
+            None
+            if self._shown_s() is not None
+            else translate("recorder", "this recording is not shown")
+        )
+        allow(
+            self.begin_here,
+            here,
+            translate("recorder", "Let the stretch begin where the replay is"),
+        )
+        allow(self.end_here, here, translate("recorder", "Let the stretch end where the replay is"))
 
     def _shown_s(self) -> float | None:
         """Return where the replay of the chosen recording is."""
@@ -199,7 +227,10 @@ class RecordingsView(QWidget):
 
     def _ask_export(self) -> None:
         def ask(one: Listed) -> None:
-            dialog = self._dialog("Export a record", "Records (*.csv *.csv.gz)")
+            dialog = self._dialog(
+                translate("recorder", "Export a record"),
+                translate("recorder", "Records (*.csv *.csv.gz)"),
+            )
             dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
             dialog.selectFile(f"{one.path.stem}.csv")
             dialog.fileSelected.connect(lambda name: self.export(one, Path(name)))
@@ -208,7 +239,10 @@ class RecordingsView(QWidget):
         self._with_chosen(ask)
 
     def _ask_other(self) -> None:
-        dialog = self._dialog("Replay", f"Recordings (*{SUFFIX});;All files (*)")
+        dialog = self._dialog(
+            translate("recorder", "Replay"),
+            translate("recorder", "Recordings (*{suffix});;All files (*)").format(suffix=SUFFIX),
+        )
         dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
         dialog.fileSelected.connect(lambda name: self._workbench.open_replay(Path(name)))
         dialog.show()
@@ -231,19 +265,28 @@ def _button(text: str, run: Callable[[], object]) -> QPushButton:
     return made
 
 
-def _field(what: str) -> QLineEdit:
+def _field(end: str) -> QLineEdit:
     field = QLineEdit()
+    what = translate("recorder", end)
     field.setPlaceholderText(what)
     field.setFixedWidth(60)
-    field.setAccessibleName(f"{what.capitalize()} of the stretch in seconds")
-    field.setToolTip(f"Seconds from the begin of the recording; empty: its {what}")
+    field.setAccessibleName(
+        translate("recorder", "{end} of the stretch in seconds").format(
+            end=what[:1].upper() + what[1:]
+        )
+    )
+    field.setToolTip(
+        translate("recorder", "Seconds from the begin of the recording; empty: its {end}").format(
+            end=what
+        )
+    )
     return field
 
 
 def _table() -> QTableWidget:
     table = QTableWidget(0, len(COLUMNS))
-    table.setAccessibleName("Recordings, newest first")
-    table.setHorizontalHeaderLabels(list(COLUMNS))
+    table.setAccessibleName(translate("recorder", "Recordings, newest first"))
+    table.setHorizontalHeaderLabels([translate("recorder", name) for name in COLUMNS])
     table.verticalHeader().hide()
     table.verticalHeader().setDefaultSectionSize(22)
     table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)

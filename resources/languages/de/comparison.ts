@@ -2,6 +2,69 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="de" sourcelanguage="en">
 <context>
+    <name>comparison</name>
+    <message>
+        <source>Play a trajectory, or open a record of the real machine, to see how far the model is.</source>
+        <translation>Eine Trajektorie abspielen oder eine Aufzeichnung der Maschine öffnen: dann zeigt sich, wie weit das Modell abweicht.</translation>
+    </message>
+    <message>
+        <source>tap</source>
+        <translation>Abgriff</translation>
+    </message>
+    <message>
+        <source>rms</source>
+        <translation>rms</translation>
+    </message>
+    <message>
+        <source>noise floor</source>
+        <translation>Rauschgrenze</translation>
+    </message>
+    <message>
+        <source>rel. error</source>
+        <translation>rel. Fehler</translation>
+    </message>
+    <message>
+        <source>delay</source>
+        <translation>Totzeit</translation>
+    </message>
+    <message>
+        <source>Open record …</source>
+        <translation>Aufzeichnung öffnen …</translation>
+    </message>
+    <message>
+        <source>Compare a record of the real machine with the model (Ctrl+O)</source>
+        <translation>Eine Aufzeichnung der Maschine mit dem Modell vergleichen (Strg+O)</translation>
+    </message>
+    <message>
+        <source>Save record …</source>
+        <translation>Aufzeichnung speichern …</translation>
+    </message>
+    <message>
+        <source>Write the record in hand to a file (Ctrl+S)</source>
+        <translation>Die vorliegende Aufzeichnung in eine Datei schreiben (Strg+S)</translation>
+    </message>
+    <message>
+        <source>, stopped early</source>
+        <translation>, vorzeitig angehalten</translation>
+    </message>
+    <message>
+        <source>{name}: {duration:.3f} s, {n} samples{state}</source>
+        <translation>{name}: {duration:.3f} s, {n} Messwerte{state}</translation>
+    </message>
+    <message>
+        <source>real</source>
+        <translation>Maschine</translation>
+    </message>
+    <message>
+        <source>model</source>
+        <translation>Modell</translation>
+    </message>
+    <message>
+        <source>real − model [{symbol}]</source>
+        <translation>Maschine − Modell [{symbol}]</translation>
+    </message>
+</context>
+<context>
     <name>panels</name>
     <message>
         <source>Comparison of model and real</source>
