@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
 from rotemina.app.shell.plot import SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.identification.findings import Picture
+from rotemina.plugins.identification.told import shown
 from rotemina.sim.arrays import FloatArray
 
 _AXIS_WIDTH = 50  # three charts stand side by side
@@ -41,7 +42,7 @@ class PicturePlot(SignalPlot):
             axis.setLogMode(logarithmic)
             # Lines within a decade carry no number.
             axis.setStyle(maxTextLevel=0 if logarithmic else 2)
-        item.setLabel("bottom", picture.bottom)
+        item.setLabel("bottom", shown(picture.bottom))
         for number, curve in enumerate(picture.curves):
             name = str(number)
             self.add_curve(name, curve.role, curve.width)
@@ -118,14 +119,14 @@ class Chart(QWidget):
     def _write_title(self) -> None:
         if self._picture is None:
             return
-        title = escape(self._picture.title)
-        named = [curve for curve in self._picture.curves if curve.name]
+        title = escape(shown(self._picture.title))
+        named = [(shown(curve.name), curve.role) for curve in self._picture.curves if curve.name]
         legend = ", ".join(
-            f'<span style="color:{getattr(self._theme, curve.role)}">{escape(curve.name)}</span>'
-            for curve in named
+            f'<span style="color:{getattr(self._theme, role)}">{escape(name)}</span>'
+            for name, role in named
         )
         self.title.setText(f"{title}: {legend}" if len(named) > 1 else title)
-        self.title.setToolTip(self._picture.title)
+        self.title.setToolTip(shown(self._picture.title))
 
 
 def _scaled(values: FloatArray, logarithmic: bool) -> FloatArray:

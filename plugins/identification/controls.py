@@ -6,13 +6,15 @@ from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QWidget
 
 from rotemina.app.display import label
+from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.identification.question import Question, first_axis, taps_of
+from rotemina.plugins.identification.told import shown
 from rotemina.plugins.identification.views import View
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
 
 AVERAGES = (4, 8, 16, 32, 64)
-METHODS = (("output error", "oe"), ("ARX", "arx"))
+METHODS = ((marked("identification", "output error"), "oe"), ("ARX", "arx"))
 POLES = (1, 2, 3, 4, 6)
 
 
@@ -30,28 +32,59 @@ class Controls(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.open = QPushButton("Open …")
-        self.open.setToolTip("Open a record for this page alone")
-        self.excite = QPushButton("Excite")
+        self.open = QPushButton(translate("identification", "Open …"))
+        self.open.setToolTip(translate("identification", "Open a record for this page alone"))
+        self.excite = QPushButton(translate("identification", "Excite"))
         self.excite.setCheckable(True)
-        self.excite.setToolTip("Choose a motion that excites an axis, play it, and look at it")
-        self.axis = _choice("Axis")
-        self.drive, self.answer = _choice("Input"), _choice("Output")
-        self.view = _choice("What is shown", [(str(view), view) for view in View])
-        self.averages = _choice("Averages", [(f"{n} averages", n) for n in AVERAGES])
+        self.excite.setToolTip(
+            translate(
+                "identification", "Choose a motion that excites an axis, play it, and look at it"
+            )
+        )
+        self.axis = _choice(translate("identification", "Axis"))
+        self.drive, self.answer = (
+            _choice(translate("identification", "Input")),
+            _choice(translate("identification", "Output")),
+        )
+        self.view = _choice(
+            translate("identification", "What is shown"),
+            [(shown(view.value), view) for view in View],
+        )
+        averages = translate("identification", "{n} averages")
+        self.averages = _choice(
+            translate("identification", "Averages"), [(averages.format(n=n), n) for n in AVERAGES]
+        )
         self.averages.setCurrentIndex(AVERAGES.index(8))
         self.averages.setToolTip(
-            "Segments of Welch's method: more are smoother, fewer resolve narrower peaks. "
-            "A periodic record is averaged over its periods instead."
+            translate(
+                "identification",
+                "Segments of Welch's method: more are smoother, fewer resolve narrower peaks. "
+                "A periodic record is averaged over its periods instead.",
+            )
         )
-        self.method = _choice("Method", list(METHODS))
-        self.poles = _choice("Poles", [(f"{n} poles" if n > 1 else "1 pole", n) for n in POLES])
+        self.method = _choice(
+            translate("identification", "Method"),
+            [(shown(name), method) for name, method in METHODS],
+        )
+        pole = translate("identification", "1 pole")
+        poles = translate("identification", "{n} poles")
+        self.poles = _choice(
+            translate("identification", "Poles"),
+            [((poles if n > 1 else pole).format(n=n), n) for n in POLES],
+        )
         self.poles.setCurrentIndex(POLES.index(2))
-        self.copy, self.save = QPushButton("Copy"), QPushButton("Save …")
-        self.copy.setToolTip("Copy the figures as text")
-        self.save.setToolTip("Write the figures into a file")
-        self.keep = QPushButton("Keep card")
-        self.keep.setToolTip("Write this health card behind the earlier ones of the axis")
+        self.copy, self.save = (
+            QPushButton(translate("identification", "Copy")),
+            QPushButton(translate("identification", "Save …")),
+        )
+        self.copy.setToolTip(translate("identification", "Copy the figures as text"))
+        self.save.setToolTip(translate("identification", "Write the figures into a file"))
+        self.keep = QPushButton(translate("identification", "Keep card"))
+        self.keep.setToolTip(
+            translate(
+                "identification", "Write this health card behind the earlier ones of the axis"
+            )
+        )
         self._lay_out()
         self.axis.activated.connect(self._change_axis)
         for choice in (self.drive, self.answer, self.averages, self.method, self.poles):
@@ -122,13 +155,13 @@ class Controls(QWidget):
         assert self._record is not None
         inputs, outputs = taps_of(self._record, self.axis.currentData())
         for choice, taps, word in (
-            (self.drive, inputs, "from"),
-            (self.answer, outputs, "to"),
+            (self.drive, inputs, translate("identification", "from {tap}")),
+            (self.answer, outputs, translate("identification", "to {tap}")),
         ):
             kept = choice.currentData()
             choice.clear()
             for tap in taps:
-                choice.addItem(f"{word} {tap}", str(tap))
+                choice.addItem(word.format(tap=tap), str(tap))
             choice.setCurrentIndex(max(choice.findData(kept), 0))
 
     def _change_view(self) -> None:

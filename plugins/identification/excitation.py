@@ -7,6 +7,7 @@ from enum import StrEnum
 import numpy as np
 
 from rotemina.app.display import PLAIN_NUMBER, duration_text, label
+from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.identification.views import View
 from rotemina.sim.errors import InputError
 from rotemina.sim.excitation.generator import Excitation, Kind, excite
@@ -24,12 +25,12 @@ _SAME = 1e-9  # of the swing: commands that differ by less are the same
 
 
 class Wave(StrEnum):
-    """The motions that are offered, as the page names them."""
+    """The motions that are offered, as trajectories are named."""
 
-    MULTISINE = "Multisine"
-    SINE = "Sine"
-    TRIANGLE = "Triangle"
-    STAIRCASE = "Staircase"
+    MULTISINE = marked("identification", "Multisine")
+    SINE = marked("identification", "Sine")
+    TRIANGLE = marked("identification", "Triangle")
+    STAIRCASE = marked("identification", "Staircase")
 
 
 VIEWS: Mapping[Wave, View] = {
@@ -91,19 +92,28 @@ class Prepared:
 
     @property
     def words(self) -> str:
-        """What it asks of the axis, what was changed, and what the dry run says."""
+        """What it asks of the axis, what was changed, and what the dry run says, as shown."""
         axis = self.dry_run.axes[self.wish.axis]
         low, high = (readable(end, axis.unit, scale=axis.highest) for end in _ends(self.dry_run))
         unit = f"{axis.unit}/s"
-        speed = f"at most {readable(axis.peak_speed, unit)}"
+        asks = translate("identification", "{low} to {high}, at most {speed}, {time}")
         if axis.bounds.max_speed is not None:
-            speed += f" of {readable(axis.bounds.max_speed, unit)}"
-        lasts = _lasting(self.dry_run.duration_s)
-        changed = (f"Changed: {each.message}." for each in self.made.adjustments)
-        verdict = "Dry run: inside all limits and the tip's bounds."
+            asks = translate(
+                "identification", "{low} to {high}, at most {speed} of {bound}, {time}"
+            )
+        asks = asks.format(
+            low=low,
+            high=high,
+            speed=readable(axis.peak_speed, unit),
+            bound=readable(axis.bounds.max_speed or 0.0, unit),
+            time=_lasting(self.dry_run.duration_s),
+        )
+        change = translate("identification", "Changed: {change}.")
+        changed = (change.format(change=each.message) for each in self.made.adjustments)
+        verdict = translate("identification", "Dry run: inside all limits and the tip's bounds.")
         if self.objection:
-            verdict = f"Not playable: {self.objection}"
-        return "\n".join([f"{low} to {high}, {speed}, {lasts}", *changed, verdict])
+            verdict = translate("identification", "Not playable: {reason}")
+        return "\n".join([asks, *changed, verdict.format(reason=self.objection)])
 
 
 def prepared(
@@ -130,7 +140,10 @@ def prepared(
     """
     unit = robot.unit(wish.axis) or "m"
     size = amount_of(wish.amplitude, wish.axis, unit) if wish.amplitude.strip() else None
-    hz, time_s = _number("frequency", wish.frequency, "Hz"), _number("time", wish.time, "s")
+    hz, time_s = (
+        _number(marked("identification", "frequency"), wish.frequency, "Hz"),
+        _number(marked("identification", "time"), wish.time, "s"),
+    )
     made = excite(robot, {wish.axis: _kind(wish, size, hz, time_s)})
     tried = dry_run(robot, made.record, setpoint_period_s=setpoint_period_s)
     objection = next(iter(tried.objections), "")
@@ -192,8 +205,11 @@ def _number(name: str, text: str, unit: str) -> float | None:
         return None
     if PLAIN_NUMBER.fullmatch(digits) is None:
         raise ExcitationError(
-            f"{name}: {text[:40]!r} is no number of {unit}; write it like 2.5 {unit}, or leave "
-            "it empty"
+            translate(
+                "identification",
+                "{name}: {text} is no number of {unit}; write it like 2.5 {unit}, or leave it "
+                "empty",
+            ).format(name=translate("identification", name), text=repr(text[:40]), unit=unit)
         )
     return float(digits)
 

@@ -19,16 +19,19 @@ from rotemina.app.display import PLAIN_NUMBER, label
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Plan, Run, Workbench
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.identification.excitation import Prepared, Wave, Wish, prepared
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
 
-CHECKING = "Making the motion, and trying it on the model …"
-_AMPLITUDE = (
-    "To each side of the middle, such as 5um, 200urad or 30% of the range; what exceeds a limit is "
-    "reduced, and said"
+CHECKING = marked("identification", "Making the motion, and trying it on the model …")
+_AMPLITUDE = marked(
+    "identification",
+    "Amplitude. To each side of the middle, such as 5um, 200urad or 30% of the range; what "
+    "exceeds a limit is "
+    "reduced, and said",
 )
 
 
@@ -54,19 +57,38 @@ class ExciteView(QWidget):
         for name in workbench.robot.axes:
             self.axis.addItem(label(name), name)
         for wave in Wave:
-            self.wave.addItem(str(wave), wave)
-        self.amplitude = _field("Amplitude", f"Amplitude. {_AMPLITUDE}")
-        self.amplitude.setPlaceholderText("amplitude")
-        self.frequency = _field("Frequency", "Frequency, above 0 Hz; of a multisine the highest")
-        self.time = _field("Time", "Duration, above 0 s; of a staircase the rest on each level")
-        self.here = QCheckBox("about here")
-        self.here.setToolTip("Move about where the axis stands; off: about the middle of its range")
+            self.wave.addItem(translate("identification", wave.value), wave)
+        self.amplitude = _field(
+            translate("identification", "Amplitude of the excitation"),
+            translate("identification", _AMPLITUDE),
+        )
+        self.amplitude.setPlaceholderText(translate("identification", "amplitude"))
+        self.frequency = _field(
+            translate("identification", "Frequency of the excitation"),
+            translate("identification", "Frequency, above 0 Hz; of a multisine the highest"),
+        )
+        self.time = _field(
+            translate("identification", "Time of the excitation"),
+            translate(
+                "identification", "Duration, above 0 s; of a staircase the rest on each level"
+            ),
+        )
+        self.here = QCheckBox(translate("identification", "about here"))
+        self.here.setToolTip(
+            translate(
+                "identification",
+                "Move about where the axis stands; off: about the middle of its range",
+            )
+        )
         self.told, self.owner = _text(), _text()
         self.owner.setProperty("quiet", True)
-        self.play, self.stop = QPushButton("Play"), QPushButton("Stop")
+        self.play, self.stop = (
+            QPushButton(translate("identification", "Play")),
+            QPushButton(translate("identification", "Stop")),
+        )
         self.play.setProperty("primary", True)
-        self.play.setToolTip("Play it; the record is analysed at once")
-        self.stop.setToolTip("Stop the machine, and end it")
+        self.play.setToolTip(translate("identification", "Play it; the record is analysed at once"))
+        self.stop.setToolTip(translate("identification", "Stop the machine, and end it"))
         self.progress = QProgressBar()
         self.progress.setRange(0, 1000)
         self.progress.setTextVisible(False)
@@ -92,7 +114,7 @@ class ExciteView(QWidget):
     def prepare(self) -> None:
         """Make the motion and try it, in the background."""
         self.motion = None
-        self.told.setText(CHECKING)
+        self.told.setText(translate("identification", CHECKING))
         wish, robot, session = self.wish(), self._workbench.robot, self._workbench.session
         period_s, zone = session.setpoint_period_s, session.keep_out
         command = session.snapshot().command
@@ -103,7 +125,7 @@ class ExciteView(QWidget):
             except InputError as error:
                 return str(error)
 
-        self._workbench.work("excitation", CHECKING, work, self._take)
+        self._workbench.work("excitation", translate("identification", CHECKING), work, self._take)
 
     def start(self) -> None:
         """Take the motion in hand as the window's trajectory, and play it."""
@@ -149,24 +171,39 @@ class ExciteView(QWidget):
         under_way = ours and state.phase is not PlaybackPhase.IDLE
         axis = str(self.axis.currentData())
         driver = session.owners.get(axis)
-        self.owner.setText(f"{label(axis)}: {f'driven by {driver}' if driver else 'free'}")
-        allow(self.play, self._why_not(session, state), "Play it; the record is analysed at once")
+        owner = translate("identification", "{axis}: free")
+        if driver:
+            owner = translate("identification", "{axis}: driven by {driver}")
+        self.owner.setText(owner.format(axis=label(axis), driver=driver))
+        allow(
+            self.play,
+            self._why_not(session, state),
+            translate("identification", "Play it; the record is analysed at once"),
+        )
         waits = under_way or self._awaited is not None
-        allow(self.stop, None if waits else "it is not playing", "Stop the machine, and end it")
+        allow(
+            self.stop,
+            None if waits else translate("identification", "it is not playing"),
+            translate("identification", "Stop the machine, and end it"),
+        )
         share = state.path_s / state.duration_s if under_way and state.duration_s else 0.0
         self.progress.setValue(round(1000 * share))
 
     def _why_not(self, session: SessionState, state: PlaybackState) -> str | None:
         motion = self.motion
         if motion is None:
-            return "the motion is not ready"
+            return translate("identification", "the motion is not ready")
         if motion.digest is None:
             return motion.objection
         if self._awaited is not None or state.phase is PlaybackPhase.PLAYING:
-            return "a trajectory is playing"
+            return translate("identification", "a trajectory is playing")
         if session.locked is not None:
             return session.locked
-        return None if session.activity is DeviceState.IDLE else "the axes still move"
+        return (
+            None
+            if session.activity is DeviceState.IDLE
+            else translate("identification", "the axes still move")
+        )
 
     def _take(self, answer: Prepared | str) -> None:
         if isinstance(answer, str):
@@ -186,8 +223,16 @@ class ExciteView(QWidget):
         stairs = wave is Wave.STAIRCASE
         self.frequency.setEnabled(not stairs)
         upper = wave is Wave.MULTISINE
-        self.frequency.setPlaceholderText("up to [Hz]" if upper else "frequency [Hz]")
-        self.time.setPlaceholderText("rest [s]" if stairs else "duration [s]")
+        self.frequency.setPlaceholderText(
+            translate("identification", "up to [Hz]")
+            if upper
+            else translate("identification", "frequency [Hz]")
+        )
+        self.time.setPlaceholderText(
+            translate("identification", "rest [s]")
+            if stairs
+            else translate("identification", "duration [s]")
+        )
 
     def _plan_changed(self, plan: Plan) -> None:
         if plan.trajectory is not self._awaited:
@@ -213,10 +258,14 @@ class ExciteView(QWidget):
             self.prepare()
 
     def _lay_out(self) -> None:
-        self.axis.setAccessibleName("Axis to excite")
-        self.axis.setToolTip("Axis to excite; the others stand still")
-        self.wave.setAccessibleName("Motion of the excitation")
-        self.wave.setToolTip("Motion of the excitation: what each tells is in the help (F1)")
+        self.axis.setAccessibleName(translate("identification", "Axis to excite"))
+        self.axis.setToolTip(translate("identification", "Axis to excite; the others stand still"))
+        self.wave.setAccessibleName(translate("identification", "Motion of the excitation"))
+        self.wave.setToolTip(
+            translate(
+                "identification", "Motion of the excitation: what each tells is in the help (F1)"
+            )
+        )
         grid = QGridLayout()
         grid.setSpacing(4)
         fields = (self.axis, self.wave, self.amplitude, self.frequency, self.time, self.here)
@@ -242,8 +291,10 @@ class ExciteView(QWidget):
 
 def _field(name: str, tip: str) -> QLineEdit:
     field = QLineEdit()
-    field.setAccessibleName(f"{name} of the excitation")
-    field.setToolTip(f"{tip}; empty: what suits the axis")
+    field.setAccessibleName(name)
+    field.setToolTip(
+        translate("identification", "{tip}; empty: what suits the axis").format(tip=tip)
+    )
     return field
 
 

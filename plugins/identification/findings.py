@@ -5,7 +5,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from rotemina.app.shell.language import marked
 from rotemina.plugins.identification.question import Question
+from rotemina.plugins.identification.told import Told
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.units import drawing_unit, per_si, symbol
@@ -50,7 +52,7 @@ class Column(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Findings:
-    """The answer to a question.
+    """The answer to a question; its texts are English, as files have them, and known by tables.
 
     Attributes
     ----------
@@ -108,5 +110,9 @@ def answered(look: Callable[[Question], Findings], question: Question) -> Findin
         return Findings(question, notices=(str(error),))
     except Exception as error:  # a fault of the program must reach the operator, not vanish
         logger.exception("identification failed")
-        reason = f"a fault of the program: {type(error).__name__}: {error}"
+        reason = Told(
+            marked("identification", "a fault of the program: {kind}: {error}"),
+            kind=type(error).__name__,
+            error=error,
+        )
         return Findings(question, notices=(reason,))

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from rotemina.app.shell.language import marked
 from rotemina.plugins.identification.findings import (
     NONE,
     Column,
@@ -16,6 +17,7 @@ from rotemina.plugins.identification.findings import (
 )
 from rotemina.plugins.identification.nominal import ABSENT, nominal_signals
 from rotemina.plugins.identification.question import Question
+from rotemina.plugins.identification.told import Told
 from rotemina.sim.errors import InputError
 from rotemina.sim.identification.arx import identify_arx
 from rotemina.sim.identification.model import IdentifiedModel, Orders, simulate
@@ -28,7 +30,12 @@ METHODS = {"oe": identify_oe, "arx": identify_arx}
 _GOOD_FIT = 80.0
 _WORSE = 10.0  # per cent of fit, lost from prediction to simulation, that tell of noise
 _ROUGH = 0.1  # relative deviation from which a figure is rough
-_HEAD = ("figure", "value", "± deviation", "model")
+_HEAD = (
+    marked("identification", "figure"),
+    marked("identification", "value"),
+    marked("identification", "± deviation"),
+    marked("identification", "model"),
+)
 
 
 def model_findings(question: Question) -> Findings:
@@ -42,7 +49,14 @@ def model_findings(question: Question) -> Findings:
     notices = []
     if whole.count > signals.count:
         notices.append(
-            f"Fitted to the first {signals.count} of {whole.count} rows: more would take long."
+            Told(
+                marked(
+                    "identification",
+                    "Fitted to the first {n} of {rows} rows: more would take long.",
+                ),
+                n=signals.count,
+                rows=whole.count,
+            )
         )
     columns = _columns(model)
     return Findings(
@@ -63,7 +77,7 @@ def _nominal_rows(
         model = METHODS[question.method](_cut(nominal_signals(question)), orders)
         return _rows(question, model, natural_modes(model)), ()
     except (InputError, KeyError) as error:
-        return (), (ABSENT.format(error),)
+        return (), (Told(ABSENT, reason=error),)
 
 
 def _beside(
@@ -92,15 +106,23 @@ def _pictures(question: Question, model: IdentifiedModel, signals: Signals) -> t
     return (
         Picture(
             f"{question.answer} [{scale.symbol}]",
-            "time [s]",
+            marked("identification", "time [s]"),
             (
-                Curve("fitted", "good", time_s, scale.per_si * output, width=3),
-                Curve("measured", "real", time_s, scale.per_si * measured),
+                Curve(
+                    marked("identification", "fitted"),
+                    "good",
+                    time_s,
+                    scale.per_si * output,
+                    width=3,
+                ),
+                Curve(
+                    marked("identification", "measured"), "real", time_s, scale.per_si * measured
+                ),
             ),
         ),
         Picture(
-            f"measured − fitted [{fine.symbol}]",
-            "time [s]",
+            Told(marked("identification", "measured − fitted [{unit}]"), unit=fine.symbol),
+            marked("identification", "time [s]"),
             (Curve("", "text", time_s, fine.per_si * gap),),
         ),
     )
@@ -111,16 +133,32 @@ def _rows(
 ) -> tuple[tuple[str, ...], ...]:
     gain = model.transfer_function.static_gain
     scale = ratio_scale(question, abs(gain))
-    rows: list[tuple[str, ...]] = [("fit", f"{model.fit_percent:.2f} %", "")]
+    rows: list[tuple[str, ...]] = [
+        (marked("identification", "fit"), f"{model.fit_percent:.2f} %", "")
+    ]
     if model.prediction_percent is not None:
-        rows.append(("fit of one step ahead", f"{model.prediction_percent:.2f} %", ""))
+        rows.append(
+            (
+                marked("identification", "fit of one step ahead"),
+                f"{model.prediction_percent:.2f} %",
+                "",
+            )
+        )
     for mode in modes:
         rows += _mode_rows(mode)
-    rows.append(("static gain", scale.text(gain), scale.text(model.static_gain_deviation)))
+    rows.append(
+        (
+            marked("identification", "static gain"),
+            scale.text(gain),
+            scale.text(model.static_gain_deviation),
+        )
+    )
     unit = question.unit(question.answer)
     residual = scale_of(unit, model.residual_rms).text(model.residual_rms)
-    rows.append(("residual rms", residual, ""))
-    rows.append(("delay in samples", str(model.transfer_function.delay), ""))
+    rows.append((marked("identification", "residual rms"), residual, ""))
+    rows.append(
+        (marked("identification", "delay in samples"), str(model.transfer_function.delay), "")
+    )
     return tuple(rows)
 
 
@@ -128,11 +166,14 @@ def _mode_rows(mode: NaturalMode) -> list[tuple[str, ...]]:
     frequency = (f"{mode.frequency_hz:.5g} Hz", f"{mode.frequency_deviation:.2g} Hz")
     if mode.oscillates:
         ratio = (f"{mode.damping_ratio:.4g}", f"{mode.damping_deviation:.2g}")
-        return [("natural frequency", *frequency), ("damping ratio", *ratio)]
+        return [
+            (marked("identification", "natural frequency"), *frequency),
+            (marked("identification", "damping ratio"), *ratio),
+        ]
     lag_s = 1.0 / (2.0 * np.pi * mode.frequency_hz) if mode.frequency_hz else np.inf
     return [
-        ("corner frequency", *frequency),
-        ("time constant", Scale("ms", 1e3).text(lag_s), NONE),
+        (marked("identification", "corner frequency"), *frequency),
+        (marked("identification", "time constant"), Scale("ms", 1e3).text(lag_s), NONE),
     ]
 
 
@@ -159,18 +200,37 @@ def _doubts(model: IdentifiedModel, modes: tuple[NaturalMode, ...]) -> list[str]
     transfer = model.transfer_function
     if not transfer.stable:
         doubts.append(
-            "The fitted model is unstable: it stands for noise or drift; fit by output error."
+            marked(
+                "identification",
+                "The fitted model is unstable: it stands for noise or drift; fit by output error.",
+            )
         )
     elif model.fit_percent < _GOOD_FIT:
         doubts.append(
-            f"Fit {model.fit_percent:.1f} %, below {_GOOD_FIT:g} %: noise, distortion, another "
-            "axis or too few poles; frequency and damping are not those of the machine."
+            Told(
+                marked(
+                    "identification",
+                    "Fit {fit:.1f} %, below {bound:g} %: noise, distortion, another axis or too "
+                    "few poles; "
+                    "frequency and damping are not those of the machine.",
+                ),
+                fit=model.fit_percent,
+                bound=_GOOD_FIT,
+            )
         )
     predicted = model.prediction_percent
     if predicted is not None and transfer.stable and predicted - model.fit_percent > _WORSE:
         doubts.append(
-            f"One step ahead it fits {predicted:.1f} %, simulated {model.fit_percent:.1f} %: noise "
-            "of the sensor spoils ARX; fit by output error."
+            Told(
+                marked(
+                    "identification",
+                    "One step ahead it fits {ahead:.1f} %, simulated {fit:.1f} %: noise of the "
+                    "sensor "
+                    "spoils ARX; fit by output error.",
+                ),
+                ahead=predicted,
+                fit=model.fit_percent,
+            )
         )
     if modes:
         doubts += _mode_doubts(modes[0], transfer.rate_hz)
@@ -181,15 +241,36 @@ def _mode_doubts(mode: NaturalMode, rate_hz: float) -> list[str]:
     doubts = []
     highest_hz = BAND_SHARE * rate_hz / 2.0
     if not mode.oscillates:
-        doubts.append("The leading pole is real: the record shows a lag, no resonance.")
+        doubts.append(
+            marked(
+                "identification", "The leading pole is real: the record shows a lag, no resonance."
+            )
+        )
     if mode.frequency_hz > highest_hz:
         doubts.append(
-            f"{mode.frequency_hz:.4g} Hz lies above {highest_hz:.4g} Hz, {BAND_SHARE:g} of half "
-            "the sampling rate: it is a delay or noise, and no mode of the machine."
+            Told(
+                marked(
+                    "identification",
+                    "{mode:.4g} Hz lies above {highest:.4g} Hz, {share:g} of half the sampling "
+                    "rate: it "
+                    "is a delay or noise, and no mode of the machine.",
+                ),
+                mode=mode.frequency_hz,
+                highest=highest_hz,
+                share=BAND_SHARE,
+            )
         )
     elif mode.frequency_deviation > _ROUGH * mode.frequency_hz:
         doubts.append(
-            f"The frequency is known to {mode.frequency_deviation:.2g} Hz alone, more than "
-            f"{100 * _ROUGH:.0f} %: the record hardly excites it; use faster steps or a multisine."
+            Told(
+                marked(
+                    "identification",
+                    "The frequency is known to {deviation:.2g} Hz alone, more than {rough:.0f} "
+                    "%: the record "
+                    "hardly excites it; use faster steps or a multisine.",
+                ),
+                deviation=mode.frequency_deviation,
+                rough=100 * _ROUGH,
+            )
         )
     return doubts

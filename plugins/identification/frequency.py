@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.identification.findings import (
     Column,
     Curve,
@@ -14,6 +15,7 @@ from rotemina.plugins.identification.findings import (
 )
 from rotemina.plugins.identification.nominal import ABSENT, nominal_signals
 from rotemina.plugins.identification.question import Question
+from rotemina.plugins.identification.told import Told
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.identification.errors import TooShortError
@@ -24,7 +26,7 @@ from rotemina.sim.identification.signals import Signals
 from rotemina.sim.identification.welch import welch_response
 
 INTERVAL = 0.95
-WELCH, MULTISINE = "Welch", "multisine"
+WELCH, MULTISINE = "Welch", marked("identification", "multisine")
 _COHERENT = 0.8
 _PEAK = 2.0  # over the lowest line, from which a resonance is looked for
 _BAND = (0.8, 1.25)  # about the peak, that the resonance is fitted to
@@ -61,7 +63,7 @@ def frequency_findings(question: Question) -> Findings:
     try:
         nominal = estimate(nominal_signals(question), question.averages)
     except (InputError, KeyError) as error:
-        notices.append(ABSENT.format(error))
+        notices.append(Told(ABSENT, reason=error))
     resonance: Resonance | None = None
     try:
         resonance = _resonance(question, measured)
@@ -71,7 +73,7 @@ def frequency_findings(question: Question) -> Findings:
     return Findings(
         question,
         _pictures(question, scale, measured, nominal),
-        ("figure", "value"),
+        (marked("identification", "figure"), marked("identification", "value")),
         _rows(scale, signals, measured, resonance),
         _columns(scale, measured, nominal),
         (*notices, *_doubts(measured, resonance)),
@@ -88,17 +90,22 @@ def estimate(signals: Signals, averages: int) -> Estimate:
     period = signals.period_samples
     if period is not None and signals.count >= 2 * period:
         found = periodic_response(signals)
-        averages = f"{found.periods} periods of {period}"
+        averages = Told(
+            marked("identification", "{n} periods of {rows}"), n=found.periods, rows=period
+        )
         return Estimate(MULTISINE, averages, signals.rate_hz / period, found.total)
     # Segments that overlap by half: 2n / (k + 1) samples make k of them.
     segment = 2 * signals.count // (averages + 1)
     if segment < _FEW_LINES:
         raise TooShortError(
-            f"frequency response: {signals.count} samples in {averages} averages leave segments "
-            f"of {segment}; at least {_FEW_LINES} are needed, record longer or average less"
+            translate(
+                "identification",
+                "frequency response: {n} samples in {averages} averages leave segments of "
+                "{segment}; at least {least} are needed, record longer or average less",
+            ).format(n=signals.count, averages=averages, segment=segment, least=_FEW_LINES)
         )
     found = welch_response(signals, segment=segment)
-    name = f"{averages} segments of {segment}"
+    name = Told(marked("identification", "{n} segments of {rows}"), n=averages, rows=segment)
     return Estimate(WELCH, name, signals.rate_hz / segment, found)
 
 
@@ -130,21 +137,42 @@ def _pictures(
     magnitude = [
         Curve("", "quiet", frequency_hz, scale.per_si * low),
         Curve(f"{100 * INTERVAL:.0f} %", "quiet", frequency_hz, scale.per_si * high),
-        Curve("measured", "real", frequency_hz, scale.per_si * size),
+        Curve(marked("identification", "measured"), "real", frequency_hz, scale.per_si * size),
     ]
-    phase = [Curve("measured", "real", frequency_hz, _phase_deg(measured))]
+    phase = [
+        Curve(marked("identification", "measured"), "real", frequency_hz, _phase_deg(measured))
+    ]
     if nominal is not None:
         at_hz = nominal.lines.frequency_hz
-        beside = Curve("model", "model", at_hz, scale.per_si * np.abs(nominal.values), width=3)
+        beside = Curve(
+            marked("identification", "model"),
+            marked("identification", "model"),
+            at_hz,
+            scale.per_si * np.abs(nominal.values),
+            width=3,
+        )
         magnitude.insert(2, beside)
-        phase.insert(0, Curve("model", "model", at_hz, _phase_deg(nominal), width=3))
-    coherence = Curve("measured", "real", frequency_hz, measured.lines.coherence[:, 0])
+        phase.insert(
+            0,
+            Curve(
+                marked("identification", "model"),
+                marked("identification", "model"),
+                at_hz,
+                _phase_deg(nominal),
+                width=3,
+            ),
+        )
+    coherence = Curve(
+        marked("identification", "measured"), "real", frequency_hz, measured.lines.coherence[:, 0]
+    )
     pair = f"{question.answer}/{question.drive}"
-    bottom = "frequency [Hz]"
+    bottom = marked("identification", "frequency [Hz]")
     return (
         Picture(f"|{pair}| [{scale.symbol or '1'}]", bottom, tuple(magnitude), True, True),
-        Picture("phase [°]", bottom, tuple(phase), True),
-        Picture("coherence", bottom, (coherence,), True, span=(0.0, 1.05)),
+        Picture(marked("identification", "phase [°]"), bottom, tuple(phase), True),
+        Picture(
+            marked("identification", "coherence"), bottom, (coherence,), True, span=(0.0, 1.05)
+        ),
     )
 
 
@@ -158,25 +186,32 @@ def _rows(
     frequency_hz, size = measured.lines.frequency_hz, np.abs(measured.values)
     peak = int(np.argmax(size))
     rows = [
-        ("gain, lowest line", scale.text(size[0])),
-        ("largest gain", scale.text(size[peak])),
-        ("at", f"{frequency_hz[peak]:.5g} Hz"),
-        ("median coherence", f"{np.median(measured.lines.coherence):.4f}"),
-        ("estimator", measured.method),
-        ("averages", measured.averages),
-        ("lines", str(len(size))),
-        ("lowest line", f"{frequency_hz[0]:.5g} Hz"),
-        ("highest line", f"{frequency_hz[-1]:.5g} Hz"),
-        ("resolution", f"{measured.resolution_hz:.4g} Hz"),
-        ("samples", str(signals.count)),
-        ("sampling rate", f"{signals.rate_hz:.6g} Hz"),
+        (marked("identification", "gain, lowest line"), scale.text(size[0])),
+        (marked("identification", "largest gain"), scale.text(size[peak])),
+        (marked("identification", "at"), f"{frequency_hz[peak]:.5g} Hz"),
+        (
+            marked("identification", "median coherence"),
+            f"{np.median(measured.lines.coherence):.4f}",
+        ),
+        (marked("identification", "estimator"), measured.method),
+        (marked("identification", "averages"), measured.averages),
+        (marked("identification", "lines"), str(len(size))),
+        (marked("identification", "lowest line"), f"{frequency_hz[0]:.5g} Hz"),
+        (marked("identification", "highest line"), f"{frequency_hz[-1]:.5g} Hz"),
+        (marked("identification", "resolution"), f"{measured.resolution_hz:.4g} Hz"),
+        (marked("identification", "samples"), str(signals.count)),
+        (marked("identification", "sampling rate"), f"{signals.rate_hz:.6g} Hz"),
     ]
     if resonance is None:
         return tuple(rows)
     frequency = f"{resonance.frequency_hz:.5g} ± {resonance.frequency_deviation:.2g} Hz"
     ratio = f"{resonance.damping_ratio:.4g} ± {resonance.damping_deviation:.2g}"
     misfit = f"{100.0 * resonance.misfit:.3g} %"
-    mode = [("resonance", frequency), ("damping ratio", ratio), ("misfit of the mode", misfit)]
+    mode = [
+        (marked("identification", "resonance"), frequency),
+        (marked("identification", "damping ratio"), ratio),
+        (marked("identification", "misfit of the mode"), misfit),
+    ]
     return (*mode, *rows)
 
 
@@ -202,26 +237,60 @@ def _doubts(measured: Estimate, resonance: Resonance | None) -> list[str]:
     doubts = []
     if len(frequency_hz) < _FEW_LINES:
         doubts.append(
-            f"The input excites {len(frequency_hz)} lines alone, up to {frequency_hz[-1]:.4g} Hz "
-            f"({_FEW_LINES} are wanted): nothing is known above; record a multisine or a chirp."
+            Told(
+                marked(
+                    "identification",
+                    "The input excites {n} lines alone, up to {highest:.4g} Hz ({wanted} are "
+                    "wanted): "
+                    "nothing is known above; record a multisine or a chirp.",
+                ),
+                n=len(frequency_hz),
+                highest=frequency_hz[-1],
+                wanted=_FEW_LINES,
+            )
         )
     poor = int(np.sum(coherence < _COHERENT))
     if poor:
         doubts.append(
-            f"Coherence is below {_COHERENT:g} on {poor} of {len(coherence)} lines: noise, "
-            "distortion, another axis or leakage; look at the interval there."
+            Told(
+                marked(
+                    "identification",
+                    "Coherence is below {bound:g} on {n} of {lines} lines: noise, distortion, "
+                    "another "
+                    "axis or leakage; look at the interval there.",
+                ),
+                bound=_COHERENT,
+                n=poor,
+                lines=len(coherence),
+            )
         )
     if resonance is not None:
         width_hz = 2.0 * resonance.damping_ratio * resonance.frequency_hz
         if measured.method == WELCH and width_hz < _NARROW * measured.resolution_hz:
             doubts.append(
-                f"The resonance is {width_hz:.3g} Hz wide, less than {_NARROW} lines of "
-                f"{measured.resolution_hz:.3g} Hz: it looks flatter than it is; average less or "
-                "record longer."
+                Told(
+                    marked(
+                        "identification",
+                        "The resonance is {width:.3g} Hz wide, less than {lines} lines of "
+                        "{resolution:.3g} Hz: it looks flatter than it is; average less or "
+                        "record longer.",
+                    ),
+                    width=width_hz,
+                    lines=_NARROW,
+                    resolution=measured.resolution_hz,
+                )
             )
         if resonance.misfit > _MISFIT:
             doubts.append(
-                f"One mode misses the peak by {100 * resonance.misfit:.0f} % (bound "
-                f"{100 * _MISFIT:.0f} %): there may be two; damping is rough."
+                Told(
+                    marked(
+                        "identification",
+                        "One mode misses the peak by {misfit:.0f} % (bound {bound:.0f} %): there "
+                        "may be "
+                        "two; damping is rough.",
+                    ),
+                    misfit=100 * resonance.misfit,
+                    bound=100 * _MISFIT,
+                )
             )
     return doubts

@@ -5,11 +5,31 @@ from datetime import datetime
 from rotemina.app.calibration.health import Compared, card_of, compared_cards
 from rotemina.app.calibration.health_book import HealthBook
 from rotemina.app.calibration.words import amount
+from rotemina.app.shell.language import marked
 from rotemina.plugins.identification.findings import NONE, Column, Findings
 from rotemina.plugins.identification.question import Question
+from rotemina.plugins.identification.told import Told
 from rotemina.sim.calibration.calibrating import Figure
 
-HEAD = ("figure", "now", "± 95 %", "last time", "± 95 %", "")
+HEAD = (
+    marked("identification", "figure"),
+    marked("identification", "now"),
+    "± 95 %",
+    marked("identification", "last time"),
+    "± 95 %",
+    "",
+)
+
+# Figures of a card as it names them.
+FIGURES = (
+    marked("identification", "gain"),
+    marked("identification", "resonance"),
+    marked("identification", "damping"),
+    marked("identification", "hysteresis width"),
+    marked("identification", "settling"),
+    marked("identification", "noise rms"),
+    marked("identification", "repeatability"),
+)
 
 
 def health_findings(question: Question) -> Findings:
@@ -52,7 +72,12 @@ def keep_card(question: Question) -> None:
 
 def _row(row: Compared) -> tuple[str, ...]:
     before = _words(row.before) if row.before is not None else (NONE, NONE)
-    return (row.now.name, *_words(row.now), *before, "changed" if row.changed else "")
+    return (
+        row.now.name,
+        *_words(row.now),
+        *before,
+        marked("identification", "changed") if row.changed else "",
+    )
 
 
 def _words(figure: Figure) -> tuple[str, str]:
@@ -67,9 +92,20 @@ def _words(figure: Figure) -> tuple[str, str]:
 
 def _notices(rows: tuple[Compared, ...], date: str | None, kept: int) -> list[str]:
     if date is None:
-        return ["No card of this axis is kept yet: keep this one to compare with it later."]
+        return [
+            marked(
+                "identification",
+                "No card of this axis is kept yet: keep this one to compare with it later.",
+            )
+        ]
     changed = [row.now.name for row in rows if row.changed]
-    told = f"Last card: {date}, the latest of {kept}."
+    text = marked(
+        "identification",
+        "Last card: {date}, the latest of {n}. Changed beyond both intervals: {figures}.",
+    )
     if not changed:
-        return [f"{told} No figure has changed beyond both intervals."]
-    return [f"{told} Changed beyond both intervals: {', '.join(changed)}."]
+        text = marked(
+            "identification",
+            "Last card: {date}, the latest of {n}. No figure has changed beyond both intervals.",
+        )
+    return [Told(text, date=date, n=kept, figures=", ".join(changed))]

@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from rotemina.app.shell.language import marked
 from rotemina.plugins.identification.findings import (
     Column,
     Curve,
@@ -15,6 +16,7 @@ from rotemina.plugins.identification.findings import (
 from rotemina.plugins.identification.nominal import ABSENT, nominal_signals
 from rotemina.plugins.identification.question import Question
 from rotemina.plugins.identification.statistics import HEAD, Figure, largest
+from rotemina.plugins.identification.told import Told
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.identification.errors import ExcitationError
@@ -39,8 +41,17 @@ def loop_findings(question: Question) -> Findings:
     rows = _rows_measured(driven)
     if rows < len(driven):
         notices.append(
-            f"Measured are the cycles of the first {rows} of {len(driven)} rows, which turn "
-            f"{_MOST_CYCLES} times: the input is noise or very long."
+            Told(
+                marked(
+                    "identification",
+                    "Measured are the cycles of the first {n} of {rows} rows, which turn {turns} "
+                    "times: "
+                    "the input is noise or very long.",
+                ),
+                n=rows,
+                rows=len(driven),
+                turns=_MOST_CYCLES,
+            )
         )
     try:
         found = loops(driven[:rows], answer[:rows], lag_samples=lag, least_swing=_LEAST_SWING)
@@ -50,10 +61,17 @@ def loop_findings(question: Question) -> Findings:
     try:
         nominal = nominal_signals(question)
     except (InputError, KeyError) as error:
-        notices.append(ABSENT.format(error))
+        notices.append(Told(ABSENT, reason=error))
     if len(x) > _MOST_DRAWN:
         notices.append(
-            f"Drawn are the first {_MOST_DRAWN} of {len(x)} rows; the figures are not cut there."
+            Told(
+                marked(
+                    "identification",
+                    "Drawn are the first {n} of {rows} rows; the figures are not cut there.",
+                ),
+                n=_MOST_DRAWN,
+                rows=len(x),
+            )
         )
     beside = _modelled(nominal, rows, lag) if nominal is not None and found else ()
     figures, columns = _sheet(question, found, beside) if found else ((), ())
@@ -92,20 +110,32 @@ def _pictures(
 
     Each is off its own line, so that loops are compared and not gains.
     """
-    drawn = [("measured", "real", x, y, 1)]
+    drawn = [(marked("identification", "measured"), "real", x, y, 1)]
     if nominal is not None:
         driven, answer = nominal.single()
-        drawn.insert(0, ("model", "model", driven[: len(x)], answer[len(answer) - len(x) :], 3))
+        drawn.insert(
+            0,
+            (
+                marked("identification", "model"),
+                marked("identification", "model"),
+                driven[: len(x)],
+                answer[len(answer) - len(x) :],
+                3,
+            ),
+        )
     drawn = [(name, role, u[:_MOST_DRAWN], v[:_MOST_DRAWN], w) for name, role, u, v, w in drawn]
     off = [(name, role, u, _off_line(u, v), w) for name, role, u, v, w in drawn]
     across = scale_of(question.unit(question.drive), float(np.abs(x).max(initial=0.0)))
     pictures = []
-    for title, curves in ((str(question.answer), drawn), ("off a straight line", off)):
+    for title, curves in (
+        (str(question.answer), drawn),
+        (marked("identification", "off a straight line"), off),
+    ):
         size = max(float(np.abs(v).max(initial=0.0)) for _, _, _, v, _ in curves)
         up = scale_of(question.unit(question.answer), size)
         pictures.append(
             Picture(
-                f"{title} [{up.symbol}]",
+                Told(marked("identification", "{title} [{unit}]"), title=title, unit=up.symbol),
                 f"{question.drive} [{across.symbol}]",
                 tuple(
                     Curve(name, role, across.per_si * u, up.per_si * v, width)
@@ -133,10 +163,14 @@ def _sheet(
         values = [read(each) for each in found]
         return Figure(name, scale_of(unit, largest(values)), values, [read(e) for e in beside])
 
-    span = figure("input span", under, lambda each: each.input_high - each.input_low)
-    stroke = figure("stroke", over, lambda each: each.stroke)
-    width = figure("largest width", over, lambda each: each.width_max)
-    middle = figure("width at the middle", over, lambda each: each.width_mid)
+    span = figure(
+        marked("identification", "input span"), under, lambda each: each.input_high - each.input_low
+    )
+    stroke = figure(marked("identification", "stroke"), over, lambda each: each.stroke)
+    width = figure(marked("identification", "largest width"), over, lambda each: each.width_max)
+    middle = figure(
+        marked("identification", "width at the middle"), over, lambda each: each.width_mid
+    )
     across, up = span.scale, stroke.scale
     both = f"{up.symbol}²" if across == up else f"{across.symbol}·{up.symbol}"
     area = Scale(both, across.per_si * up.per_si)
@@ -145,17 +179,26 @@ def _sheet(
         stroke,
         width,
         Figure(
-            "width over stroke",
+            marked("identification", "width over stroke"),
             _PERCENT,
             [each.width_percent for each in found],
             [each.width_percent for each in beside],
         ),
         middle._replace(scale=width.scale),
-        figure("play across", under, lambda each: each.input_width_mid),
-        Figure("area", area, [each.area for each in found], [each.area for each in beside]),
+        figure(marked("identification", "play across"), under, lambda each: each.input_width_mid),
+        Figure(
+            marked("identification", "area"),
+            area,
+            [each.area for each in found],
+            [each.area for each in beside],
+        ),
     )
-    exponent = ("width ∝ amplitude^p", _exponent(found), "", "", "")
-    rows = (("cycles", str(len(found)), "", "", ""), *(each.row() for each in figures), exponent)
+    exponent = (marked("identification", "width ∝ amplitude^p"), _exponent(found), "", "", "")
+    rows = (
+        (marked("identification", "cycles"), str(len(found)), "", "", ""),
+        *(each.row() for each in figures),
+        exponent,
+    )
     return rows, tuple(each.column() for each in figures)
 
 
@@ -164,7 +207,7 @@ def _exponent(found: tuple[Loop, ...]) -> str:
     try:
         return f"p = {amplitude_exponent(found):.3g}"
     except ExcitationError:
-        return "too alike"
+        return marked("identification", "too alike")
 
 
 def _doubts(question: Question, found: tuple[Loop, ...]) -> list[str]:
@@ -174,15 +217,29 @@ def _doubts(question: Question, found: tuple[Loop, ...]) -> list[str]:
     rows = float(np.median([each.rows[1] - each.rows[0] for each in found]))
     if rows < _SLOW:
         doubts.append(
-            f"A cycle has {rows:.0f} rows, fewer than {_SLOW}: the loop is that of lag and "
-            "resonance; drive slower cycles."
+            Told(
+                marked(
+                    "identification",
+                    "A cycle has {rows:.0f} rows, fewer than {least}: the loop is that of lag and "
+                    "resonance; drive slower cycles.",
+                ),
+                rows=rows,
+                least=_SLOW,
+            )
         )
     if np.median([each.width_max for each in found]) < 0.0:
         lag = question.lag_samples
         doubts.append(
-            f"Width below 0: the output leads, or the {lag} sample of lag that is taken out for a "
-            "held command is more than the axis has; drive slower cycles."
+            Told(
+                marked(
+                    "identification",
+                    "Width below 0: the output leads, or the {lag} sample of lag that is taken "
+                    "out for a "
+                    "held command is more than the axis has; drive slower cycles.",
+                ),
+                lag=lag,
+            )
             if lag
-            else "Width below 0: the output leads the input."
+            else marked("identification", "Width below 0: the output leads the input.")
         )
     return doubts

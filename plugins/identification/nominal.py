@@ -1,11 +1,12 @@
 """What the nominal model answers to the same inputs, to be looked at in the same way."""
 
+from rotemina.app.shell.language import marked
 from rotemina.plugins.identification.question import Question
 from rotemina.sim.identification.signals import Signals, siso
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
 
-ABSENT = "No nominal model beside it: {}"
+ABSENT = marked("identification", "No nominal model beside it: {reason}")
 
 
 def nominal_signals(question: Question) -> Signals:

@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 from rotemina.app.files import write_text
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.column_mapping import ask_columns
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
 from rotemina.plugins.identification.chart import Chart
@@ -30,15 +31,17 @@ from rotemina.plugins.identification.findings import Findings, answered
 from rotemina.plugins.identification.health import keep_card
 from rotemina.plugins.identification.question import Question
 from rotemina.plugins.identification.sheet import Sheet
+from rotemina.plugins.identification.told import shown
 from rotemina.plugins.identification.views import LOOKS, View
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
 
-EMPTY = (
-    "Excite an axis, play a trajectory, or open a record, to see what it says about the machine."
+EMPTY = marked(
+    "identification",
+    "Excite an axis, play a trajectory, or open a record, to see what it says about the machine.",
 )
-RECORDS = "Records (*.csv *.txt *.dat *.gz);;All files (*)"
+RECORDS = marked("identification", "Records (*.csv *.txt *.dat *.gz);;All files (*)")
 CHARTS = 3
 # Shares of sheet and charts: an operator's own stay until another number of charts is shown.
 WIDTHS = ([920, 0, 0, 0], [420, 500, 0, 0], [420, 250, 250, 0], [280, 260, 190, 190])
@@ -51,7 +54,7 @@ HEIGHT = 240  # with two lines of notices, so that the window does not jump when
 class IdentificationPanel(Panel):
     """The record that was last played or opened, looked at tap by tap."""
 
-    title = "Identification"
+    title = marked("panels", "Identification")
     area = Area.BOTTOM
     order = 30
     help_page = "identification.md#in-the-window"
@@ -60,7 +63,7 @@ class IdentificationPanel(Panel):
         super().__init__(workbench)
         self.controls = Controls()
         self.excite = ExciteView(workbench)
-        self.summary = QLabel(EMPTY)
+        self.summary = QLabel(translate("identification", EMPTY))
         self.summary.setTextFormat(Qt.TextFormat.PlainText)
         self.summary.setWordWrap(True)
         self.notices = _notices()
@@ -139,7 +142,12 @@ class IdentificationPanel(Panel):
             else:
                 self.take_record(path.name, answer)
 
-        self.workbench.work("identification record", f"Reading {path.name} …", work, done)
+        self.workbench.work(
+            "identification record",
+            translate("identification", "Reading {name} …").format(name=path.name),
+            work,
+            done,
+        )
 
     def _take_run(self, run: Run) -> None:
         """Look at a run; at one of this page's own excitations from where it says most."""
@@ -159,7 +167,9 @@ class IdentificationPanel(Panel):
         self.main_window.bring_up("identification")
 
     def _ask_record(self) -> None:
-        dialog = self._file_dialog("Open record", RECORDS)
+        dialog = self._file_dialog(
+            translate("identification", "Open record"), translate("identification", RECORDS)
+        )
         dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
         dialog.fileSelected.connect(
             lambda name: ask_columns(Path(name), self.workbench, self, self.open_record)
@@ -182,16 +192,22 @@ class IdentificationPanel(Panel):
             self._show(None)
             if self._name:
                 axis = self.controls.axis.currentText()
-                self._say([f"{self._name}: axis {axis} has no pair of an input and an output."])
+                text = translate(
+                    "identification", "{record}: axis {axis} has no pair of an input and an output."
+                )
+                self._say([text.format(record=self._name, axis=axis)])
             return
         if view in self._known:
             self._show(self._known[view])
             return
         self._show(None)
-        self.summary.setText(f"{question.name}: computing …")
+        computing = translate("identification", "{record}: computing …")
+        self.summary.setText(computing.format(record=question.name))
         self.workbench.work(
             "identification",
-            f"Identification of {question.name} …",
+            translate("identification", "Identification of {record} …").format(
+                record=question.name
+            ),
             lambda: self._answer(question, view),
             lambda findings: self._receive(view, findings),
         )
@@ -226,8 +242,11 @@ class IdentificationPanel(Panel):
         self.controls.keep.setEnabled(findings is not None and bool(findings.columns))
         if findings is not None:
             record = findings.question.record
+            text = translate("identification", "{record}: {time:.3f} s, {n} samples")
             self.summary.setText(
-                f"{findings.question.name}: {record.duration_s:.3f} s, {len(record.time_s)} samples"
+                text.format(
+                    record=findings.question.name, time=record.duration_s, n=len(record.time_s)
+                )
             )
 
     def _show_exciting(self, shown: bool) -> None:
@@ -235,7 +254,7 @@ class IdentificationPanel(Panel):
         self._size_notices()
 
     def _say(self, notices: list[str] | tuple[str, ...]) -> None:
-        text = "\n".join(notices)
+        text = "\n".join(map(shown, notices))
         self.notices.setPlainText(text)
         self.notices.setToolTip(text)
         self.notices.setVisible(bool(text))
@@ -265,14 +284,15 @@ class IdentificationPanel(Panel):
             return
         self.workbench.work(
             "health card",
-            "Keeping the health card …",
+            translate("identification", "Keeping the health card …"),
             lambda: keep_card(findings.question),
             lambda _: self._kept(findings.question),
         )
 
     def _kept(self, question: Question) -> None:
         """Look again: what was kept is the last card now."""
-        self.workbench.notify(Level.GOOD, f"Kept the health card of {question.axis}")
+        text = translate("identification", "Kept the health card of {axis}")
+        self.workbench.notify(Level.GOOD, text.format(axis=question.axis))
         self._known.pop(View.HEALTH, None)
         if question is self._question and self.controls.shown is View.HEALTH:
             self._look()
@@ -280,7 +300,10 @@ class IdentificationPanel(Panel):
     def _ask_save(self) -> None:
         if self.findings is None:
             return
-        dialog = self._file_dialog("Save results", "Tables (*.csv)")
+        dialog = self._file_dialog(
+            translate("identification", "Save results"),
+            translate("identification", "Tables (*.csv)"),
+        )
         dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
         dialog.setDefaultSuffix("csv")
         dialog.selectFile("identification.csv")
@@ -293,9 +316,11 @@ class IdentificationPanel(Panel):
         """Write results to a file."""
         self.workbench.work(
             "identification results",
-            f"Writing {path.name} …",
+            translate("identification", "Writing {name} …").format(name=path.name),
             lambda: write_text(path, text),
-            lambda _: self.workbench.notify(Level.GOOD, f"Saved {path}"),
+            lambda _: self.workbench.notify(
+                Level.GOOD, translate("identification", "Saved {path}").format(path=path)
+            ),
         )
 
     def _file_dialog(self, title: str, filters: str) -> QFileDialog:
@@ -329,5 +354,5 @@ def _scrolled(section: QWidget) -> QScrollArea:
 def _notices() -> QPlainTextEdit:
     notices = QPlainTextEdit()
     notices.setReadOnly(True)
-    notices.setAccessibleName("What the record cannot tell")
+    notices.setAccessibleName(translate("identification", "What the record cannot tell"))
     return notices

@@ -6,6 +6,7 @@ from typing import Literal
 
 import numpy as np
 
+from rotemina.app.shell.language import translate
 from rotemina.sim.identification.errors import IdentificationError
 from rotemina.sim.identification.signals import Signals, signals_of
 from rotemina.sim.records.record import VOLTAGE_TAPS, Record, Tap
@@ -76,13 +77,18 @@ class Question:
         """
         if self.drive == self.answer:
             raise IdentificationError(
-                f"{self.axis}: input and output are both {self.drive}; choose two taps"
+                translate(
+                    "identification", "{axis}: input and output are both {tap}; choose two taps"
+                ).format(axis=self.axis, tap=self.drive)
             )
         for tap in (self.drive, self.answer):
             if not self.record.has(self.axis, tap):
                 raise IdentificationError(
-                    f"{self.axis}: the record has no {self.axis}.{tap}; it has "
-                    f"{', '.join(map(str, self.record.columns))}"
+                    translate(
+                        "identification", "{axis}: the record has no {axis}.{tap}; it has {columns}"
+                    ).format(
+                        axis=self.axis, tap=tap, columns=", ".join(map(str, self.record.columns))
+                    )
                 )
 
 

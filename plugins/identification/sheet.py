@@ -3,6 +3,8 @@
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableWidget, QTableWidgetItem
 
+from rotemina.plugins.identification.told import shown
+
 RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 
 
@@ -22,10 +24,10 @@ class Sheet(QTableWidget):
         self.clear()
         self.setColumnCount(len(head))
         self.setRowCount(len(rows))
-        self.setHorizontalHeaderLabels(list(head))
+        self.setHorizontalHeaderLabels([shown(text) for text in head])
         for row, texts in enumerate(rows):
             for column, text in enumerate(texts):
-                item = QTableWidgetItem(text)
+                item = QTableWidgetItem(shown(text))
                 if column:
                     item.setTextAlignment(RIGHT)
                 self.setItem(row, column, item)

@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from rotemina.app.shell.language import marked
 from rotemina.plugins.identification.findings import (
     Curve,
     Findings,
@@ -16,6 +17,7 @@ from rotemina.plugins.identification.nominal import ABSENT, nominal_record
 from rotemina.plugins.identification.question import Question
 from rotemina.plugins.identification.ramps import jumped
 from rotemina.plugins.identification.statistics import HEAD, Figure, largest
+from rotemina.plugins.identification.told import Told
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.identification.steps import StepMetrics, step_metrics
@@ -49,7 +51,10 @@ def step_findings(question: Question) -> Findings:
             _closest(question, found, answer, nominal),
         ),
         HEAD,
-        (("steps", str(len(found)), "", "", ""), *(figure.row() for figure in figures)),
+        (
+            (marked("identification", "steps"), str(len(found)), "", "", ""),
+            *(figure.row() for figure in figures),
+        ),
         tuple(figure.column() for figure in figures),
         (*absent, *_doubts(found, ramp_s)),
     )
@@ -60,7 +65,7 @@ def _modelled(question: Question) -> tuple[Record | None, tuple[str, ...]]:
     try:
         return nominal_record(question), ()
     except (InputError, KeyError) as error:
-        return None, (ABSENT.format(error),)
+        return None, (Told(ABSENT, reason=error),)
 
 
 def _measured(question: Question, nominal: Record) -> tuple[StepMetrics, ...]:
@@ -85,18 +90,44 @@ def _figures(
         return scale_of(unit, size)
 
     figures = [
-        figure("at", lambda _: Scale("s", 1.0), lambda each: each.start_s),
-        figure("size of the step", output, lambda each: abs(each.output_to - each.output_from)),
-        figure("static gain", lambda size: ratio_scale(question, size), lambda each: each.gain),
-        figure("rise 10–90 %", lambda _: _MS, lambda each: each.rise_s),
-        figure("delay to 50 %", lambda _: _MS, lambda each: each.delay_s),
-        figure("overshoot", lambda _: _PERCENT, lambda each: each.overshoot_percent),
-        figure("settling to 5 %", lambda _: _MS, lambda each: each.settling_5_s),
-        figure("settling to 2 %", lambda _: _MS, lambda each: each.settling_2_s),
+        figure(
+            marked("identification", "at"), lambda _: Scale("s", 1.0), lambda each: each.start_s
+        ),
+        figure(
+            marked("identification", "size of the step"),
+            output,
+            lambda each: abs(each.output_to - each.output_from),
+        ),
+        figure(
+            marked("identification", "static gain"),
+            lambda size: ratio_scale(question, size),
+            lambda each: each.gain,
+        ),
+        figure(marked("identification", "rise 10–90 %"), lambda _: _MS, lambda each: each.rise_s),
+        figure(marked("identification", "delay to 50 %"), lambda _: _MS, lambda each: each.delay_s),
+        figure(
+            marked("identification", "overshoot"),
+            lambda _: _PERCENT,
+            lambda each: each.overshoot_percent,
+        ),
+        figure(
+            marked("identification", "settling to 5 %"),
+            lambda _: _MS,
+            lambda each: each.settling_5_s,
+        ),
+        figure(
+            marked("identification", "settling to 2 %"),
+            lambda _: _MS,
+            lambda each: each.settling_2_s,
+        ),
     ]
     if unit == question.unit(question.drive):
-        figures.append(figure("final error", output, lambda each: each.error))
-    figures.append(figure("noise rms", output, lambda each: each.noise_rms))
+        figures.append(
+            figure(marked("identification", "final error"), output, lambda each: each.error)
+        )
+    figures.append(
+        figure(marked("identification", "noise rms"), output, lambda each: each.noise_rms)
+    )
     return tuple(figures)
 
 
@@ -109,13 +140,29 @@ def _course(
 ) -> Picture:
     """Return the whole record; an input of another kind has no place on the output's scale."""
     scale = scale_of(question.unit(question.answer), float(np.abs(answer).max()))
-    curves = [Curve("measured", "real", time_s, scale.per_si * answer)]
+    curves = [Curve(marked("identification", "measured"), "real", time_s, scale.per_si * answer)]
     if nominal is not None:
         model = nominal.signal(question.axis, question.answer)
-        curves.insert(0, Curve("model", "model", time_s, scale.per_si * model, width=3))
+        curves.insert(
+            0,
+            Curve(
+                marked("identification", "model"),
+                marked("identification", "model"),
+                time_s,
+                scale.per_si * model,
+                width=3,
+            ),
+        )
     if question.unit(question.drive) == question.unit(question.answer):
-        curves.insert(0, Curve("input", "command", time_s, scale.per_si * driven, width=3))
-    return Picture(f"{question.answer} [{scale.symbol}]", "time [s]", tuple(curves))
+        curves.insert(
+            0,
+            Curve(
+                marked("identification", "input"), "command", time_s, scale.per_si * driven, width=3
+            ),
+        )
+    return Picture(
+        f"{question.answer} [{scale.symbol}]", marked("identification", "time [s]"), tuple(curves)
+    )
 
 
 def _closest(
@@ -136,12 +183,23 @@ def _closest(
     rows = slice(begin, max(int(np.searchsorted(time_s, shown_s)), begin + 2))
     since_ms = 1e3 * (time_s[rows] - step.start_s)
     course = (answer[rows] - step.output_from) / (size or 1.0)
-    curves = [Curve("measured", "real", since_ms, course)]
+    curves = [Curve(marked("identification", "measured"), "real", since_ms, course)]
     if nominal is not None:  # from its own old level, which may be another
         model = nominal.signal(question.axis, question.answer)[rows]
-        curves.insert(0, Curve("model", "model", since_ms, (model - model[0]) / (size or 1.0), 3))
+        curves.insert(
+            0,
+            Curve(
+                marked("identification", "model"),
+                marked("identification", "model"),
+                since_ms,
+                (model - model[0]) / (size or 1.0),
+                3,
+            ),
+        )
     return Picture(
-        f"largest step, at {step.start_s:.4g} s [1]", "since the step [ms]", tuple(curves)
+        Told(marked("identification", "largest step, at {time:.4g} s [1]"), time=step.start_s),
+        marked("identification", "since the step [ms]"),
+        tuple(curves),
     )
 
 
@@ -149,23 +207,45 @@ def _doubts(found: tuple[StepMetrics, ...], ramp_s: float) -> list[str]:
     doubts = []
     if ramp_s > 0.0:
         doubts.append(
-            f"The input takes up to {1e3 * ramp_s:.3g} ms from level to level, as fast as its "
-            "limits allow: times count from where that begins, the model's too."
+            Told(
+                marked(
+                    "identification",
+                    "The input takes up to {ramp:.3g} ms from level to level, as fast as its "
+                    "limits "
+                    "allow: times count from where that begins, the model's too.",
+                ),
+                ramp=1e3 * ramp_s,
+            )
         )
     for name, values in (
-        ("settling to 2 %", [each.settling_2_s for each in found]),
-        ("rise", [each.rise_s for each in found]),
+        (marked("identification", "settling to 2 %"), [each.settling_2_s for each in found]),
+        (marked("identification", "rise"), [each.rise_s for each in found]),
     ):
         missing = sum(value is None for value in values)
         if missing:
             doubts.append(
-                f"{name}: {missing} of {len(found)} steps do not show it; they still move, or "
-                "noise exceeds the band, at the end of their hold."
+                Told(
+                    marked(
+                        "identification",
+                        "{name}: {n} of {steps} steps do not show it; they still move, or noise "
+                        "exceeds the band, at the end of their hold.",
+                    ),
+                    name=name,
+                    n=missing,
+                    steps=len(found),
+                )
             )
     faint = sum(abs(each.output_to - each.output_from) < 10.0 * each.noise_rms for each in found)
     if faint:
         doubts.append(
-            f"{faint} of {len(found)} steps are smaller than 10 times the noise about their "
-            "level: overshoot and times are those of the noise; record larger steps."
+            Told(
+                marked(
+                    "identification",
+                    "{n} of {steps} steps are smaller than 10 times the noise about their level: "
+                    "overshoot and times are those of the noise; record larger steps.",
+                ),
+                n=faint,
+                steps=len(found),
+            )
         )
     return doubts

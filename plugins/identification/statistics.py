@@ -5,9 +5,16 @@ from typing import NamedTuple
 
 import numpy as np
 
+from rotemina.app.shell.language import marked
 from rotemina.plugins.identification.findings import NONE, Column, Scale
 
-HEAD = ("figure", "median", "model", "lowest", "highest")
+HEAD = (
+    marked("identification", "figure"),
+    marked("identification", "median"),
+    marked("identification", "model"),
+    marked("identification", "lowest"),
+    marked("identification", "highest"),
+)
 
 
 class Figure(NamedTuple):

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from enum import StrEnum
 
+from rotemina.app.shell.language import marked
 from rotemina.plugins.identification.findings import Findings
 from rotemina.plugins.identification.fitted import model_findings
 from rotemina.plugins.identification.frequency import frequency_findings
@@ -13,13 +14,13 @@ from rotemina.plugins.identification.staircase import step_findings
 
 
 class View(StrEnum):
-    """A way to look, as the panel names it."""
+    """A way to look, as files name it."""
 
-    FREQUENCY = "Frequency response"
-    LOOP = "Loop"
-    STEPS = "Steps"
-    MODEL = "Fitted model"
-    HEALTH = "Health card"
+    FREQUENCY = marked("identification", "Frequency response")
+    LOOP = marked("identification", "Loop")
+    STEPS = marked("identification", "Steps")
+    MODEL = marked("identification", "Fitted model")
+    HEALTH = marked("identification", "Health card")
 
 
 LOOKS: dict[View, Callable[[Question], Findings]] = {
