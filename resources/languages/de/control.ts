@@ -29,7 +29,7 @@
     </message>
     <message>
         <source>go to [{symbol}]</source>
-        <translation>nach [{symbol}]</translation>
+        <translation>→ [{symbol}]</translation>
     </message>
     <message>
         <source>{label} target in {symbol}</source>
@@ -113,7 +113,7 @@
     </message>
     <message>
         <source>No axis is driven now.</source>
-        <translation>Jetzt wird keine Achse gefahren.</translation>
+        <translation>Keine Achse wird gefahren.</translation>
     </message>
     <message>
         <source>nobody else drives an axis that could be taken over</source>

@@ -638,6 +638,27 @@
         <translation>Trainee</translation>
     </message>
     <message>
+        <source>pad</source>
+        <extracomment>What the pad on the screen and its buttons are called.</extracomment>
+        <translation>Bildschirmfeld</translation>
+    </message>
+    <message>
+        <source>clutch</source>
+        <translation>Kupplung</translation>
+    </message>
+    <message>
+        <source>fine</source>
+        <translation>fein</translation>
+    </message>
+    <message>
+        <source>coarse</source>
+        <translation>grob</translation>
+    </message>
+    <message>
+        <source>take_over</source>
+        <translation>Übernehmen</translation>
+    </message>
+    <message>
         <source>not yet seen at rest: let go of it</source>
         <extracomment>What the engine says of axes and devices, where it has no values in it.</extracomment>
         <translation>noch nicht in Ruhe gesehen: loslassen</translation>

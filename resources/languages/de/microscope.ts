@@ -308,6 +308,10 @@
         <translation>gescheitert</translation>
     </message>
     <message>
+        <source>Simulated microscope</source>
+        <translation>Simuliertes Mikroskop</translation>
+    </message>
+    <message>
         <source>micro</source>
         <translation>Mikro</translation>
     </message>
@@ -385,11 +389,11 @@
     </message>
     <message>
         <source>move</source>
-        <translation>Bewegen</translation>
+        <translation>Fahren</translation>
     </message>
     <message>
         <source>mark</source>
-        <translation>Markieren</translation>
+        <translation>Ziel</translation>
     </message>
     <message>
         <source>the picture is black; check lamp, shutter, lens cap and exposure</source>
@@ -413,7 +417,7 @@
     </message>
     <message>
         <source>Move the tip {how}?</source>
-        <translation>Spitze bewegen: {how}?</translation>
+        <translation>Spitze fahren: {how}?</translation>
     </message>
     <message>
         <source>nothing is moved: {why}</source>
@@ -514,19 +518,19 @@
     </message>
     <message>
         <source>Click to move</source>
-        <translation>Klick zum Bewegen</translation>
+        <translation>Klick zum Fahren</translation>
     </message>
     <message>
         <source>Move, above the picture, lets a click or a drag send the tip there. Esc, or any stop, ends that.</source>
-        <translation>Mit „Bewegen“ über dem Bild fährt die Spitze zum Klick oder Zugende. Esc oder jeder Halt beendet das.</translation>
+        <translation>Mit „Fahren“ über dem Bild fährt die Spitze zum Klick oder Zugende. Esc oder jeder Halt beendet das.</translation>
     </message>
     <message>
         <source>Stage that a click moves</source>
-        <translation>Tisch, den ein Klick bewegt</translation>
+        <translation>Tisch, den ein Klick fährt</translation>
     </message>
     <message>
         <source>The stage that a click moves; nano where it reaches</source>
-        <translation>Der Tisch, den ein Klick bewegt; Nano, soweit es reicht</translation>
+        <translation>Der Tisch, den ein Klick fährt; Nano, soweit es reicht</translation>
     </message>
     <message>
         <source>Go back</source>
@@ -542,7 +546,7 @@
     </message>
     <message>
         <source>Return to where the machine rested before its latest move</source>
-        <translation>Zurück zum Ruheort vor der letzten Bewegung</translation>
+        <translation>Zurück zum Ruheort vor der letzten Fahrt</translation>
     </message>
     <message>
         <source>nothing is under way</source>
@@ -574,7 +578,7 @@
     </message>
     <message>
         <source>no target is marked; mark some with Mark, above the picture</source>
-        <translation>kein Ziel markiert; mit „Markieren“ über dem Bild setzen</translation>
+        <translation>kein Ziel markiert; mit „Ziel“ über dem Bild setzen</translation>
     </message>
     <message>
         <source>every target has been visited</source>
@@ -622,7 +626,7 @@
     </message>
     <message>
         <source>Move</source>
-        <translation>Bewegen</translation>
+        <translation>Fahren</translation>
     </message>
     <message>
         <source>Vision</source>
@@ -686,7 +690,7 @@
     </message>
     <message>
         <source>Make the move</source>
-        <translation>Bewegung ausführen</translation>
+        <translation>Die Spitze fahren</translation>
     </message>
     <message>
         <source>Cancel</source>
@@ -694,7 +698,7 @@
     </message>
     <message>
         <source>Make no move</source>
-        <translation>Nicht bewegen</translation>
+        <translation>Nicht fahren</translation>
     </message>
     <message>
         <source>{across:.1f}, {down:.1f} µm from the corner</source>
@@ -790,7 +794,7 @@
     </message>
     <message>
         <source>Mark</source>
-        <translation>Markieren</translation>
+        <translation>Ziel</translation>
     </message>
     <message>
         <source>Click: mark a target to be visited; nothing moves</source>
@@ -822,7 +826,7 @@
     </message>
     <message>
         <source>Fit</source>
-        <translation>Einpassen</translation>
+        <translation>Alles</translation>
     </message>
     <message>
         <source>Show all of the picture (F)</source>

@@ -413,7 +413,7 @@
     </message>
     <message>
         <source>wanted</source>
-        <translation>gewünscht</translation>
+        <translation>Wunsch</translation>
     </message>
     <message>
         <source>commanded</source>
@@ -433,7 +433,7 @@
     </message>
     <message>
         <source>Wanted: what the tip is to do. Commanded: what the device puts out. Measured: the latest run, its constant delay taken off.</source>
-        <translation>Gewünscht: was die Spitze tun soll. Sollwert: was das Gerät ausgibt. Gemessen: der letzte Lauf ohne seine konstante Totzeit.</translation>
+        <translation>Wunsch: was die Spitze tun soll. Sollwert: was das Gerät ausgibt. Gemessen: der letzte Lauf ohne seine konstante Totzeit.</translation>
     </message>
     <message>
         <source>What the plot shows</source>

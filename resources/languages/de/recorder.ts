@@ -264,7 +264,7 @@
     </message>
     <message>
         <source>Replay</source>
-        <translation>Wiedergeben</translation>
+        <translation>Zeigen</translation>
     </message>
     <message>
         <source>Other file …</source>
@@ -276,7 +276,7 @@
     </message>
     <message>
         <source>Export …</source>
-        <translation>Exportieren …</translation>
+        <translation>Export …</translation>
     </message>
     <message>
         <source>To trajectory</source>

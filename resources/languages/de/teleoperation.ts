@@ -248,7 +248,7 @@ Leer  Kupplung</translation>
     </message>
     <message>
         <source>stick {percent:g} %</source>
-        <translation>Knüppel {percent:g} %</translation>
+        <translation>Hub {percent:g} %</translation>
     </message>
     <message>
         <source>Deflection of the pad in percent</source>

@@ -28,7 +28,7 @@
     </message>
     <message>
         <source>Resample …</source>
-        <translation>Neu abtasten …</translation>
+        <translation>Abtasten …</translation>
     </message>
     <message>
         <source>Another rate, in Hz, for the trajectory in hand</source>
@@ -244,7 +244,7 @@
     </message>
     <message>
         <source>paused, </source>
-        <translation>pausiert, </translation>
+        <translation>Pause, </translation>
     </message>
     <message>
         <source>{paused}{row}, {left_s:.1f} s left</source>
