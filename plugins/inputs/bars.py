@@ -8,6 +8,7 @@ from rotemina.app.motion.teleoperation.calibration import AxisCalibration
 from rotemina.app.shell.controls import plain_tip
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
+from rotemina.plugins.inputs.words import control_name
 
 _BAR_HEIGHT = 18
 _LAMP_HEIGHT, _LAMP_GAP = 20, 4
@@ -111,7 +112,7 @@ class Lamps(QWidget):
             self.updateGeometry()
         if lit != self._lit:
             self._lit = lit
-            held = ", ".join(name for name in names if name in lit)
+            held = ", ".join(control_name(name) for name in names if name in lit)
             self.setAccessibleDescription(
                 translate("inputs", "Down: {held}").format(held=held or translate("inputs", "none"))
             )
@@ -221,4 +222,4 @@ class Curve(QWidget):
 
 def _short(name: str) -> str:
     """Return a button's name without what all of them begin with."""
-    return name.removeprefix("Button ").replace("_", " ")
+    return control_name(name).removeprefix("Button ").replace("_", " ")

@@ -14,6 +14,7 @@ from rotemina.plugins.inputs.calibrating import Calibrating, summary
 from rotemina.plugins.inputs.measuring import Measuring
 from rotemina.plugins.inputs.number_field import NumberField
 from rotemina.plugins.inputs.section import Section, SteadyChoice, button
+from rotemina.plugins.inputs.words import device_name
 
 _MM = 1e3
 
@@ -97,7 +98,9 @@ class CalibrationSection(Section):
         if device is None or now is None:
             return
         self.heading.show_text(
-            translate("inputs", "Calibration of {name}").format(name=device.device.identity.name)
+            translate("inputs", "Calibration of {name}").format(
+                name=device_name(device.device.identity)
+            )
         )
         self.measuring.refresh(now, device, now_s)
         unchanged = None if now.changed else translate("inputs", "nothing was changed")
@@ -122,7 +125,7 @@ class CalibrationSection(Section):
 
     def leave(self) -> None:
         """Forget what was not kept; somebody is told of it."""
-        lost = [one.device.identity.name for one in self._all.values() if one.changed]
+        lost = [device_name(one.device.identity) for one in self._all.values() if one.changed]
         self._all.clear()
         self._now = None
         if lost:
@@ -203,6 +206,6 @@ class CalibrationSection(Section):
             self._workbench.notify(
                 Level.GOOD,
                 translate("inputs", "The calibration of {name} is kept.").format(
-                    name=identity.name
+                    name=device_name(identity)
                 ),
             )

@@ -17,7 +17,7 @@ from rotemina.plugins.inputs.finding import Finding
 from rotemina.plugins.inputs.mapping_rows import ActionRow, Row, TargetRow
 from rotemina.plugins.inputs.profiles import ProfileChoice
 from rotemina.plugins.inputs.section import Section, SteadyChoice, button, quiet_text
-from rotemina.plugins.inputs.words import ACTIONS, axis_targets, engine_text, way_of
+from rotemina.plugins.inputs.words import ACTIONS, axis_targets, device_name, engine_text, way_of
 from rotemina.sim.errors import InputError
 
 HINT = marked("inputs", "Press a field, then move the control that is to do it.")
@@ -90,7 +90,9 @@ class MappingSection(Section):
         if device is None:
             return
         self.heading.show_text(
-            translate("inputs", "Mapping of {device}").format(device=device.device.identity.name)
+            translate("inputs", "Mapping of {device}").format(
+                device=device_name(device.device.identity)
+            )
         )
         self._look(now_s)
         edited = self._edited

@@ -11,6 +11,7 @@ from rotemina.app.motion.teleoperation.mapping import DEGREES_OF_FREEDOM
 from rotemina.app.motion.teleoperation.operator_desk import DeviceView
 from rotemina.app.motion.teleoperation.profile import Seat
 from rotemina.app.shell.language import marked, translate
+from rotemina.drivers.inputs.device import InputIdentity
 from rotemina.drivers.inputs.hub import InputHub
 
 NOTHING_SENT = marked("inputs", "Nothing is sent to the robot while you set up, but stops.")
@@ -55,6 +56,14 @@ _SEATS = {
     Seat.TRAINER: marked("inputs", "trainer"),
     Seat.TRAINEE: marked("inputs", "trainee"),
 }
+#: What the pad on the screen and its buttons are called.
+_PAD = ("keys", marked("inputs", "pad"))  # source and name
+_PAD_BUTTONS = (
+    marked("inputs", "clutch"),
+    marked("inputs", "fine"),
+    marked("inputs", "coarse"),
+    marked("inputs", "take_over"),
+)
 #: What the engine says of axes and devices, where it has no values in it.
 _ENGINE = (
     marked("inputs", "not yet seen at rest: let go of it"),
@@ -128,6 +137,17 @@ def engine_text(said: str) -> str:
     return translate("inputs", said) if said in _ENGINE else said
 
 
+def control_name(control: str) -> str:
+    """Return what a control is called on the screen: the pad's buttons by what they do."""
+    return translate("inputs", control) if control in _PAD_BUTTONS else control
+
+
+def device_name(identity: InputIdentity) -> str:
+    """Return how an operator calls a device: the pad on the screen by what it is."""
+    pad = (identity.source, identity.name) == _PAD
+    return translate("inputs", identity.name) if pad else identity.name
+
+
 def target_tip(target: str) -> str:
     """Return what that means for the robot."""
     if target in DEGREES_OF_FREEDOM:
@@ -199,7 +219,7 @@ def _drivers(view: DevicesView) -> str:
     if not view.devices:
         return translate("inputs", "No input device is plugged in.")
     driving = [one for one in view.devices if one.drives]
-    names = translate("inputs", " and ").join(one.device.identity.name for one in driving)
+    names = translate("inputs", " and ").join(device_name(one.device.identity) for one in driving)
     two = len({one.seat for one in view.devices if one.seat is not None}) > 1
     seat = f" ({_seat(view.driving)})" if two else ""
     return (
@@ -212,8 +232,8 @@ def _drivers(view: DevicesView) -> str:
 def control_text(controls: Mapping[str, float | None]) -> str:
     """Return controls as a row of the mapping shows them, with thresholds of axes."""
     return ", ".join(
-        control if at is None else f"{control} {'>' if at > 0 else '<'} {100 * at:.0f} %"
-        for control, at in controls.items()
+        name if at is None else f"{name} {'>' if at > 0 else '<'} {100 * at:.0f} %"
+        for name, at in ((control_name(control), at) for control, at in controls.items())
     )
 
 
@@ -223,7 +243,7 @@ def _seat(seat: Seat) -> str:
 
 def _entry(one: DeviceView, view: DevicesView) -> Entry:
     identity = one.device.identity
-    return Entry(identity.key, identity.name, _standing(one, view), one.problem)
+    return Entry(identity.key, device_name(identity), _standing(one, view), one.problem)
 
 
 def _standing(one: DeviceView, view: DevicesView) -> str:

@@ -83,7 +83,7 @@ class CameraSection(Section):
 
     def refresh(self, sight: Sight) -> None:
         """Show what is there and in use."""
-        listed = [(one.name, one.key) for one in sight.cameras]
+        listed = [(spoken(one.name), one.key) for one in sight.cameras]
         _offer(self.choice, listed, None if sight.camera is None else sight.camera.key)
         _offer(self.objective, [(name, name) for name in sight.objectives], None)
         edit = self.objective.lineEdit()

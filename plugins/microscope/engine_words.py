@@ -24,6 +24,8 @@ _WORDS = {
     marked("microscope", "under way"),
     marked("microscope", "arrived"),
     marked("microscope", "failed"),
+    # what is always there to look through
+    marked("microscope", "Simulated microscope"),
     # stages, pixels, triggers, colours
     marked("microscope", "micro"),
     marked("microscope", "nano"),

@@ -113,7 +113,7 @@
     </message>
     <message>
         <source>approach</source>
-        <translation>Annäherung</translation>
+        <translation>Anfahrt</translation>
     </message>
     <message>
         <source>contact</source>
@@ -453,7 +453,7 @@
     </message>
     <message>
         <source>Approach</source>
-        <translation>Annäherung</translation>
+        <translation>Anfahrt</translation>
     </message>
     <message>
         <source>Contact detection</source>
@@ -541,7 +541,7 @@
     </message>
     <message>
         <source>Of the thrust, from where the approach came to rest on the membrane</source>
-        <translation>Des Einstichs, vom Ruheort der Annäherung auf der Membran</translation>
+        <translation>Des Einstichs, vom Ruheort der Anfahrt auf der Membran</translation>
     </message>
     <message>
         <source>Duration</source>
@@ -637,7 +637,7 @@
     </message>
     <message>
         <source>Where the thrust is commanded to end, from where the approach came to rest</source>
-        <translation>Wo der Einstich laut Sollwert endet, vom Ruheort der Annäherung</translation>
+        <translation>Wo der Einstich laut Sollwert endet, vom Ruheort der Anfahrt</translation>
     </message>
     <message>
         <source>Room needed</source>
@@ -645,7 +645,7 @@
     </message>
     <message>
         <source>Approach, halt and thrust together</source>
-        <translation>Annäherung, Anhalten und Einstich zusammen</translation>
+        <translation>Anfahrt, Anhalten und Einstich zusammen</translation>
     </message>
     <message>
         <source>Room left</source>
@@ -967,7 +967,7 @@
     </message>
     <message>
         <source>Begin to approach the cell</source>
-        <translation>Die Annäherung an die Zelle beginnen</translation>
+        <translation>Die Anfahrt an die Zelle beginnen</translation>
     </message>
     <message>
         <source>Check everything and reserve every axis; nothing moves until Start</source>
