@@ -6,7 +6,7 @@ The rules are those of :class:`rotemina.drivers.driver.Driver`: final methods ch
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from math import isfinite
-from typing import TYPE_CHECKING, final
+from typing import final
 
 from rotemina.drivers.capture import Captured, CaptureRates
 from rotemina.drivers.driver import Driver
@@ -15,17 +15,10 @@ from rotemina.drivers.link import LinkQuality
 from rotemina.drivers.parameters import ParameterDifference
 from rotemina.drivers.profile import Profile
 from rotemina.drivers.samples import DeviceState
-from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
-from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.trajectory.checked import CheckedTrajectory, accepted
 from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
-
-if TYPE_CHECKING:  # a board's commands need none of it
-    from rotemina.sim.compensate.inverse import Beyond
-    from rotemina.sim.compensate.model import InverseModel
-    from rotemina.sim.feedback.regulation import Regulation
 
 LONGEST_LEASE_S = 1.0
 DISPLAY_ROWS, DISPLAY_COLUMNS = 2, 20
@@ -382,132 +375,3 @@ class TrajectoryPlayer(Driver, ABC):
     @abstractmethod
     def _play(self, trajectory: Record) -> None:
         """Begin to play a trajectory that is inside every limit."""
-
-
-class EffectCarrier(Driver, ABC):
-    """A simulated device whose imperfections can be switched and tuned while it runs."""
-
-    @property
-    @abstractmethod
-    def effects(self) -> tuple[AxisEffect, ...]:
-        """The effects in place, those that are switched off among them; any thread may ask."""
-
-    @final
-    def check_effects(self, effects: Sequence[AxisEffect]) -> None:
-        """Raise :class:`EffectError` if effects cannot sit on the axes of this robot."""
-        for effect in effects:
-            Attached.of(self.robot, effect)
-
-    @final
-    def set_effects(self, effects: Sequence[AxisEffect]) -> None:
-        """Put effects in place of those before; the axes go on from where they are.
-
-        Raises
-        ------
-        EffectError
-            With axis, effect, parameter, value and bound; then nothing changes.
-        StateError
-            If the device is closed.
-        """
-        self._require_open("change its effects")
-        self.check_effects(effects)
-        self._set_effects(tuple(effects))
-
-    @abstractmethod
-    def _set_effects(self, effects: tuple[AxisEffect, ...]) -> None:
-        """Put checked effects in place."""
-
-
-class Compensator(Driver, ABC):
-    """A device that sends set-points of an axis through an inverse of its hysteresis.
-
-    Commands in its samples stay what was wanted; ``inputs`` show what was sent. It ends with
-    :meth:`Driver.close` and a cleared fault.
-    """
-
-    @property
-    @abstractmethod
-    def compensated(self) -> "Mapping[str, Beyond]":
-        """The axes that are, and in what each has gone beyond since; any thread may ask."""
-
-    @final
-    def compensate(self, axis: str, model: "InverseModel | None") -> None:
-        """Send an axis' set-points through an inverse, or, for None, as they are.
-
-        The axis stays where it is: its command becomes what the inverse takes for its position,
-        and with None what was sent to it last. It is moved within what the inverse saw.
-
-        Raises
-        ------
-        LimitError
-            If there is no such axis, the inverse is another's or does not reach where it stands.
-        StateError
-            If the device is closed, faulty or not at rest.
-        """
-        state = self._require_sound("change a compensation")
-        if state is not DeviceState.IDLE:
-            raise StateError(
-                f"{self.name}: cannot change a compensation while it is {state}; stop it or wait"
-            )
-        if axis not in self.robot.axes:
-            raise LimitError(f"{self.name}: no such axis {axis!r}; it has {', '.join(self.axes)}")
-        if model is not None and model.axis != axis:
-            raise LimitError(f"{self.name}: an inverse of axis {model.axis} is none of {axis}")
-        self._compensate(axis, model)
-
-    @abstractmethod
-    def _compensate(self, axis: str, model: "InverseModel | None") -> None:
-        """Change it; raise :class:`LimitError` where the inverse does not reach."""
-
-
-class Regulator(Driver, ABC):
-    """A device that closes a loop around an axis, from its own sensor to its actuator.
-
-    Commands in its samples are where the axis shall be; ``inputs`` show what the loop asks for. It
-    ends with :meth:`Driver.close` and a cleared fault; a stop halts the axis under its loop.
-    """
-
-    @property
-    @abstractmethod
-    def regulated(self) -> "Mapping[str, Regulation]":
-        """The loops that are closed, by axis; any thread may ask."""
-
-    @property
-    @abstractmethod
-    def regulation_limited(self) -> tuple[str, ...]:
-        """The axes whose loop asks for more than a limit allows just now; any thread may ask."""
-
-    @final
-    def regulate(self, axis: str, regulation: "Regulation | None") -> None:
-        """Close a loop around an axis, or, for None, open it.
-
-        The axis stays where it is: its command becomes where the sensor says that it is, and with
-        None what was sent to it last. A :class:`Regulation` was found stable when it was made.
-
-        Raises
-        ------
-        LimitError
-            If there is no such axis, the loop is another's or of another robot, or does not fit.
-        StateError
-            If the device is closed, faulty or not at rest.
-        """
-        state = self._require_sound("change a loop")
-        if state is not DeviceState.IDLE:
-            raise StateError(
-                f"{self.name}: cannot change a loop while it is {state}; stop it or wait"
-            )
-        if axis not in self.robot.axes:
-            raise LimitError(f"{self.name}: no such axis {axis!r}; it has {', '.join(self.axes)}")
-        if regulation is not None:
-            if regulation.axis != axis:
-                raise LimitError(f"{self.name}: a loop of axis {regulation.axis} is none of {axis}")
-            if regulation.robot.axes[axis] != self.robot.axes[axis]:
-                raise LimitError(
-                    f"{self.name}: axis {axis}: the loop was found stable on robot "
-                    f"{regulation.robot.name!r} with another such axis; check it on this one"
-                )
-        self._regulate(axis, regulation)
-
-    @abstractmethod
-    def _regulate(self, axis: str, regulation: "Regulation | None") -> None:
-        """Change it; raise :class:`LimitError` where it does not fit."""

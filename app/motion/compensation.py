@@ -1,7 +1,7 @@
 """Compensation in a session: inverses between what is wanted of piezo axes and what they are told.
 
-A device that is a :class:`~rotemina.drivers.abilities.Compensator` sends every set-point through
-the inverse at its own ticks: moves, speeds, profiles and trajectories alike. To any other, a
+A device that is a :class:`~rotemina.drivers.model_abilities.Compensator` sends every set-point
+through the inverse at its own ticks: moves, speeds, profiles and trajectories alike. To any other, a
 trajectory is handed over with the inverse's commands in it, and single moves go as they are told.
 """
 
@@ -14,8 +14,8 @@ from typing import Any
 from rotemina.app.motion.device_requests import DeviceRequests
 from rotemina.app.motion.mailbox import Compensate, RefusedError
 from rotemina.app.motion.ownership import OPERATOR
-from rotemina.drivers.abilities import Compensator
 from rotemina.drivers.driver import Driver
+from rotemina.drivers.model_abilities import Compensator
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Beyond
 from rotemina.sim.compensate.model import InverseModel

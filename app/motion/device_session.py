@@ -23,14 +23,10 @@ from rotemina.app.motion.state import (
     SessionState,
 )
 from rotemina.app.motion.worker import Tap, Worker
-from rotemina.drivers.abilities import (
-    Display,
-    EffectCarrier,
-    Parameterised,
-    TrajectoryPlayer,
-)
+from rotemina.drivers.abilities import Display, Parameterised, TrajectoryPlayer
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
+from rotemina.drivers.model_abilities import EffectCarrier
 from rotemina.drivers.samples import Samples
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.robot.model import AxisEffect

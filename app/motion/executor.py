@@ -24,17 +24,15 @@ from rotemina.app.motion.mailbox import (
 from rotemina.app.motion.recorder import PlaybackRecorder
 from rotemina.app.motion.sensor_corrections import SensorCorrections
 from rotemina.drivers.abilities import (
-    Compensator,
-    EffectCarrier,
     Homer,
     ProfileRunner,
-    Regulator,
     TrajectoryPlayer,
     VelocityMover,
     VoltageOutput,
 )
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
+from rotemina.drivers.model_abilities import Compensator, EffectCarrier, Regulator
 from rotemina.drivers.samples import DeviceState
 
 _NOWHERE: Mapping[str, float] = MappingProxyType({})

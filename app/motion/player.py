@@ -5,9 +5,10 @@ from collections.abc import Callable, Mapping
 from rotemina.app.motion.compensation import NamedInverse, sent_for
 from rotemina.app.motion.recorder import PlaybackRecorder
 from rotemina.app.motion.regulation import NamedRegulation
-from rotemina.drivers.abilities import Compensator, Regulator, TrajectoryPlayer
+from rotemina.drivers.abilities import TrajectoryPlayer
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.errors import DriverError
+from rotemina.drivers.model_abilities import Compensator, Regulator
 from rotemina.drivers.registry import driver_named
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.compensate.trajectory import on_ticks

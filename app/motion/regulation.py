@@ -1,7 +1,7 @@
 """Feedback in a session: loops that the device closes around axes, put on and taken off at rest.
 
-Only a device that is a :class:`~rotemina.drivers.abilities.Regulator` can: a loop needs its samples
-hundreds of times sooner than a line to a board brings them.
+Only a device that is a :class:`~rotemina.drivers.model_abilities.Regulator` can: a loop needs its
+samples hundreds of times sooner than a line to a board brings them.
 """
 
 from abc import ABC
@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 from rotemina.app.motion.compensation import CompensatedRequests
 from rotemina.app.motion.mailbox import RefusedError, Regulate
 from rotemina.app.motion.ownership import OPERATOR
-from rotemina.drivers.abilities import Regulator
 from rotemina.drivers.driver import Driver
+from rotemina.drivers.model_abilities import Regulator
 from rotemina.sim.feedback.errors import FeedbackError
 from rotemina.sim.feedback.regulation import Regulation
 from rotemina.sim.robot.model import PiezoAxis, Robot

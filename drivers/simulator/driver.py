@@ -11,11 +11,8 @@ import numpy as np
 
 from rotemina.drivers.abilities import (
     Capturer,
-    Compensator,
-    EffectCarrier,
     Homer,
     ProfileRunner,
-    Regulator,
     TrajectoryPlayer,
     VelocityMover,
     VoltageOutput,
@@ -23,6 +20,7 @@ from rotemina.drivers.abilities import (
 from rotemina.drivers.capture import Captured, CaptureRates
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import LimitError, StateError
+from rotemina.drivers.model_abilities import Compensator, EffectCarrier, Regulator
 from rotemina.drivers.profile import Profile
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.drivers.settings import SettingError, SettingValue
