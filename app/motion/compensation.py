@@ -1,8 +1,8 @@
 """Compensation in a session: inverses between what is wanted of piezo axes and what they are told.
 
 A device that is a :class:`~rotemina.drivers.model_abilities.Compensator` sends every set-point
-through the inverse at its own ticks: moves, speeds, profiles and trajectories alike. To any other, a
-trajectory is handed over with the inverse's commands in it, and single moves go as they are told.
+through the inverse at its own ticks: moves, speeds, profiles and trajectories alike. To any other,
+a trajectory is handed over with the inverse's commands in it, and single moves go as they are told.
 """
 
 from abc import ABC
