@@ -21,7 +21,7 @@
     </message>
     <message>
         <source>Go to the typed {label}</source>
-        <translation>Zur eingegebenen {label} fahren</translation>
+        <translation>Eingabe für {label} anfahren</translation>
     </message>
     <message>
         <source>unknown</source>

@@ -1,0 +1,177 @@
+"""The window in German, and what happens where a language is unknown or its file is missing."""
+
+from types import SimpleNamespace
+
+import pytest
+from PySide6.QtCore import QCoreApplication, Qt
+from PySide6.QtWidgets import QDialog, QDialogButtonBox
+
+from rotemina.app.shell import language
+from rotemina.app.shell.engine_words import SAYINGS, spoken
+from rotemina.app.shell.language import SETTING, chosen, translate
+from rotemina.app.shell.workbench import Level
+
+PANELS = ("connection",)
+LONG_MS = 30_000
+
+
+@pytest.fixture
+def spoken_by_the_system(monkeypatch):
+    """Let the system speak languages, the best first."""
+
+    def speak(*names):
+        system = SimpleNamespace(uiLanguages=lambda: list(names))
+        monkeypatch.setattr(language, "QLocale", SimpleNamespace(system=lambda: system))
+
+    return speak
+
+
+@pytest.fixture
+def application(qapp):
+    yield qapp
+    language.use(qapp, "en")
+
+
+@pytest.fixture
+def german(application, settings, make_robot_window):
+    settings.set(SETTING, "de")
+    return make_robot_window()
+
+
+def notices(window):
+    return [notice.text for notice in window.notices.notices()]
+
+
+def test_the_systems_language_is_spoken_where_none_is_set(settings, spoken_by_the_system):
+    for names, expected in (
+        (("de-AT", "de", "en"), "de"),
+        (("fr-FR", "de-DE"), "de"),
+        (("en-GB", "de"), "en"),
+        (("C",), "en"),
+        ((), "en"),
+    ):
+        spoken_by_the_system(*names)
+        assert chosen(settings) == expected
+        settings.set(SETTING, "de")
+        assert chosen(settings) == "de"
+        settings.set(SETTING, "")
+
+
+def test_an_unknown_language_is_told_and_the_systems_is_spoken(
+    settings, spoken_by_the_system, caplog
+):
+    spoken_by_the_system("nl")
+    settings.set(SETTING, "klingon")
+    assert chosen(settings) == "en"
+    assert "'klingon'" in caplog.text
+    assert "en, de" in caplog.text
+    settings.set(SETTING, 7)
+    assert chosen(settings) == "en"
+
+
+@pytest.mark.parametrize("content", [None, b"", b"\x3c\xb8\x64\x18 no texts", b"<TS></TS>"])
+def test_a_file_that_cannot_be_read_leaves_the_window_english(
+    application, tmp_path, caplog, content
+):
+    if content is not None:
+        (tmp_path / "de.qm").write_bytes(content)
+    language.install(application, tmp_path, "de")
+    assert translate("panels", "Plots") == "Plots"
+    assert str(tmp_path / "de.qm") in caplog.text
+
+
+def test_languages_take_turns(application):
+    for name, plots, cancel in (
+        ("de", "Diagramme", "Abbrechen"),
+        ("en", "Plots", "Cancel"),
+        ("de", "Diagramme", "Abbrechen"),
+    ):
+        language.use(application, name)
+        assert language.in_use(application) == name
+        assert translate("panels", "Plots") == plots
+        box = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
+        assert box.buttons()[0].text().replace("&", "") == cancel  # Qt's own
+
+
+def test_what_the_engine_says_for_long_is_translated_with_its_values(application):
+    for saying in SAYINGS:
+        assert spoken(saying) == saying
+    language.use(application, "de")
+    assert spoken("the position of x, thx is not known; home first") == (
+        "die Position von x, thx ist unbekannt; erst Referenzfahrt"
+    )
+    assert spoken("emergency stop is latched; release it first") == (
+        "Not-Halt ist eingerastet; erst freigeben"
+    )
+    assert spoken("something that nobody has heard of") == "something that nobody has heard of"
+
+
+def test_the_window_is_german_and_all_of_its_commands_work(qtbot, german):
+    menus = [action.text() for action in german.menuBar().actions()]
+    assert menus == ["&Datei", "&Bewegung", "&Ansicht", "&Hilfe"]
+    assert german.docks["control"].windowTitle() == "Steuerung"
+    assert german.stop_button.text() == "HALT"
+    _a_panels_notice_is_german(german)
+    _the_palette_finds_and_does(qtbot, german)
+    _every_command_works(german)
+
+
+def _a_panels_notice_is_german(window):
+    row = window.panels["control"].rows["x"]
+    row.target.setText("1,5")
+    row.go.click()
+    assert "ist keine Position" in notices(window)[0]
+    assert "Dezimalpunkt" in notices(window)[0]
+
+
+def _the_palette_finds_and_does(qtbot, window):
+    window.toggle_palette()
+    page = window.palette_page
+    qtbot.keyClicks(page.field, "schema helles")
+    assert page.list.item(0).text().startswith("Ansicht: Helles Farbschema")
+    qtbot.keyClick(page.field, Qt.Key.Key_Return)
+    assert window.workbench.theme.name == "light"
+    window.toggle_palette()
+    qtbot.keyClicks(page.field, "steuerung eingabe")
+    assert page.list.item(0).text().startswith("Steuerung: Eingabe für")
+    page.field.setText("Bewegung: Fehler quittieren")
+    assert "nicht jetzt" in page.list.item(0).text()
+    page.hide()
+
+
+def _every_command_works(window):
+    for command in window.commands():
+        assert command.text.replace("&", "").strip()
+        if command.run != window.close:
+            command.run()
+            QCoreApplication.processEvents()
+    for dialog in window.findChildren(QDialog):
+        dialog.close()
+
+
+def test_a_language_is_chosen_for_the_next_start(window, settings):
+    told = []
+    window.workbench.noticed.connect(lambda level, text: told.append((level, str(text))))
+    actions = {action.data(): action for action in window.language_menu.actions()}
+    assert {name: action.isChecked() for name, action in actions.items()} == {
+        "": True,
+        "en": False,
+        "de": False,
+    }
+    actions["de"].trigger()
+    assert settings.get(SETTING, "") == "de"
+    assert told == [
+        (
+            Level.INFO,
+            "The window speaks Deutsch from the next start on. "
+            "Das Fenster spricht ab dem nächsten Start Deutsch.",
+        )
+    ]
+    assert actions["de"].isChecked()
+    assert not actions[""].isChecked()
+    entries = {entry.text: entry for entry in window._entries()}
+    entries["Language: English"].run()
+    assert settings.get(SETTING, "") == "en"
+    assert len(told) == 1  # it is spoken already
+    window.language_menu.mark()
+    assert actions["en"].isChecked()
