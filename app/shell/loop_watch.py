@@ -17,7 +17,8 @@ logger = logging.getLogger(__name__)
 
 PERIOD_S = 0.02
 STALL_S = 0.25
-_LOOKS_S = 0.05  # between two looks at whether the thread stands still
+_OVERDUE_S = 0.1  # from which on it is looked at what the thread does
+_LOOKS_S = 0.05  # between two looks at whether a beat is overdue
 _MOST_STALLS = 100  # that are remembered
 _DEPTH = 12  # calls that are named
 _UNSEEN = "what it was cannot be told: the interpreter was held"
@@ -105,7 +106,7 @@ class LoopWatch(QObject):
     def look(self) -> None:
         """See, from any thread, what the window's thread does if its beat is overdue."""
         overdue_s = self._last_s
-        if self._seen[0] != overdue_s and self._clock() - overdue_s > PERIOD_S + STALL_S:
+        if self._seen[0] != overdue_s and self._clock() - overdue_s > PERIOD_S + _OVERDUE_S:
             frame = sys._current_frames().get(self._watched)
             if frame is not None:
                 self._seen = overdue_s, _calls(frame)

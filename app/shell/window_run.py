@@ -19,6 +19,7 @@ from rotemina.app.shell import language
 from rotemina.app.shell import theme as themes
 from rotemina.app.shell.layouts import OPERATE
 from rotemina.app.shell.main_window import MainWindow
+from rotemina.app.shell.preloading import preload
 from rotemina.app.shell.workbench import Workbench
 
 DEFAULT_THEME = "dark"
@@ -69,6 +70,7 @@ def run(session: MotionSession, settings: Settings) -> int:
     gc.collect()
     gc.freeze()
     window.late_panels.done.connect(gc.freeze)  # no look before: the machine is connected by then
+    window.late_panels.done.connect(lambda: preload())
     window.loop_watch.start()
     window.late_panels.done.connect(window.loop_watch.restart)  # what it measures is use, no start
     window.workbench.start()

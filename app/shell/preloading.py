@@ -1,0 +1,31 @@
+"""Libraries that some view needs at its first use, loaded before that, away from the window."""
+
+import gc
+import importlib
+import logging
+import threading
+from collections.abc import Iterable
+
+logger = logging.getLogger(__name__)
+
+#: Each takes tenths of a second to load, for which whoever first chose its view would wait.
+LATE = ("scipy.signal", "polars")
+
+
+def preload(names: Iterable[str] = LATE) -> threading.Thread:
+    """Begin to load modules on a thread of their own, which is returned.
+
+    One that cannot be loaded is left to whoever needs it, and says so then.
+    """
+
+    def load() -> None:
+        for name in names:
+            try:
+                importlib.import_module(name)
+            except Exception as error:  # a broken library breaks at import as it likes
+                logger.info("%s cannot be loaded before it is needed: %s", name, error)
+        gc.freeze()  # what was loaded stays: no look for garbage need go through it
+
+    thread = threading.Thread(target=load, name="preloading", daemon=True)
+    thread.start()
+    return thread
