@@ -8,6 +8,7 @@ from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
 
 from rotemina.app.files import json_text, write_text
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.gap.answer import Answer
 from rotemina.sim.errors import InputError
@@ -37,27 +38,27 @@ class Actions(QObject):
     def ask_twin(self, answer: Answer, source: str | Path | None) -> None:
         """Ask where to, and write the twin of an answer about the robot of ``source``."""
         self._ask(
-            "Add to twin",
+            translate("gap", "Add to twin"),
             "twin.toml",
-            "Robot files (*.toml)",
+            translate("gap", "Robot files (*.toml)"),
             lambda path: self.save_twin(answer, source, path),
         )
 
     def ask_report(self, answer: Answer) -> None:
         """Ask where to, write the report and open it."""
         self._ask(
-            "Report",
+            translate("gap", "Report"),
             "gap-report.html",
-            "Pages (*.html)",
+            translate("gap", "Pages (*.html)"),
             lambda path: self.save_report(answer, path),
         )
 
     def ask_json(self, answer: Answer) -> None:
         """Ask where to, and write the diagnosis as JSON."""
         self._ask(
-            "Save the diagnosis",
+            translate("gap", "Save the diagnosis"),
             "gap.json",
-            "JSON (*.json)",
+            translate("gap", "JSON (*.json)"),
             lambda path: self.save_json(answer, path),
         )
 
@@ -83,13 +84,13 @@ class Actions(QObject):
         robot, effects = answer.diagnosis.robot, answer.diagnosis.fitted
 
         def done(_: None) -> None:
-            self._workbench.notify(Level.GOOD, f"Saved {path}")
+            self._workbench.notify(Level.GOOD, translate("gap", "Saved {path}").format(path=path))
             self.twin_saved.emit(path)
             self._offer_live(answer)
 
         self._workbench.work(
             "gap twin",
-            f"Writing {path.name} …",
+            translate("gap", "Writing {name} …").format(name=path.name),
             lambda: write_text(path, twin_text(robot, effects, source)),
             done,
         )
@@ -98,17 +99,19 @@ class Actions(QObject):
         """Write the report and open it."""
 
         def done(_: None) -> None:
-            self._workbench.notify(Level.GOOD, f"Saved {path}")
+            self._workbench.notify(Level.GOOD, translate("gap", "Saved {path}").format(path=path))
             if not QDesktopServices.openUrl(QUrl.fromLocalFile(str(path))):
                 self._workbench.notify(
                     Level.WARNING,
-                    f"{path}: nothing here opens it; open it in a browser",
+                    translate("gap", "{path}: nothing here opens it; open it in a browser").format(
+                        path=path
+                    ),
                     about=self,
                 )
 
         self._workbench.work(
             "gap report",
-            f"Writing {path.name} …",
+            translate("gap", "Writing {name} …").format(name=path.name),
             lambda: write_report(answer.diagnosis, answer.records, path, answer.names),
             done,
         )
@@ -117,9 +120,11 @@ class Actions(QObject):
         """Write the diagnosis as JSON."""
         self._workbench.work(
             "gap document",
-            f"Writing {path.name} …",
+            translate("gap", "Writing {name} …").format(name=path.name),
             lambda: write_text(path, json_text(as_json(answer.diagnosis))),
-            lambda _: self._workbench.notify(Level.GOOD, f"Saved {path}"),
+            lambda _: self._workbench.notify(
+                Level.GOOD, translate("gap", "Saved {path}").format(path=path)
+            ),
         )
 
     # --- the running simulator --------------------------------------------------------------------
@@ -131,11 +136,14 @@ class Actions(QObject):
             return
         question = QMessageBox(self._parent.window())
         question.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        question.setWindowTitle("Add to twin")
-        question.setText("Let the running simulator be the corrected model, too?")
+        question.setWindowTitle(translate("gap", "Add to twin"))
+        question.setText(translate("gap", "Let the running simulator be the corrected model, too?"))
         question.setInformativeText(
-            "The effects that it has now are replaced. Choose No if the simulator plays the part "
-            "of the machine."
+            translate(
+                "gap",
+                "The effects that it has now are replaced. Choose No if the simulator plays the "
+                "part of the machine.",
+            )
         )
         question.setStandardButtons(QMessageBox.StandardButton.Yes | QMessageBox.StandardButton.No)
         question.setDefaultButton(QMessageBox.StandardButton.No)

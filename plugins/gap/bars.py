@@ -8,6 +8,7 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.gap.tips import tip
 
@@ -43,7 +44,7 @@ class Bars(QWidget):
         """Draw bars and lines in place of the last."""
         self.bars, self.lines = tuple(bars), tuple(lines)
         told = [f"{bar.name} {bar.text}" for bar in (*bars, *lines)]
-        self.setAccessibleName("Gap: " + ", ".join(told))
+        self.setAccessibleName(translate("gap", "Gap: {bars}").format(bars=", ".join(told)))
         self.setToolTip(tip(*told))
         self.update()
 

@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.files import write_text
 from rotemina.app.shell.controls import allow
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.gap.blind_result import HEAD, BlindResult
 from rotemina.plugins.gap.blind_run import BlindRun
@@ -25,30 +26,32 @@ from rotemina.plugins.gap.hint import hint
 from rotemina.plugins.gap.robots import RobotChoice
 from rotemina.plugins.gap.table import Table
 from rotemina.plugins.gap.tips import tip
+from rotemina.plugins.gap.words import effect_title, effect_word
 from rotemina.sim.gap.report.quantities import percent
-from rotemina.sim.gap.report.words import effect_title
 from rotemina.sim.robot.file import load_robot, shipped_robots
 from rotemina.sim.robot.writing import robot_text
 
-ABOUT = (
+ABOUT = marked(
+    "gap",
     "Machines are drawn by equations that the diagnosis does not know, each with hidden effects. "
     "The name of what is hidden is sealed until the diagnosis has answered; then it is opened and "
     "compared. A case takes about half a minute. It runs beside everything else and can be stopped "
-    "and gone on with: what is done stays."
+    "and gone on with: what is done stays.",
 )
-NOTHING = (
+NOTHING = marked(
+    "gap",
     "No case is scored yet.\n"
     "Press Start: figures and confusion matrix come when all cases are done; or press Stop at any "
-    "time, then “Score what is done”."
+    "time, then “Score what is done”.",
 )
 _MOST_CASES, _MOST_SEED = 9999, 999_999_999
 _STRENGTH = 170  # of the strongest colour, of 255
 _VERDICTS = {
-    "none": "no gap",
-    "unknown": "unknown",
-    "insufficient_excitation": "cannot tell",
-    "failed": "failed",
-    "explained": "explained",
+    "none": marked("gap", "no gap"),
+    "unknown": marked("gap", "unknown"),
+    "insufficient_excitation": marked("gap", "cannot tell"),
+    "failed": marked("gap", "failed"),
+    "explained": marked("gap", "explained"),
 }
 
 
@@ -57,48 +60,68 @@ class BlindPage(QDialog):
 
     def __init__(self, workbench: Workbench, robots: RobotChoice, parent: QWidget) -> None:
         super().__init__(parent)
-        self.setWindowTitle("Blind test of the diagnosis")
+        self.setWindowTitle(translate("gap", "Blind test of the diagnosis"))
         self._workbench, self._robots = workbench, robots
         self.run = BlindRun(self)
-        self.cases = _field("12", _MOST_CASES, 1, "How many machines are drawn, 1 to 9999")
-        self.seed = _field("1", _MOST_SEED, 0, "Which machines: the same seed draws the same ones")
-        self.start, self.stop = QPushButton("Start"), QPushButton("Stop")
+        self.cases = _field(
+            "12", _MOST_CASES, 1, translate("gap", "How many machines are drawn, 1 to 9999")
+        )
+        self.seed = _field(
+            "1",
+            _MOST_SEED,
+            0,
+            translate("gap", "Which machines: the same seed draws the same ones"),
+        )
+        self.start, self.stop = (
+            QPushButton(translate("gap", "Start")),
+            QPushButton(translate("gap", "Stop")),
+        )
         self.start.setProperty("primary", True)
-        self.score = QPushButton("Score what is done")
+        self.score = QPushButton(translate("gap", "Score what is done"))
         self.progress = QProgressBar()
-        self.progress.setFormat("%v of %m")
+        self.progress.setFormat(translate("gap", "%v of %m"))
         self.doing = QLabel()
         self.doing.setTextFormat(Qt.TextFormat.PlainText)
-        self.figures = Table("Figures beside the levels that they are to reach", HEAD)
-        self.matrix = Table("What is there, and what was named first")
+        self.figures = Table(
+            translate("gap", "Figures beside the levels that they are to reach"), HEAD
+        )
+        self.matrix = Table(translate("gap", "What is there, and what was named first"))
         self.matrix.setSelectionMode(Table.SelectionMode.NoSelection)
         self._lay_out()
         self._connect()
         self._show_state()
 
     def _lay_out(self) -> None:
-        about = QLabel(ABOUT)
+        about = QLabel(translate("gap", ABOUT))
         about.setWordWrap(True)
         row = QHBoxLayout()
-        for text, field in (("Cases", self.cases), ("Seed", self.seed)):
+        for text, field in (
+            (translate("gap", "Cases"), self.cases),
+            (translate("gap", "Seed"), self.seed),
+        ):
             row.addWidget(QLabel(text))
             row.addWidget(field)
         for widget in (self.start, self.stop, self.score, self.progress):
             row.addWidget(widget)
         row.addWidget(self.doing, 1)
         split = self.shown = QSplitter(Qt.Orientation.Vertical)
-        split.addWidget(_titled("Figures, each with its 95 % interval", self.figures))
+        split.addWidget(
+            _titled(translate("gap", "Figures, each with its 95 % interval"), self.figures)
+        )
         split.addWidget(
             _titled(
-                "Confusion matrix, cases with one effect at most: a row is what is there, a column "
-                "what was named first",
+                translate(
+                    "gap",
+                    "Confusion matrix, cases with one effect at most: a row is what is there, a "
+                    "column what was named first",
+                ),
                 self.matrix,
             )
         )
         column = QVBoxLayout(self)
         column.addWidget(about)
         column.addLayout(row)
-        self.nothing = hint(NOTHING)
+        self.nothing = hint(translate("gap", NOTHING))
         column.addWidget(self.nothing, 1)
         column.addWidget(split, 1)
         split.hide()
@@ -112,7 +135,9 @@ class BlindPage(QDialog):
             field.textChanged.connect(lambda _: self._show_state())
         self.run.progressed.connect(self._show_progress)
         self.run.finished.connect(self.show_result)
-        self.run.stopped.connect(lambda: self._show_end("stopped; what is done stays"))
+        self.run.stopped.connect(
+            lambda: self._show_end(translate("gap", "stopped; what is done stays"))
+        )
         self.run.failed.connect(self._fail)
         self._workbench.closing.connect(self.run.close)
         self._workbench.theme_changed.connect(lambda _: self._show_colours())
@@ -127,11 +152,16 @@ class BlindPage(QDialog):
         try:
             robot = self._robot(folder)
         except OSError as error:
-            self._fail(f"{folder}: it cannot be made ({error.strerror})")
+            text = translate("gap", "{folder}: it cannot be made ({reason})")
+            self._fail(text.format(folder=folder, reason=error.strerror))
             return
         self.run.start(robot, int(self.cases.text()), seed, folder, score=score)
         self.progress.setRange(0, 0)
-        self.doing.setText("being scored" if score else "the first machine is drawn")
+        self.doing.setText(
+            translate("gap", "being scored")
+            if score
+            else translate("gap", "the first machine is drawn")
+        )
         self._show_state()
 
     def _name(self, seed: int) -> str:
@@ -150,28 +180,45 @@ class BlindPage(QDialog):
 
     def _end(self) -> None:
         self.run.stop()
-        self._show_end("being stopped")
+        self._show_end(translate("gap", "being stopped"))
 
     def _show_progress(self, done: int, count: int) -> None:
         self.progress.setRange(0, count)
         self.progress.setValue(done)
-        self.doing.setText(f"{done} of {count} cases done")
+        text = translate("gap", "{done} of {count} cases done")
+        self.doing.setText(text.format(done=done, count=count))
 
     def _show_end(self, text: str) -> None:
         self.doing.setText(text)
         self._show_state()
 
     def _fail(self, message: str) -> None:
-        self._show_end("failed")
+        self._show_end(translate("gap", "failed"))
         self._workbench.notify(Level.ERROR, message, about=self)
 
     def _show_state(self) -> None:
         running = self.run.running
         whole = all(field.hasAcceptableInput() for field in (self.cases, self.seed))
-        why = "it runs already" if running else None if whole else "write cases and seed"
-        allow(self.start, why, "Run the cases that are not done yet, then score them")
-        allow(self.score, why, "Score the cases that are done, without running more")
-        allow(self.stop, None if running else "nothing runs", "End it; what is done stays")
+        why = (
+            translate("gap", "it runs already")
+            if running
+            else None
+            if whole
+            else translate("gap", "write cases and seed")
+        )
+        allow(
+            self.start,
+            why,
+            translate("gap", "Run the cases that are not done yet, then score them"),
+        )
+        allow(
+            self.score, why, translate("gap", "Score the cases that are done, without running more")
+        )
+        allow(
+            self.stop,
+            None if running else translate("gap", "nothing runs"),
+            translate("gap", "End it; what is done stays"),
+        )
         self.progress.setVisible(running)
         for field in (self.cases, self.seed):
             field.setEnabled(not running)
@@ -181,7 +228,8 @@ class BlindPage(QDialog):
     def show_result(self, result: BlindResult) -> None:
         """Show figures and confusion matrix."""
         self._result = result
-        self._show_end(f"{result.done} of {result.asked} cases scored")
+        text = translate("gap", "{done} of {count} cases scored")
+        self._show_end(text.format(done=result.done, count=result.asked))
         self._show_colours()
 
     def _show_colours(self) -> None:
@@ -192,10 +240,11 @@ class BlindPage(QDialog):
         self.shown.show()
         colours = {True: QColor(theme.good), False: QColor(theme.warning), None: None}
         self.figures.show_rows(
-            [one.cells for one in result.rows], [colours[one.reached] for one in result.rows]
+            [(translate("gap", one.cells[0]), *one.cells[1:]) for one in result.rows],
+            [colours[one.reached] for one in result.rows],
         )
         names = result.names
-        self.matrix.set_head(("what is there", *map(title, names)))
+        self.matrix.set_head((marked("gap", "what is there"), *map(title, names)))
         self.matrix.show_rows(
             [
                 (title(there), *(str(result.counts.get((there, told), "")) for told in names))
@@ -209,13 +258,19 @@ class BlindPage(QDialog):
                 colour.setAlpha(round(_STRENGTH * share))
                 item = self.matrix.item(row, column)
                 item.setBackground(colour)
-                said = f"{title(there)} named {title(told).lower()}: {percent(share)} of its cases"
+                text = translate("gap", "{truth} named {told}: {share} of its cases")
+                said = text.format(truth=title(there), told=_word(told), share=percent(share))
                 item.setToolTip(tip(said))
 
 
 def title(name: str) -> str:
     """Return a verdict or an effect as people call it."""
-    return _VERDICTS.get(name) or effect_title(name)
+    return translate("gap", _VERDICTS[name]) if name in _VERDICTS else effect_title(name)
+
+
+def _word(name: str) -> str:
+    """Return the same within a sentence."""
+    return title(name) if name in _VERDICTS else effect_word(name)
 
 
 def _field(text: str, most: int, least: int, tooltip: str) -> QLineEdit:

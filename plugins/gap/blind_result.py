@@ -1,4 +1,4 @@
-"""What a blind test has brought: figures beside their levels, and the confusion matrix. No Qt."""
+"""What a blind test has brought: figures beside their levels, the confusion matrix; no widgets."""
 
 import json
 import re
@@ -7,13 +7,19 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
 
+from rotemina.app.shell.language import marked, translate
 from rotemina.sim.blind.intervals import Figure
 from rotemina.sim.blind.table import ROWS, shown
 from rotemina.sim.errors import InputError
 
 _LEVEL = re.compile(r"([≥≤]?)\s*([\d.]+)\s*(%?)")
 _STEP = re.compile(r"^(\S+): done \((\d+) of (\d+)\)")
-HEAD = ("figure", "level", "reached, 95 %", "cases")
+HEAD = (
+    marked("gap", "figure"),
+    marked("gap", "level"),
+    marked("gap", "reached, 95 %"),
+    marked("gap", "cases"),
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +56,11 @@ class BlindResult:
             return cls._of(document)
         except (OSError, ValueError, KeyError, TypeError) as error:
             raise InputError(
-                f"{path}: the result of the blind test cannot be read ({error}); run it once more"
+                translate(
+                    "gap",
+                    "{path}: the result of the blind test cannot be read ({reason}); run it once "
+                    "more",
+                ).format(path=path, reason=error)
             ) from error
 
     @classmethod

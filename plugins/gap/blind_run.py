@@ -6,6 +6,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, QProcess, QTimer, Signal
 
+from rotemina.app.shell.language import translate
 from rotemina.plugins.gap.blind_result import BlindResult, step
 from rotemina.sim.errors import InputError
 
@@ -96,7 +97,9 @@ class BlindRun(QObject):
             self.stopped.emit()
         elif status != 0:
             self.failed.emit(
-                f"The blind test has ended: {self._said.strip() or f'status {status}'}"
+                translate("gap", "The blind test has ended: {reason}").format(
+                    reason=self._said.strip() or f"status {status}"
+                )
             )
         else:
             self._read()
@@ -111,4 +114,8 @@ class BlindRun(QObject):
         if error is QProcess.ProcessError.FailedToStart and self._process is not None:
             self._process.deleteLater()
             self._process = None
-            self.failed.emit(f"{sys.executable}: the blind test cannot be started")
+            self.failed.emit(
+                translate("gap", "{program}: the blind test cannot be started").format(
+                    program=sys.executable
+                )
+            )

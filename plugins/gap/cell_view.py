@@ -7,6 +7,7 @@ import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.plot import SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.gap.cell import Part
@@ -28,14 +29,16 @@ class CellView(QWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self._theme = theme
-        self.back = QPushButton("◂ Map")
-        self.back.setToolTip("Back to the map of the gap by band and regime")
+        self.back = QPushButton(translate("gap", "◂ Map"))
+        self.back.setToolTip(translate("gap", "Back to the map of the gap by band and regime"))
         self.back.clicked.connect(self.closed)
         self.title = QLabel()
         self.title.setTextFormat(Qt.TextFormat.PlainText)
         self.choice = QComboBox()
-        self.choice.setAccessibleName("Record")
-        self.choice.setToolTip("Records by what they hold of this place, the most first")
+        self.choice.setAccessibleName(translate("gap", "Record"))
+        self.choice.setToolTip(
+            translate("gap", "Records by what they hold of this place, the most first")
+        )
         policy = QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
         self.choice.setSizeAdjustPolicy(policy)
         self.choice.setMinimumContentsLength(10)
@@ -75,14 +78,23 @@ class CellView(QWidget):
         for name, _ in CURVES:
             self.plot.clear_signal(name)
         if part is None:
-            self.legend.setText("No record has a row of this place.")
+            self.legend.setText(translate("gap", "No record has a row of this place."))
             return
         trace, theme = part.trace, self._theme
         scale = Scale.of(trace.unit, float(np.abs(trace.before).max()))
+        text = translate(
+            "gap",
+            'gap [{unit}]: <span style="color:{command}">the whole</span>, '
+            '<span style="color:{real}">in this band meanwhile</span>: {rms} rms in {time:.3g} s',
+        )
         self.legend.setText(
-            f'gap [{escape(scale.symbol)}]: <span style="color:{theme.command}">the whole</span>, '
-            f'<span style="color:{theme.real}">in this band meanwhile</span>: '
-            f"{escape(amount(part.rms, trace.unit))} rms in {part.seconds:.3g} s"
+            text.format(
+                unit=escape(scale.symbol),
+                command=theme.command,
+                real=theme.real,
+                rms=escape(amount(part.rms, trace.unit)),
+                time=part.seconds,
+            )
         )
         self.plot.show_signal("whole", trace.time_s, scale(trace.before))
         self.plot.show_signal("within", trace.time_s, scale(part.within))

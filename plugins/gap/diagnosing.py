@@ -9,10 +9,11 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from rotemina.app.display import label
 from rotemina.app.shell.background import Background
+from rotemina.app.shell.language import translate
 from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap.words import effect_word, stage_name
 from rotemina.sim.gap.diagnosis import Diagnosis
 from rotemina.sim.gap.progress import Listener, Progress
-from rotemina.sim.gap.report.words import effect_title
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
 
@@ -148,15 +149,17 @@ def diagnose(robot: Robot, records: Sequence[Record], listener: Listener) -> Dia
 
 def said(progress: Progress, at_s: float, now_s: float) -> str:
     """Return what is done since ``at_s``, for how long all has run, and what the rest may take."""
-    text = progress.stage
+    text = stage_name(progress.stage)
     if progress.axis is not None:
         text += f" {label(progress.axis)}"
     if progress.candidate is not None:
-        text += f": {effect_title(progress.candidate).lower()}"
+        text += f": {effect_word(progress.candidate)}"
     if now_s < _FIRST_GUESS_S:
         return text
     text += f", {now_s:.0f} s"
     if progress.share < _FIRST_GUESS_SHARE:
         return text
     left_s = at_s / progress.share - now_s
-    return f"{text}, about {left_s:.0f} s left" if left_s >= 1.0 else text
+    if left_s < 1.0:
+        return text
+    return translate("gap", "{doing}, about {time:.0f} s left").format(doing=text, time=left_s)

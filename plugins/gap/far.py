@@ -6,18 +6,20 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QSplitter, QVBoxLayout, QWidget
 
 from rotemina.app.display import label
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.bars import Bar, Bars
 from rotemina.plugins.gap.trace_view import TraceView
+from rotemina.plugins.gap.words import effect_title
 from rotemina.sim.gap.diagnosis import Shrinkage
 from rotemina.sim.gap.report.quantities import amount, percent, percents
-from rotemina.sim.gap.report.words import effect_title
 
-TIP = (
+TIP = marked(
+    "gap",
     "Rms of the gap on data that no fit has seen: as the model is, with its own parameters "
     "re-tuned, then with one effect after the other. No model gets below the noise floor; the "
-    "black box is what no explanation can be expected to beat by far."
+    "black box is what no explanation can be expected to beat by far.",
 )
 
 
@@ -28,7 +30,7 @@ class FarView(QSplitter):
         super().__init__(Qt.Orientation.Horizontal)
         self.title = QLabel()
         self.title.setTextFormat(Qt.TextFormat.PlainText)
-        self.title.setToolTip(TIP)
+        self.title.setToolTip(translate("gap", TIP))
         self.bars = Bars(theme)
         self.traces = TraceView(theme)
         left = QWidget()
@@ -59,19 +61,28 @@ class FarView(QSplitter):
 
     def _show_bars(self, told: Shrinkage | None, answer: Answer) -> None:
         if told is None:
-            self.title.setText("No gap to close was found on this axis.")
+            self.title.setText(translate("gap", "No gap to close was found on this axis."))
             self.bars.show_bars((), ())
             return
         unit = answer.unit(told.axis, told.tap)
-        sizes = [("as it is", told.raw, "command"), ("re-tuned", told.retuned, "command")]
+        sizes = [
+            (translate("gap", "as it is"), told.raw, "command"),
+            (translate("gap", "re-tuned"), told.retuned, "command"),
+        ]
         sizes += [(f"+ {effect_title(step.effect)}", step.rms, "model") for step in told.steps]
-        sizes.append(("corrected", told.corrected, "model"))
-        lines = [("floor", told.floor, "good")]
+        sizes.append((translate("gap", "corrected"), told.corrected, "model"))
+        lines = [(translate("gap", "floor"), told.floor, "good")]
         if told.ceiling is not None:
-            lines.append(("black box", told.ceiling, "warning"))
+            lines.append((translate("gap", "black box"), told.ceiling, "warning"))
         self.title.setText(
-            f"{label(told.axis)} {told.tap}, rms on unseen data: closed {percent(told.closed)} "
-            f"({percents(told.closed_interval)})"
+            translate(
+                "gap", "{axis} {tap}, rms on unseen data: closed {share} ({interval})"
+            ).format(
+                axis=label(told.axis),
+                tap=told.tap,
+                share=percent(told.closed),
+                interval=percents(told.closed_interval),
+            )
         )
         self.bars.show_bars(_bars(sizes, unit), _bars(lines, unit))
 

@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 from rotemina.app.display import label
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.controls import ElidedLabel, allow
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
 from rotemina.plugins.gap.actions import Actions
@@ -38,30 +39,35 @@ from rotemina.plugins.gap.running import RunningView
 from rotemina.plugins.gap.tips import tip
 from rotemina.plugins.gap.where import WhereView
 from rotemina.plugins.gap.which import WhichView
-from rotemina.sim.gap.report.words import VERDICTS, summary
+from rotemina.plugins.gap.words import VERDICTS, stage_name, summary
 from rotemina.sim.gap.suggestion import suggestion
 
-VIEWS = ("Where", "Which effect", "How far", "New motion")
+VIEWS = (
+    marked("gap", "Where"),
+    marked("gap", "Which effect"),
+    marked("gap", "How far"),
+    marked("gap", "New motion"),
+)
 WHERE, WHICH, FAR, PROOF, RUNNING, HINT = range(6)
 TIPS = (
-    "On which axis, at which tap, in which frequencies and while the axis did what",
-    "The candidates with their probabilities, what is said of them and what to do",
-    "How far the gap shrinks with what was found, down to the noise floor",
-    "How far it shrinks on a motion that the diagnosis has not seen",
+    marked("gap", "On which axis, at which tap, in which frequencies and while the axis did what"),
+    marked("gap", "The candidates with their probabilities, what is said of them and what to do"),
+    marked("gap", "How far the gap shrinks with what was found, down to the noise floor"),
+    marked("gap", "How far it shrinks on a motion that the diagnosis has not seen"),
 )
 STEPS = (
-    "First: the model, and records of the real machine",
-    "Then: let the program look for what the model lacks",
-    "In the end: use what was found",
+    marked("gap", "First: the model, and records of the real machine"),
+    marked("gap", "Then: let the program look for what the model lacks"),
+    marked("gap", "In the end: use what was found"),
 )
 _HEIGHT = 240
-_NO_ANSWER = "there is no answer yet; diagnose records first"
+_NO_ANSWER = marked("gap", "there is no answer yet; diagnose records first")
 
 
 class GapPanel(Panel):
     """A diagnosis from the choice of records to a corrected model."""
 
-    title = "Gap diagnosis"
+    title = marked("panels", "Gap diagnosis")
     area = Area.BOTTOM
     order = 50
     help_page = "gap-diagnosis.md#in-the-window"
@@ -87,24 +93,26 @@ class GapPanel(Panel):
     # --- parts ------------------------------------------------------------------------------------
 
     def _make_buttons(self) -> None:
-        self.start = QPushButton("Diagnose")
+        self.start = QPushButton(translate("gap", "Diagnose"))
         self.start.setProperty("primary", True)
-        self.stop = QPushButton("Stop")
+        self.stop = QPushButton(translate("gap", "Stop"))
         self.progress = QProgressBar()
         self.progress.setRange(0, 1000)
         self.progress.setTextVisible(False)
         self.progress.setMaximumWidth(220)
         self.doing = ElidedLabel()
-        self.twin = QPushButton("Add to twin …")
-        self.motion = QPushButton("New motion …")
-        self.report = QPushButton("Report …")
+        self.twin = QPushButton(translate("gap", "Add to twin …"))
+        self.motion = QPushButton(translate("gap", "New motion …"))
+        self.report = QPushButton(translate("gap", "Report …"))
         self.more = QToolButton()
-        self.more.setText("More")
-        self.more.setToolTip("Save the diagnosis as JSON; test how often the diagnosis is right")
+        self.more.setText(translate("gap", "More"))
+        self.more.setToolTip(
+            translate("gap", "Save the diagnosis as JSON; test how often the diagnosis is right")
+        )
         self.more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         menu = QMenu(self)
-        self.save = menu.addAction("Save JSON …")
-        self.test = menu.addAction("Blind test …")
+        self.save = menu.addAction(translate("gap", "Save JSON …"))
+        self.test = menu.addAction(translate("gap", "Blind test …"))
         self.more.setMenu(menu)
 
     def _make_views(self) -> None:
@@ -116,23 +124,26 @@ class GapPanel(Panel):
         for view in (self.where, self.which, self.far, self.proof, self.running, self.hint):
             self.views.addWidget(view)
         self.tabs = QTabBar()
-        self.tabs.setAccessibleName("What is shown")
+        self.tabs.setAccessibleName(translate("gap", "What is shown"))
         self.tabs.setExpanding(False)
         self.tabs.setDrawBase(False)
         for number, name in enumerate(VIEWS):
-            self.tabs.addTab(name)
-            self.tabs.setTabToolTip(number, TIPS[number])
+            self.tabs.addTab(translate("gap", name))
+            self.tabs.setTabToolTip(number, translate("gap", TIPS[number]))
         self.verdict = ElidedLabel()
-        self.plan = QPushButton("Play next experiment …")
+        self.plan = QPushButton(translate("gap", "Play next experiment …"))
         self.plan.setToolTip(
             tip(
-                "Play the motion that would tell best what these records cannot, and diagnose its "
-                "record together with them"
+                translate(
+                    "gap",
+                    "Play the motion that would tell best what these records cannot, and "
+                    "diagnose its record together with them",
+                )
             )
         )
         self.axis = QComboBox()
-        self.axis.setAccessibleName("Axis")
-        self.axis.setToolTip("The axis of which the page speaks")
+        self.axis.setAccessibleName(translate("gap", "Axis"))
+        self.axis.setToolTip(translate("gap", "The axis of which the page speaks"))
 
     def _lay_out(self) -> None:
         top = QHBoxLayout()
@@ -145,7 +156,7 @@ class GapPanel(Panel):
         for number, widgets in enumerate(groups, start=1):
             step = QLabel(str(number))
             step.setProperty("heading", True)
-            step.setToolTip(STEPS[number - 1])
+            step.setToolTip(translate("gap", STEPS[number - 1]))
             top.addWidget(step)
             for widget in widgets:
                 top.addWidget(widget)
@@ -216,11 +227,17 @@ class GapPanel(Panel):
         chosen = self.records.chosen
         if not chosen:
             self.workbench.notify(
-                Level.WARNING, "There are no records to diagnose: choose some.", about=self
+                Level.WARNING,
+                translate("gap", "There are no records to diagnose: choose some."),
+                about=self,
             )
             return
         names = [each.name for each in chosen]
-        doing = "waiting for the end of what was stopped" if self.diagnosing.busy else "reading"
+        doing = (
+            translate("gap", "waiting for the end of what was stopped")
+            if self.diagnosing.busy
+            else stage_name("reading")
+        )
         self.running.begin()
         self.diagnosing.start(self.robots.robot, names, [each.record for each in chosen])
         self._show_progress(doing, 0.0)
@@ -229,7 +246,7 @@ class GapPanel(Panel):
     def end(self) -> None:
         """Stop the diagnosis that runs."""
         self.diagnosing.stop()
-        self.doing.show_text("The diagnosis was stopped.")
+        self.doing.show_text(translate("gap", "The diagnosis was stopped."))
         self._show_state()
 
     def take_answer(self, answer: Answer) -> None:
@@ -244,12 +261,13 @@ class GapPanel(Panel):
         self._show_axis()
         self.verdict.show_text(headline(answer))
         said = summary(answer.diagnosis, answer.records)
-        self.verdict.setToolTip(tip(f"{VERDICTS[answer.diagnosis.verdict]}.", *said))
+        verdict = translate("gap", VERDICTS[answer.diagnosis.verdict])
+        self.verdict.setToolTip(tip(f"{verdict}.", *said))
         self.doing.show_text("")
         self._show_state()
 
     def _fail(self, message: str) -> None:
-        self.doing.show_text("The diagnosis failed; the notice above says why.")
+        self.doing.show_text(translate("gap", "The diagnosis failed; the notice above says why."))
         self.workbench.notify(Level.ERROR, message, about=self)
         self._show_state()
 
@@ -258,20 +276,42 @@ class GapPanel(Panel):
     def _show_state(self) -> None:
         running, answer = self.diagnosing.running, self.answer
         chosen = len(self.records.chosen)
-        self.start.setText("Diagnose" if chosen else "Diagnose …")
-        tip_of_start = (
-            "Look for what the model lacks" if chosen else "Choose records, diagnose them"
+        self.start.setText(
+            translate("gap", "Diagnose") if chosen else translate("gap", "Diagnose …")
         )
-        allow(self.start, "a diagnosis runs" if running else None, tip_of_start)
-        allow(self.stop, None if running else "nothing runs", "End it now; motion goes on")
+        tip_of_start = (
+            translate("gap", "Look for what the model lacks")
+            if chosen
+            else translate("gap", "Choose records, diagnose them")
+        )
+        allow(self.start, translate("gap", "a diagnosis runs") if running else None, tip_of_start)
+        allow(
+            self.stop,
+            None if running else translate("gap", "nothing runs"),
+            translate("gap", "End it now; motion goes on"),
+        )
         self.robots.setEnabled(not running)
         self.records.setEnabled(not running)
         self.progress.setVisible(running)
-        why = _NO_ANSWER if answer is None else None
-        found = why or (None if answer and answer.diagnosis.fitted else "no effect was found")
-        allow(self.twin, found, "Write a robot file of the model with what was found")
-        allow(self.motion, found, "Play a motion that no record holds, and see how far it is off")
-        allow(self.report, why, "Write the report, a page with all figures, and open it")
+        why = translate("gap", _NO_ANSWER) if answer is None else None
+        found = why or (
+            None if answer and answer.diagnosis.fitted else translate("gap", "no effect was found")
+        )
+        allow(
+            self.twin,
+            found,
+            translate("gap", "Write a robot file of the model with what was found"),
+        )
+        allow(
+            self.motion,
+            found,
+            translate("gap", "Play a motion that no record holds, and see how far it is off"),
+        )
+        allow(
+            self.report,
+            why,
+            translate("gap", "Write the report, a page with all figures, and open it"),
+        )
         self.save.setEnabled(why is None)
         self.plan.setVisible(answer is not None and bool(answer.diagnosis.experiments))
         self.plan.setEnabled(not running)
@@ -286,7 +326,8 @@ class GapPanel(Panel):
 
     def _show_progress(self, doing: str, share: float) -> None:
         self.progress.setValue(round(1000 * share))
-        self.progress.setToolTip(f"{100.0 * share:.0f} % done")
+        text = translate("gap", "{share:.0f} % done")
+        self.progress.setToolTip(text.format(share=100.0 * share))
         self.doing.show_text(doing)
 
     def _show_axis(self) -> None:
@@ -309,7 +350,9 @@ class GapPanel(Panel):
         made = suggestion(experiments[number], number + 1, "gap", self._known.units)
         self._experiment = made.names.commands
         trajectory = made.records[self._experiment]
-        self.playing.ask(self.main_window, "Next experiment", self._experiment, trajectory)
+        self.playing.ask(
+            self.main_window, translate("gap", "Next experiment"), self._experiment, trajectory
+        )
 
     def check(self) -> None:
         """Ask whether to play a motion of the diagnosed axes that no record holds."""
@@ -319,9 +362,11 @@ class GapPanel(Panel):
         name = self._check
         self.workbench.work(
             "gap motion",
-            "Making a motion …",
+            translate("gap", "Making a motion …"),
             lambda: new_motion(answer.diagnosis, answer.records, axes),
-            lambda motion: self.playing.ask(self.main_window, "New motion", name, motion),
+            lambda motion: self.playing.ask(
+                self.main_window, translate("gap", "New motion"), name, motion
+            ),
         )
 
     def _use_played(self, run: Run) -> None:
@@ -337,7 +382,7 @@ class GapPanel(Panel):
             return
         self.workbench.work(
             "gap proof",
-            "Comparing with the twin …",
+            translate("gap", "Comparing with the twin …"),
             lambda: prove(answer.diagnosis, run.name, run.record),
             lambda proof: self._take_proof(answer, proof),
         )

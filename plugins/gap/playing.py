@@ -4,6 +4,7 @@ from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QMessageBox, QWidget
 
 from rotemina.app.display import axis_scale, label
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Plan, Run, Workbench
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
@@ -33,13 +34,13 @@ class Playing(QObject):
         question.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         question.setWindowTitle(title)
         question.setTextFormat(Qt.TextFormat.PlainText)
-        question.setText("Play this motion on the machine now?")
+        question.setText(translate("gap", "Play this motion on the machine now?"))
         question.setInformativeText(told(self._workbench.robot, trajectory))
         yes, no = QMessageBox.StandardButton.Yes, QMessageBox.StandardButton.No
         question.setStandardButtons(yes | no)
         question.setDefaultButton(no)
-        question.button(yes).setText("Play")
-        question.button(no).setText("Not now")
+        question.button(yes).setText(translate("gap", "Play"))
+        question.button(no).setText(translate("gap", "Not now"))
         question.finished.connect(lambda said: self.play(name, trajectory) if said == yes else None)
         question.setModal(False)
         question.show()
@@ -65,13 +66,17 @@ class Playing(QObject):
 
 def told(robot: Robot, trajectory: Record) -> str:
     """Return how long a motion lasts, and from where to where it leads each axis."""
-    lines = [f"It takes {trajectory.duration_s:.3g} s, after the way to its first row."]
+    lasts = translate("gap", "It takes {time:.3g} s, after the way to its first row.")
+    lines = [lasts.format(time=trajectory.duration_s)]
+    rests = translate("gap", "rests at {low} {unit}")
     for axis in trajectory.axes:
         way = trajectory.signal(axis, Tap.CMD)
         scale = axis_scale(robot.axes[axis])
         low, high = scale.number(float(way.min())), scale.number(float(way.max()))
         moves = (
-            f"{low} … {high} {scale.symbol}" if low != high else f"rests at {low} {scale.symbol}"
+            f"{low} … {high} {scale.symbol}"
+            if low != high
+            else rests.format(low=low, unit=scale.symbol)
         )
         lines.append(f"{label(axis)}: {moves}")
     return "\n".join(lines)

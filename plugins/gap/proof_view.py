@@ -4,6 +4,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QSplitter, QStackedWidget, QVBoxLayout, QWidget
 
 from rotemina.app.display import label
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.gap.advice import NO_PROOF
 from rotemina.plugins.gap.hint import hint
@@ -12,7 +13,14 @@ from rotemina.plugins.gap.table import Table
 from rotemina.plugins.gap.trace_view import TraceView
 from rotemina.sim.gap.report.quantities import amount
 
-HEAD = ("axis, tap", "as it was", "with the twin", "smaller", "95 %", "floor")
+HEAD = (
+    marked("gap", "axis, tap"),
+    marked("gap", "as it was"),
+    marked("gap", "with the twin"),
+    marked("gap", "smaller"),
+    "95 %",
+    marked("gap", "floor"),
+)
 
 
 class ProofView(QStackedWidget):
@@ -24,10 +32,13 @@ class ProofView(QStackedWidget):
         self.title = QLabel()
         self.title.setTextFormat(Qt.TextFormat.PlainText)
         self.title.setToolTip(
-            "Rms of what was measured less what the model says, its mean taken out; intervals by "
-            "drawing blocks of the record anew"
+            translate(
+                "gap",
+                "Rms of what was measured less what the model says, its mean taken out; "
+                "intervals by drawing blocks of the record anew",
+            )
         )
-        self.table = Table("How far the gap shrinks on the new motion", HEAD)
+        self.table = Table(translate("gap", "How far the gap shrinks on the new motion"), HEAD)
         self.table.currentCellChanged.connect(lambda row, *_: self._choose(row))
         self.traces = TraceView(theme)
         left = QWidget()
@@ -40,7 +51,7 @@ class ProofView(QStackedWidget):
         split.addWidget(left)
         split.addWidget(self.traces)
         split.setSizes([520, 420])
-        self.addWidget(hint(NO_PROOF))
+        self.addWidget(hint(translate("gap", NO_PROOF)))
         self.addWidget(split)
 
     def show_proof(self, proof: Proof | None) -> None:
@@ -48,7 +59,8 @@ class ProofView(QStackedWidget):
         self.proof = proof
         self.setCurrentIndex(0 if proof is None else 1)
         shrunk = () if proof is None else proof.shrunk
-        self.title.setText("" if proof is None else f"Gap on {proof.name}, rms")
+        text = translate("gap", "Gap on {record}, rms")
+        self.title.setText("" if proof is None else text.format(record=proof.name))
         self.table.show_rows([_row(one) for one in shrunk])
         self.traces.show_traces(
             [(f"{label(one.trace.axis)} {one.trace.tap}", one.trace) for one in shrunk]

@@ -8,8 +8,8 @@ from rotemina.app.display import label
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.gap.tips import tip
+from rotemina.plugins.gap.words import effect_title
 from rotemina.sim.gap.report.quantities import percent
-from rotemina.sim.gap.report.words import effect_title
 from rotemina.sim.gap.standing import Grade, Ranking, Standing
 
 _ROW = 20  # high

@@ -9,6 +9,7 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QFileDialog, QMenu, QToolButton
 
 from rotemina.app.shell.column_mapping import ask_columns
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Run, Workbench
 from rotemina.plugins.gap.tips import tip
 from rotemina.sim.records.preview import preview
@@ -17,7 +18,7 @@ from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
 
 _ENOUGH = 3  # each then serves as data that a fit has not seen
-FILES = "Records (*.csv *.txt *.dat *.gz);;All files (*)"
+FILES = marked("gap", "Records (*.csv *.txt *.dat *.gz);;All files (*)")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -98,11 +99,20 @@ class RecordChoice(QToolButton):
 
     def _show(self) -> None:
         count = len(self.chosen)
-        self.setText(f"{count} record{'' if count == 1 else 's'}" if count else "Records …")
+        text = translate("gap", "{n} records").format(n=count)
+        if count < 2:
+            text = translate("gap", "1 record") if count else translate("gap", "Records …")
+        self.setText(text)
         names = [each.name for each in self.chosen]
-        few = "Three records of different motions or more tell best." if count < _ENOUGH else ""
-        said = names or ["Choose the records of the real machine"]
-        self.setToolTip(tip("Records that are diagnosed:" if names else "", *said, few))
+        few = (
+            translate("gap", "Three records of different motions or more tell best.")
+            if count < _ENOUGH
+            else ""
+        )
+        said = names or [translate("gap", "Choose the records of the real machine")]
+        self.setToolTip(
+            tip(translate("gap", "Records that are diagnosed:") if names else "", *said, few)
+        )
 
     # --- reading ----------------------------------------------------------------------------------
 
@@ -120,13 +130,19 @@ class RecordChoice(QToolButton):
             else:
                 self._workbench.notify(
                     Level.WARNING,
-                    f"{path.name}: it has no header; add it by itself to name its columns",
+                    translate(
+                        "gap", "{name}: it has no header; add it by itself to name its columns"
+                    ).format(name=path.name),
                     about=self,
                 )
             self._count_read()
 
         self._workbench.work(
-            f"gap record {path}", f"Reading {path.name} …", work, done, self._count_read
+            f"gap record {path}",
+            translate("gap", "Reading {name} …").format(name=path.name),
+            work,
+            done,
+            self._count_read,
         )
 
     def _count_read(self) -> None:
@@ -138,7 +154,7 @@ class RecordChoice(QToolButton):
         robot = self._robot
         self._workbench.work(
             f"gap record {path}",
-            f"Reading {path.name} …",
+            translate("gap", "Reading {name} …").format(name=path.name),
             lambda: read_record(path, columns=columns, robot=robot),
             lambda record: self._set((*self._kept(), Chosen(path.name, record))),
         )
@@ -148,15 +164,20 @@ class RecordChoice(QToolButton):
     def _fill(self) -> None:
         menu = self.menu()
         menu.clear()
-        self._add(menu, "Add files …").triggered.connect(self.ask)
+        self._add(menu, translate("gap", "Add files …")).triggered.connect(self.ask)
         run = self._workbench.run
-        last = self._add(menu, f"Add {run.name}" if run is not None else "Add the last playback")
+        last = self._add(
+            menu,
+            translate("gap", "Add {name}").format(name=run.name)
+            if run is not None
+            else translate("gap", "Add the last playback"),
+        )
         last.setEnabled(run is not None)
         last.triggered.connect(lambda: self.take(self._workbench.run))
         if self.chosen:
             menu.addSeparator()
         for each in self.chosen:
-            action = self._add(menu, f"Remove {each.name}")
+            action = self._add(menu, translate("gap", "Remove {name}").format(name=each.name))
             action.triggered.connect(lambda _=False, one=each: self.remove(one))
 
     @staticmethod
@@ -167,7 +188,10 @@ class RecordChoice(QToolButton):
         """Ask for files, and add them."""
         settings = self._workbench.settings
         dialog = QFileDialog(
-            self.window(), "Records of the real machine", settings.get("files.folder", ""), FILES
+            self.window(),
+            translate("gap", "Records of the real machine"),
+            settings.get("files.folder", ""),
+            translate("gap", FILES),
         )
         dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)

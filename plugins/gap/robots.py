@@ -5,6 +5,7 @@ from pathlib import Path
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QComboBox, QFileDialog
 
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.sim.robot.file import load_robot, shipped_robots
 from rotemina.sim.robot.model import Robot
@@ -28,15 +29,17 @@ class RobotChoice(QComboBox):
         self.robot: Robot = workbench.robot
         self.source: str | Path | None = None  # of the robot's text, None for the one in use
         self._place = 0
-        self.setAccessibleName("Model")
-        self.setToolTip("The model whose gap is looked for; at first the one in use")
+        self.setAccessibleName(translate("gap", "Model"))
+        self.setToolTip(
+            translate("gap", "The model whose gap is looked for; at first the one in use")
+        )
         self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.setMinimumContentsLength(11)
         self.setMinimumWidth(80)  # where the window is narrow, a name is cut rather than the row
-        self.addItem(f"{workbench.robot.name} (in use)", None)
+        self.addItem(translate("gap", "{robot} (in use)").format(robot=workbench.robot.name), None)
         for name in shipped_robots():
             self.addItem(name, name)
-        self.addItem("Robot file …", _FILE)
+        self.addItem(translate("gap", "Robot file …"), _FILE)
         self.activated.connect(self._choose)
 
     def load(self, source: str | Path | None) -> None:
@@ -46,7 +49,7 @@ class RobotChoice(QComboBox):
             return
         self._workbench.work(
             "gap robot",
-            f"Reading {source} …",
+            translate("gap", "Reading {name} …").format(name=source),
             lambda: load_robot(source),
             lambda robot: self._take(source, robot),
         )
@@ -70,7 +73,10 @@ class RobotChoice(QComboBox):
     def _ask(self) -> None:
         settings = self._workbench.settings
         dialog = QFileDialog(
-            self.window(), "Robot file", settings.get("files.folder", ""), "Robot files (*.toml)"
+            self.window(),
+            translate("gap", "Robot file"),
+            settings.get("files.folder", ""),
+            translate("gap", "Robot files (*.toml)"),
         )
         dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)

@@ -6,17 +6,19 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableWidget, QTableWidgetItem
 
+from rotemina.app.shell.language import translate
+
 RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 _ROW = 22
 
 
 class Table(QTableWidget):
-    """Rows of text; all columns but the first hold numbers."""
+    """Rows of text under a head of marked texts; all columns but the first hold numbers."""
 
     def __init__(self, name: str, head: Sequence[str] = ()) -> None:
         super().__init__(0, len(head))
         self.setAccessibleName(name)
-        self.setHorizontalHeaderLabels(list(head))
+        self.setHorizontalHeaderLabels([translate("gap", text) for text in head])
         self.verticalHeader().hide()
         self.verticalHeader().setDefaultSectionSize(_ROW)
         self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
@@ -27,7 +29,7 @@ class Table(QTableWidget):
     def set_head(self, head: Sequence[str]) -> None:
         """Name the columns anew."""
         self.setColumnCount(len(head))
-        self.setHorizontalHeaderLabels(list(head))
+        self.setHorizontalHeaderLabels([translate("gap", text) for text in head])
 
     def show_rows(
         self, rows: Sequence[Sequence[str]], colours: Sequence[QColor | None] = ()

@@ -6,6 +6,7 @@ from html import escape
 import numpy as np
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.plot import SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.sim.gap.report.quantities import Scale
@@ -21,8 +22,8 @@ class TraceView(QWidget):
         super().__init__()
         self._theme = theme
         self.choice = QComboBox()
-        self.choice.setAccessibleName("Record and tap")
-        self.choice.setToolTip("Which record, at which tap of the chain")
+        self.choice.setAccessibleName(translate("gap", "Record and tap"))
+        self.choice.setToolTip(translate("gap", "Which record, at which tap of the chain"))
         policy = QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
         self.choice.setSizeAdjustPolicy(policy)
         self.choice.setMinimumContentsLength(14)
@@ -69,10 +70,25 @@ class TraceView(QWidget):
             return
         scale = Scale.of(trace.unit, float(np.abs(trace.before).max()))
         theme = self._theme
-        after = f', <span style="color:{theme.model}">after</span>' if trace.changed else ""
+        text = translate(
+            "gap",
+            'gap [{unit}]: <span style="color:{command}">before</span>, '
+            '<span style="color:{good}">noise floor</span>',
+        )
+        if trace.changed:
+            text = translate(
+                "gap",
+                'gap [{unit}]: <span style="color:{command}">before</span>, '
+                '<span style="color:{model}">after</span>, '
+                '<span style="color:{good}">noise floor</span>',
+            )
         self.title.setText(
-            f'gap [{escape(scale.symbol)}]: <span style="color:{theme.command}">before</span>'
-            f'{after}, <span style="color:{theme.good}">noise floor</span>'
+            text.format(
+                unit=escape(scale.symbol),
+                command=theme.command,
+                model=theme.model,
+                good=theme.good,
+            )
         )
         time_s = trace.time_s
         self.plot.show_signal("before", time_s, scale(trace.before))

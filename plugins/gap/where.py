@@ -8,26 +8,40 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QLabel, QSplitter, QStackedWidget, QVBoxLayout, QWidget
 
 from rotemina.app.display import label
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.cell import parts
 from rotemina.plugins.gap.cell_view import CellView
 from rotemina.plugins.gap.table import Table
 from rotemina.plugins.gap.tips import tip
+from rotemina.plugins.gap.words import regime_name
 from rotemina.sim.gap.document import shares
 from rotemina.sim.gap.report.heat import Heat
 from rotemina.sim.gap.report.quantities import NOTHING, amount, percent, percents
 from rotemina.sim.gap.where import Place
 
-HEAD = ("axis, tap", "share", "gap rms", "floor", "worst at", "while", "95 % of the share")
+HEAD = (
+    marked("gap", "axis, tap"),
+    marked("gap", "share"),
+    marked("gap", "gap rms"),
+    marked("gap", "floor"),
+    marked("gap", "worst at"),
+    marked("gap", "while"),
+    marked("gap", "95 % of the share"),
+)
 _TIPS = (
-    "Where it was read: u is the voltage, ref the reference sensor, meas the machine's own sensor",
-    "Of the gap above the noise floors of all axes and taps",
-    "Of what was measured less what the model says, its mean taken out",
-    "Rms of what noise and rounding of the sensor leave, which no model explains",
-    "The band that holds most of it",
-    "What the axis was doing where the gap is largest",
-    "The share is between these in 95 of 100 cases",
+    marked(
+        "gap",
+        "Where it was read: u is the voltage, ref the reference sensor, meas the machine's own "
+        "sensor",
+    ),
+    marked("gap", "Of the gap above the noise floors of all axes and taps"),
+    marked("gap", "Of what was measured less what the model says, its mean taken out"),
+    marked("gap", "Rms of what noise and rounding of the sensor leave, which no model explains"),
+    marked("gap", "The band that holds most of it"),
+    marked("gap", "What the axis was doing where the gap is largest"),
+    marked("gap", "The share is between these in 95 of 100 cases"),
 )
 _BANDS = 2  # columns before those of the bands
 _COLDEST = 0.3  # floors
@@ -43,13 +57,13 @@ class WhereView(QSplitter):
         self._theme = theme
         self._answer: Answer | None = None
         self._places: list[Place] = []
-        self.places = Table("Where the gap lies", HEAD)
+        self.places = Table(translate("gap", "Where the gap lies"), HEAD)
         for column, text in enumerate(_TIPS):
-            self.places.horizontalHeaderItem(column).setToolTip(tip(text))
+            self.places.horizontalHeaderItem(column).setToolTip(tip(translate("gap", text)))
         self.heat_title = QLabel()
         self.heat_title.setTextFormat(Qt.TextFormat.PlainText)
         self.heat_title.setWordWrap(True)
-        self.heat = Table("Gap by band and regime")
+        self.heat = Table(translate("gap", "Gap by band and regime"))
         self.heat.setSelectionMode(Table.SelectionMode.NoSelection)
         self.heat.setCursor(Qt.CursorShape.PointingHandCursor)
         self.heat.cellClicked.connect(self.open_cell)
@@ -98,7 +112,13 @@ class WhereView(QSplitter):
         heat = self._answer.heats[place.axis, place.tap]
         own = [one for one in self._answer.traces[place.axis] if one.tap is place.tap]
         low, high = heat.edges_hz[band], heat.edges_hz[band + 1]
-        title = f"{label(place.axis)} {place.tap}, {heat.regimes[row]}, {low:g} to {high:g} Hz"
+        title = translate("gap", "{axis} {tap}, {regime}, {low:g} to {high:g} Hz").format(
+            axis=label(place.axis),
+            tap=place.tap,
+            regime=regime_name(heat.regimes[row]),
+            low=low,
+            high=high,
+        )
         self.cell.show_parts(title, self._answer.names, parts(own, heat, row, band))
         self.right.setCurrentWidget(self.cell)
 
@@ -123,11 +143,17 @@ class WhereView(QSplitter):
         name = f"{label(place.axis)} {place.tap}"
         heat = self._answer.heats.get((place.axis, place.tap))
         if heat is None:
-            self._clear(f"{name}: no record is sampled evenly and long enough for a map")
+            text = translate(
+                "gap", "{place}: no record is sampled evenly and long enough for a map"
+            )
+            self._clear(text.format(place=name))
             return
         self.heat_title.setText(
-            f"{name}: gap rms [noise floors], by what the axis did and by frequency from … Hz on. "
-            "Click a cell to see its traces."
+            translate(
+                "gap",
+                "{place}: gap rms [noise floors], by what the axis did and by frequency from … "
+                "Hz on. Click a cell to see its traces.",
+            ).format(place=name)
         )
         self._draw(heat)
 
@@ -138,15 +164,18 @@ class WhereView(QSplitter):
 
     def _draw(self, heat: Heat) -> None:
         edges = [f"{edge:g}" for edge in heat.edges_hz]
-        self.heat.set_head(("while", "share", *edges[:-1]))
+        self.heat.set_head((marked("gap", "while"), marked("gap", "share"), *edges[:-1]))
+        between = translate("gap", "{low} to {high} Hz")
         for column, (low, high) in enumerate(pairwise(edges), start=_BANDS):
-            self.heat.horizontalHeaderItem(column).setToolTip(f"{low} to {high} Hz")
+            self.heat.horizontalHeaderItem(column).setToolTip(between.format(low=low, high=high))
         self.heat.show_rows(
             [
-                (str(regime), percent(float(share.sum())), *map(_few, floors))
+                (regime_name(regime), percent(float(share.sum())), *map(_few, floors))
                 for regime, floors, share in zip(heat.regimes, heat.floors, heat.share, strict=True)
             ]
         )
+        here = translate("gap", "{regime}, {low} to {high} Hz: {floors} noise floors rms")
+        whole = translate("gap", "{share} of the gap of the whole path")
         for row, floors in enumerate(heat.floors):
             for column, value in enumerate(floors, start=_BANDS):
                 colour = QColor(self._theme.real)
@@ -157,9 +186,14 @@ class WhereView(QSplitter):
                 low, high = edges[column - _BANDS], edges[column - _BANDS + 1]
                 item.setToolTip(
                     tip(
-                        f"{heat.regimes[row]}, {low} to {high} Hz: {_few(value)} noise floors rms",
-                        f"{share} of the gap of the whole path",
-                        "Click to see the traces",
+                        here.format(
+                            regime=regime_name(heat.regimes[row]),
+                            low=low,
+                            high=high,
+                            floors=_few(value),
+                        ),
+                        whole.format(share=share),
+                        translate("gap", "Click to see the traces"),
                     )
                 )
 
@@ -180,10 +214,10 @@ def _row(
     band = place.worst_band_hz
     return (
         f"{label(place.axis)} {place.tap}",
-        percent(share[0]) if share is not None else "noise",
+        percent(share[0]) if share is not None else translate("gap", "noise"),
         amount(place.gap_rms, unit),
         amount(place.noise_floor, unit),
         NOTHING if band is None else f"{band[0]:.3g}…{band[1]:.3g} Hz",
-        str(place.worst_regime or NOTHING),
+        NOTHING if place.worst_regime is None else regime_name(place.worst_regime),
         percents(share[1]) if share is not None else NOTHING,
     )

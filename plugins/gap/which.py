@@ -7,28 +7,43 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QPlainTextEdit, QSplitter
 
 from rotemina.app.display import label
+from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.gap.advice import advice
 from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.table import Table
 from rotemina.plugins.gap.tips import tip
+from rotemina.plugins.gap.words import (
+    AXIS_VERDICTS,
+    all_of,
+    any_of,
+    effect_title,
+    effect_word,
+    formulation_name,
+)
 from rotemina.sim.gap.diagnosis import AxisDiagnosis, Cause, FittedParameter, Ranked
 from rotemina.sim.gap.report.quantities import amount, amounts, percent, percents
-from rotemina.sim.gap.report.words import (
-    AXIS_VERDICTS,
-    effect_title,
-    listed,
-    parameter_unit,
-)
+from rotemina.sim.gap.report.words import parameter_unit
 
-HEAD = ("candidate", "probability", "left [floors]", "95 %")
+HEAD = (
+    marked("gap", "candidate"),
+    marked("gap", "probability"),
+    marked("gap", "left [floors]"),
+    "95 %",
+)
 _TIPS = (
-    "What was tried in place of the leading cause, the likeliest first; those that may be it "
-    "stand out",
-    "How likely it is the cause, of those tried and what is not among them",
-    "Rms of the gap that it leaves on data that its fit did not see, in noise floors: 1 is all "
-    "that noise allows",
-    "What it leaves is between these in 95 of 100 cases, in noise floors",
+    marked(
+        "gap",
+        "What was tried in place of the leading cause, the likeliest first; those that may be it "
+        "stand out",
+    ),
+    marked("gap", "How likely it is the cause, of those tried and what is not among them"),
+    marked(
+        "gap",
+        "Rms of the gap that it leaves on data that its fit did not see, in noise floors: 1 is "
+        "all that noise allows",
+    ),
+    marked("gap", "What it leaves is between these in 95 of 100 cases, in noise floors"),
 )
 
 
@@ -39,14 +54,14 @@ class WhichView(QSplitter):
         super().__init__(Qt.Orientation.Horizontal)
         self._theme = theme
         self._shown: tuple[Answer, str] | None = None
-        self.ranking = Table("Candidates, likeliest first", HEAD)
+        self.ranking = Table(translate("gap", "Candidates, likeliest first"), HEAD)
         self.ranking.setSelectionMode(Table.SelectionMode.NoSelection)
         for column, text in enumerate(_TIPS):
-            self.ranking.horizontalHeaderItem(column).setToolTip(tip(text))
+            self.ranking.horizontalHeaderItem(column).setToolTip(tip(translate("gap", text)))
         self.text = QPlainTextEdit()
         self.text.setReadOnly(True)
-        self.text.setAccessibleName("What is said of the axis")
-        self.text.setToolTip("What the diagnosis says of the axis")
+        self.text.setAccessibleName(translate("gap", "What is said of the axis"))
+        self.text.setToolTip(translate("gap", "What the diagnosis says of the axis"))
         self.addWidget(self.ranking)
         self.addWidget(self.text)
         self.setSizes([480, 460])
@@ -74,9 +89,10 @@ class WhichView(QSplitter):
 def _row(ranked: Ranked) -> tuple[str, ...]:
     name = effect_title(ranked.effect)
     if ranked.from_axis is not None:
-        name += f" from {label(ranked.from_axis)}"
+        text = translate("gap", "{effect} from {axis}")
+        name = text.format(effect=name, axis=label(ranked.from_axis))
     if ranked.formulation is not None:
-        name += f" ({ranked.formulation.replace('_', ' ')})"
+        name += f" ({formulation_name(ranked.formulation)})"
     return (
         name,
         percent(ranked.probability),
@@ -86,7 +102,8 @@ def _row(ranked: Ranked) -> tuple[str, ...]:
 
 
 def _lines(one: AxisDiagnosis, answer: Answer) -> Iterator[str]:
-    yield f"{AXIS_VERDICTS[one.verdict]}."
+    verdict = translate("gap", AXIS_VERDICTS[one.verdict])
+    yield f"{verdict}."
     experiments = [own for own in answer.diagnosis.experiments if own.axis == one.axis]
     yield from advice(one, has_experiment=bool(experiments))
     for cause in one.causes:
@@ -94,25 +111,38 @@ def _lines(one: AxisDiagnosis, answer: Answer) -> Iterator[str]:
     yield from one.remarks
     reasons: dict[str, list[str]] = {}
     for each in one.untestable:
-        reasons.setdefault(each.reason, []).append(effect_title(each.effect).lower())
+        reasons.setdefault(each.reason, []).append(effect_word(each.effect))
     for reason, effects in reasons.items():
-        yield f"Not testable: {listed(effects)} ({reason})."
+        text = translate("gap", "Not testable: {effects} ({reason}).")
+        yield text.format(effects=all_of(effects), reason=reason)
     for experiment in experiments:
-        yield f"Next experiment: {experiment.why}"
+        yield translate("gap", "Next experiment: {why}").format(why=experiment.why)
 
 
 def _cause(cause: Cause, answer: Answer) -> Iterator[str]:
     unit = answer.unit(cause.axis, cause.tap)
-    source = f" from {label(cause.from_axis)}" if cause.from_axis is not None else ""
-    yield (
-        f"{effect_title(cause.effect)}{source}: {percent(cause.probability)} likely; "
-        f"{amount(cause.gap_before, unit)} rms without it, {amount(cause.gap_after, unit)} with it"
-        f" at {cause.tap}, on unseen data; closes {percent(cause.closed)}"
-        f" ({percents(cause.closed_interval)})."
+    name = effect_title(cause.effect)
+    if cause.from_axis is not None:
+        source = translate("gap", "{effect} from {axis}")
+        name = source.format(effect=name, axis=label(cause.from_axis))
+    text = translate(
+        "gap",
+        "{effect}: {share} likely; {before} rms without it, {after} with it at {tap}, on unseen "
+        "data; closes {closed} ({interval}).",
+    )
+    yield text.format(
+        effect=name,
+        share=percent(cause.probability),
+        before=amount(cause.gap_before, unit),
+        after=amount(cause.gap_after, unit),
+        tap=cause.tap,
+        closed=percent(cause.closed),
+        interval=percents(cause.closed_interval),
     )
     if cause.ambiguous_with:
-        rivals = [effect_title(effect).lower() for effect in cause.ambiguous_with]
-        yield f"    These records cannot tell it from {listed(rivals, 'or')}."
+        rivals = any_of([effect_word(effect) for effect in cause.ambiguous_with])
+        text = translate("gap", "    These records cannot tell it from {effects}.")
+        yield text.format(effects=rivals)
     for one in cause.parameters:
         yield f"    {_parameter(one, parameter_unit(one, cause, answer.records))}"
 
@@ -121,4 +151,8 @@ def _parameter(one: FittedParameter, unit: str) -> str:
     text = f"{one.name.replace('_', ' ')}: {amount(one.value, unit)}"
     if one.interval is not None:
         text += f" ({amounts(one.interval, unit)})"
-    return text if one.at_bound is None else f"{text}, at its {one.at_bound} bound"
+    if one.at_bound is None:
+        return text
+    low = translate("gap", "{parameter}, at its low bound")
+    high = translate("gap", "{parameter}, at its high bound")
+    return (low if one.at_bound == "low" else high).format(parameter=text)

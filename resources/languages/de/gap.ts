@@ -1,0 +1,1126 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="de" sourcelanguage="en">
+<context>
+    <name>gap</name>
+    <message>
+        <source>Add to twin</source>
+        <translation>In den Zwilling übernehmen</translation>
+    </message>
+    <message>
+        <source>Robot files (*.toml)</source>
+        <translation>Roboterdateien (*.toml)</translation>
+    </message>
+    <message>
+        <source>Report</source>
+        <translation>Bericht</translation>
+    </message>
+    <message>
+        <source>Pages (*.html)</source>
+        <translation>Seiten (*.html)</translation>
+    </message>
+    <message>
+        <source>Save the diagnosis</source>
+        <translation>Die Diagnose speichern</translation>
+    </message>
+    <message>
+        <source>JSON (*.json)</source>
+        <translation>JSON (*.json)</translation>
+    </message>
+    <message>
+        <source>Saved {path}</source>
+        <translation>Gespeichert: {path}</translation>
+    </message>
+    <message>
+        <source>Writing {name} …</source>
+        <translation>{name} wird geschrieben …</translation>
+    </message>
+    <message>
+        <source>{path}: nothing here opens it; open it in a browser</source>
+        <translation>{path}: nichts hier öffnet es; in einem Browser öffnen</translation>
+    </message>
+    <message>
+        <source>Let the running simulator be the corrected model, too?</source>
+        <translation>Soll auch der laufende Simulator das korrigierte Modell sein?</translation>
+    </message>
+    <message>
+        <source>The effects that it has now are replaced. Choose No if the simulator plays the part of the machine.</source>
+        <translation>Seine jetzigen Effekte werden ersetzt. Nein wählen, wenn der Simulator die Rolle der Maschine spielt.</translation>
+    </message>
+    <message>
+        <source>1  Choose records of the real machine: files, or play a trajectory, whose record is taken.
+2  Diagnose: the program looks where the model departs from them, and why.
+3  Use the answer: add what was found to the model, check it on a new motion, keep the report.</source>
+        <translation>1  Aufzeichnungen der echten Maschine wählen: Dateien, oder eine Trajektorie abspielen, deren Aufzeichnung genommen wird.
+2  Diagnose: das Programm sucht, wo das Modell davon abweicht und warum.
+3  Die Antwort nutzen: das Gefundene ins Modell übernehmen, an einer neuen Bewegung prüfen, den Bericht behalten.</translation>
+    </message>
+    <message>
+        <source>One record is chosen.</source>
+        <translation>Eine Aufzeichnung ist gewählt.</translation>
+    </message>
+    <message>
+        <source>{n} records are chosen.</source>
+        <translation>{n} Aufzeichnungen sind gewählt.</translation>
+    </message>
+    <message>
+        <source>Press Diagnose: the program looks where the model departs from what was measured, which effect the model lacks, and how far the gap shrinks with it. It takes about half a minute for each axis with a gap, and can be stopped at any time.</source>
+        <translation>Diagnose drücken: das Programm sucht, wo das Modell vom Gemessenen abweicht, welcher Effekt dem Modell fehlt und wie weit die Lücke damit schrumpft. Es dauert etwa eine halbe Minute je Achse mit einer Lücke und lässt sich jederzeit anhalten.</translation>
+    </message>
+    <message>
+        <source>Here stands how far the gap shrinks on a motion that the diagnosis has not seen.
+Press “New motion …”, or play any trajectory of the diagnosed axes.</source>
+        <translation>Hier steht, wie weit die Lücke bei einer Bewegung schrumpft, die die Diagnose nicht gesehen hat.
+„Neue Bewegung …“ drücken oder irgendeine Trajektorie der diagnostizierten Achsen abspielen.</translation>
+    </message>
+    <message>
+        <source>The model does what the machine does, as far as these motions show.</source>
+        <translation>Das Modell tut, was die Maschine tut, soweit diese Bewegungen es zeigen.</translation>
+    </message>
+    <message>
+        <source>Use the model as it is. Effects that these motions do not excite are not ruled out.</source>
+        <translation>Das Modell so verwenden. Effekte, die diese Bewegungen nicht anregen, sind nicht ausgeschlossen.</translation>
+    </message>
+    <message>
+        <source>The model lacks what is named below; with it in, it follows the machine.</source>
+        <translation>Dem Modell fehlt das unten Genannte; damit folgt es der Maschine.</translation>
+    </message>
+    <message>
+        <source>Press “Add to twin …”, then “New motion …” to see the gap shrink.</source>
+        <translation>„In den Zwilling …“ drücken, dann „Neue Bewegung …“, um die Lücke schrumpfen zu sehen.</translation>
+    </message>
+    <message>
+        <source>The gap is real, but no effect of the catalogue accounts for it. Nothing is guessed.</source>
+        <translation>Die Lücke ist echt, aber kein Effekt des Katalogs erklärt sie. Nichts wird geraten.</translation>
+    </message>
+    <message>
+        <source>Look under Where what it depends on; check cables, clamps and sensor; record once more, slower and faster. Keep what the report says for whoever maintains the model.</source>
+        <translation>Unter Wo ansehen, wovon sie abhängt; Kabel, Klemmen und Sensor prüfen; noch einmal aufzeichnen, langsamer und schneller. Den Bericht für die Pflege des Modells behalten.</translation>
+    </message>
+    <message>
+        <source>These motions cannot tell one effect from another: they are too short, too small or too much alike.</source>
+        <translation>Diese Bewegungen können Effekte nicht voneinander trennen: sie sind zu kurz, zu klein oder zu ähnlich.</translation>
+    </message>
+    <message>
+        <source>Press “Play next experiment …”, or add records of other motions (multisine, staircase, swings), and diagnose them together.</source>
+        <translation>„Nächstes Experiment …“ drücken, oder Aufzeichnungen anderer Bewegungen (Multisinus, Treppe, Schwingungen) hinzufügen und zusammen diagnostizieren.</translation>
+    </message>
+    <message>
+        <source>What it means: {meaning}</source>
+        <translation>Was es bedeutet: {meaning}</translation>
+    </message>
+    <message>
+        <source>Not settled: {effects} would do as well on these records. Take the whole set as the answer.</source>
+        <translation>Nicht entschieden: {effects} täte es bei diesen Aufzeichnungen ebenso. Die ganze Menge als Antwort nehmen.</translation>
+    </message>
+    <message>
+        <source>Press “Play next experiment …”: it parts them.</source>
+        <translation>„Nächstes Experiment …“ drücken: es trennt sie.</translation>
+    </message>
+    <message>
+        <source>What to do: {advice}</source>
+        <translation>Was zu tun ist: {advice}</translation>
+    </message>
+    <message>
+        <source>Gap: {bars}</source>
+        <translation>Lücke: {bars}</translation>
+    </message>
+    <message>
+        <source>Machines are drawn by equations that the diagnosis does not know, each with hidden effects. The name of what is hidden is sealed until the diagnosis has answered; then it is opened and compared. A case takes about half a minute. It runs beside everything else and can be stopped and gone on with: what is done stays.</source>
+        <translation>Maschinen werden nach Gleichungen gezogen, die die Diagnose nicht kennt, jede mit verborgenen Effekten. Der Name des Verborgenen ist versiegelt, bis die Diagnose geantwortet hat; dann wird er geöffnet und verglichen. Ein Fall dauert etwa eine halbe Minute. Der Test läuft neben allem anderen, lässt sich anhalten und fortsetzen: was fertig ist, bleibt.</translation>
+    </message>
+    <message>
+        <source>No case is scored yet.
+Press Start: figures and confusion matrix come when all cases are done; or press Stop at any time, then “Score what is done”.</source>
+        <translation>Noch kein Fall ist bewertet.
+Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fertig sind; oder jederzeit Anhalten drücken, dann „Fertiges bewerten“.</translation>
+    </message>
+    <message>
+        <source>no gap</source>
+        <translation>keine Lücke</translation>
+    </message>
+    <message>
+        <source>unknown</source>
+        <translation>unbekannt</translation>
+    </message>
+    <message>
+        <source>cannot tell</source>
+        <translation>nicht zu sagen</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>fehlgeschlagen</translation>
+    </message>
+    <message>
+        <source>explained</source>
+        <translation>erklärt</translation>
+    </message>
+    <message>
+        <source>Blind test of the diagnosis</source>
+        <translation>Blindtest der Diagnose</translation>
+    </message>
+    <message>
+        <source>How many machines are drawn, 1 to 9999</source>
+        <translation>Wie viele Maschinen gezogen werden, 1 bis 9999</translation>
+    </message>
+    <message>
+        <source>Which machines: the same seed draws the same ones</source>
+        <translation>Welche Maschinen: derselbe Startwert zieht dieselben</translation>
+    </message>
+    <message>
+        <source>Start</source>
+        <translation>Starten</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Anhalten</translation>
+    </message>
+    <message>
+        <source>Score what is done</source>
+        <translation>Fertiges bewerten</translation>
+    </message>
+    <message>
+        <source>%v of %m</source>
+        <translation>%v von %m</translation>
+    </message>
+    <message>
+        <source>Figures beside the levels that they are to reach</source>
+        <translation>Kennwerte neben den Werten, die sie erreichen sollen</translation>
+    </message>
+    <message>
+        <source>What is there, and what was named first</source>
+        <translation>Was da ist und was zuerst genannt wurde</translation>
+    </message>
+    <message>
+        <source>Cases</source>
+        <translation>Fälle</translation>
+    </message>
+    <message>
+        <source>Seed</source>
+        <translation>Startwert</translation>
+    </message>
+    <message>
+        <source>Figures, each with its 95 % interval</source>
+        <translation>Kennwerte, jeder mit seinem 95-%-Intervall</translation>
+    </message>
+    <message>
+        <source>Confusion matrix, cases with one effect at most: a row is what is there, a column what was named first</source>
+        <translation>Verwechslungsmatrix, Fälle mit höchstens einem Effekt: eine Zeile ist, was da ist, eine Spalte, was zuerst genannt wurde</translation>
+    </message>
+    <message>
+        <source>stopped; what is done stays</source>
+        <translation>angehalten; was fertig ist, bleibt</translation>
+    </message>
+    <message>
+        <source>{folder}: it cannot be made ({reason})</source>
+        <translation>{folder}: lässt sich nicht anlegen ({reason})</translation>
+    </message>
+    <message>
+        <source>being scored</source>
+        <translation>wird bewertet</translation>
+    </message>
+    <message>
+        <source>the first machine is drawn</source>
+        <translation>die erste Maschine wird gezogen</translation>
+    </message>
+    <message>
+        <source>being stopped</source>
+        <translation>wird angehalten</translation>
+    </message>
+    <message>
+        <source>{done} of {count} cases done</source>
+        <translation>{done} von {count} Fällen fertig</translation>
+    </message>
+    <message>
+        <source>it runs already</source>
+        <translation>er läuft schon</translation>
+    </message>
+    <message>
+        <source>write cases and seed</source>
+        <translation>Fälle und Startwert eingeben</translation>
+    </message>
+    <message>
+        <source>Run the cases that are not done yet, then score them</source>
+        <translation>Die noch nicht fertigen Fälle rechnen, dann bewerten</translation>
+    </message>
+    <message>
+        <source>Score the cases that are done, without running more</source>
+        <translation>Die fertigen Fälle bewerten, ohne weitere zu rechnen</translation>
+    </message>
+    <message>
+        <source>nothing runs</source>
+        <translation>nichts läuft</translation>
+    </message>
+    <message>
+        <source>End it; what is done stays</source>
+        <translation>Beenden; was fertig ist, bleibt</translation>
+    </message>
+    <message>
+        <source>{done} of {count} cases scored</source>
+        <translation>{done} von {count} Fällen bewertet</translation>
+    </message>
+    <message>
+        <source>what is there</source>
+        <translation>was da ist</translation>
+    </message>
+    <message>
+        <source>{truth} named {told}: {share} of its cases</source>
+        <translation>{truth}, genannt {told}: {share} seiner Fälle</translation>
+    </message>
+    <message>
+        <source>figure</source>
+        <translation>Kennwert</translation>
+    </message>
+    <message>
+        <source>level</source>
+        <translation>Soll</translation>
+    </message>
+    <message>
+        <source>reached, 95 %</source>
+        <translation>erreicht, 95 %</translation>
+    </message>
+    <message>
+        <source>cases</source>
+        <translation>Fälle</translation>
+    </message>
+    <message>
+        <source>{path}: the result of the blind test cannot be read ({reason}); run it once more</source>
+        <translation>{path}: das Ergebnis des Blindtests lässt sich nicht lesen ({reason}); noch einmal starten</translation>
+    </message>
+    <message>
+        <source>The blind test has ended: {reason}</source>
+        <translation>Der Blindtest wurde beendet: {reason}</translation>
+    </message>
+    <message>
+        <source>{program}: the blind test cannot be started</source>
+        <translation>{program}: der Blindtest lässt sich nicht starten</translation>
+    </message>
+    <message>
+        <source>◂ Map</source>
+        <translation>◂ Karte</translation>
+    </message>
+    <message>
+        <source>Back to the map of the gap by band and regime</source>
+        <translation>Zurück zur Karte der Lücke nach Band und Bewegungsart</translation>
+    </message>
+    <message>
+        <source>Record</source>
+        <translation>Aufzeichnung</translation>
+    </message>
+    <message>
+        <source>Records by what they hold of this place, the most first</source>
+        <translation>Aufzeichnungen nach ihrem Anteil an dieser Stelle, der größte zuerst</translation>
+    </message>
+    <message>
+        <source>No record has a row of this place.</source>
+        <translation>Keine Aufzeichnung hat eine Zeile an dieser Stelle.</translation>
+    </message>
+    <message>
+        <source>gap [{unit}]: &lt;span style=&quot;color:{command}&quot;&gt;the whole&lt;/span&gt;, &lt;span style=&quot;color:{real}&quot;&gt;in this band meanwhile&lt;/span&gt;: {rms} rms in {time:.3g} s</source>
+        <translation>Lücke [{unit}]: &lt;span style=&quot;color:{command}&quot;&gt;ganz&lt;/span&gt;, &lt;span style=&quot;color:{real}&quot;&gt;in diesem Band dabei&lt;/span&gt;: {rms} rms in {time:.3g} s</translation>
+    </message>
+    <message>
+        <source>{doing}, about {time:.0f} s left</source>
+        <translation>{doing}, noch etwa {time:.0f} s</translation>
+    </message>
+    <message>
+        <source>Rms of the gap on data that no fit has seen: as the model is, with its own parameters re-tuned, then with one effect after the other. No model gets below the noise floor; the black box is what no explanation can be expected to beat by far.</source>
+        <translation>Effektivwert der Lücke auf Daten, die keine Anpassung gesehen hat: wie das Modell ist, mit neu abgestimmten eigenen Parametern, dann mit einem Effekt nach dem anderen. Kein Modell kommt unter die Rauschgrenze; die Blackbox ist, was keine Erklärung weit übertreffen kann.</translation>
+    </message>
+    <message>
+        <source>No gap to close was found on this axis.</source>
+        <translation>Auf dieser Achse ist keine Lücke zu schließen.</translation>
+    </message>
+    <message>
+        <source>as it is</source>
+        <translation>wie es ist</translation>
+    </message>
+    <message>
+        <source>re-tuned</source>
+        <translation>abgestimmt</translation>
+    </message>
+    <message>
+        <source>corrected</source>
+        <translation>korrigiert</translation>
+    </message>
+    <message>
+        <source>floor</source>
+        <translation>Grenze</translation>
+    </message>
+    <message>
+        <source>black box</source>
+        <translation>Blackbox</translation>
+    </message>
+    <message>
+        <source>{axis} {tap}, rms on unseen data: closed {share} ({interval})</source>
+        <translation>{axis} {tap}, rms auf neuen Daten: geschlossen {share} ({interval})</translation>
+    </message>
+    <message>
+        <source>No gap.</source>
+        <translation>Keine Lücke.</translation>
+    </message>
+    <message>
+        <source>Explained.</source>
+        <translation>Erklärt.</translation>
+    </message>
+    <message>
+        <source>Unknown gap.</source>
+        <translation>Unbekannte Lücke.</translation>
+    </message>
+    <message>
+        <source>Insufficient excitation.</source>
+        <translation>Anregung ungenügend.</translation>
+    </message>
+    <message>
+        <source>Where</source>
+        <translation>Wo</translation>
+    </message>
+    <message>
+        <source>Which effect</source>
+        <translation>Welcher Effekt</translation>
+    </message>
+    <message>
+        <source>How far</source>
+        <translation>Wie weit</translation>
+    </message>
+    <message>
+        <source>New motion</source>
+        <translation>Neue Bewegung</translation>
+    </message>
+    <message>
+        <source>On which axis, at which tap, in which frequencies and while the axis did what</source>
+        <translation>Auf welcher Achse, an welchem Abgriff, bei welchen Frequenzen und während welcher Bewegung</translation>
+    </message>
+    <message>
+        <source>The candidates with their probabilities, what is said of them and what to do</source>
+        <translation>Die Kandidaten mit ihren Wahrscheinlichkeiten, was über sie gesagt wird und was zu tun ist</translation>
+    </message>
+    <message>
+        <source>How far the gap shrinks with what was found, down to the noise floor</source>
+        <translation>Wie weit die Lücke mit dem Gefundenen schrumpft, bis zur Rauschgrenze</translation>
+    </message>
+    <message>
+        <source>How far it shrinks on a motion that the diagnosis has not seen</source>
+        <translation>Wie weit sie bei einer Bewegung schrumpft, die die Diagnose nicht gesehen hat</translation>
+    </message>
+    <message>
+        <source>First: the model, and records of the real machine</source>
+        <translation>Zuerst: das Modell und Aufzeichnungen der echten Maschine</translation>
+    </message>
+    <message>
+        <source>Then: let the program look for what the model lacks</source>
+        <translation>Dann: das Programm suchen lassen, was dem Modell fehlt</translation>
+    </message>
+    <message>
+        <source>In the end: use what was found</source>
+        <translation>Am Ende: das Gefundene nutzen</translation>
+    </message>
+    <message>
+        <source>there is no answer yet; diagnose records first</source>
+        <translation>es gibt noch keine Antwort; zuerst Aufzeichnungen diagnostizieren</translation>
+    </message>
+    <message>
+        <source>Diagnose</source>
+        <translation>Diagnose</translation>
+    </message>
+    <message>
+        <source>Add to twin …</source>
+        <translation>In den Zwilling …</translation>
+    </message>
+    <message>
+        <source>New motion …</source>
+        <translation>Neue Bewegung …</translation>
+    </message>
+    <message>
+        <source>Report …</source>
+        <translation>Bericht …</translation>
+    </message>
+    <message>
+        <source>More</source>
+        <translation>Mehr</translation>
+    </message>
+    <message>
+        <source>Save the diagnosis as JSON; test how often the diagnosis is right</source>
+        <translation>Die Diagnose als JSON speichern; testen, wie oft die Diagnose stimmt</translation>
+    </message>
+    <message>
+        <source>Save JSON …</source>
+        <translation>JSON speichern …</translation>
+    </message>
+    <message>
+        <source>Blind test …</source>
+        <translation>Blindtest …</translation>
+    </message>
+    <message>
+        <source>What is shown</source>
+        <translation>Was gezeigt wird</translation>
+    </message>
+    <message>
+        <source>Play next experiment …</source>
+        <translation>Nächstes Experiment …</translation>
+    </message>
+    <message>
+        <source>Play the motion that would tell best what these records cannot, and diagnose its record together with them</source>
+        <translation>Die Bewegung abspielen, die am besten zeigt, was diese Aufzeichnungen nicht können, und ihre Aufzeichnung mit ihnen diagnostizieren</translation>
+    </message>
+    <message>
+        <source>Axis</source>
+        <translation>Achse</translation>
+    </message>
+    <message>
+        <source>The axis of which the page speaks</source>
+        <translation>Die Achse, von der die Seite handelt</translation>
+    </message>
+    <message>
+        <source>There are no records to diagnose: choose some.</source>
+        <translation>Es gibt keine Aufzeichnungen zu diagnostizieren: welche wählen.</translation>
+    </message>
+    <message>
+        <source>waiting for the end of what was stopped</source>
+        <translation>wartet auf das Ende des Angehaltenen</translation>
+    </message>
+    <message>
+        <source>The diagnosis was stopped.</source>
+        <translation>Die Diagnose wurde angehalten.</translation>
+    </message>
+    <message>
+        <source>The diagnosis failed; the notice above says why.</source>
+        <translation>Die Diagnose ist fehlgeschlagen; die Meldung oben sagt warum.</translation>
+    </message>
+    <message>
+        <source>Diagnose …</source>
+        <translation>Diagnose …</translation>
+    </message>
+    <message>
+        <source>Look for what the model lacks</source>
+        <translation>Suchen, was dem Modell fehlt</translation>
+    </message>
+    <message>
+        <source>Choose records, diagnose them</source>
+        <translation>Aufzeichnungen wählen und diagnostizieren</translation>
+    </message>
+    <message>
+        <source>a diagnosis runs</source>
+        <translation>eine Diagnose läuft</translation>
+    </message>
+    <message>
+        <source>End it now; motion goes on</source>
+        <translation>Jetzt beenden; die Bewegung geht weiter</translation>
+    </message>
+    <message>
+        <source>no effect was found</source>
+        <translation>kein Effekt wurde gefunden</translation>
+    </message>
+    <message>
+        <source>Write a robot file of the model with what was found</source>
+        <translation>Eine Roboterdatei des Modells mit dem Gefundenen schreiben</translation>
+    </message>
+    <message>
+        <source>Play a motion that no record holds, and see how far it is off</source>
+        <translation>Eine Bewegung abspielen, die keine Aufzeichnung enthält, und die Abweichung sehen</translation>
+    </message>
+    <message>
+        <source>Write the report, a page with all figures, and open it</source>
+        <translation>Den Bericht schreiben, eine Seite mit allen Kennwerten, und öffnen</translation>
+    </message>
+    <message>
+        <source>{share:.0f} % done</source>
+        <translation>{share:.0f} % fertig</translation>
+    </message>
+    <message>
+        <source>Next experiment</source>
+        <translation>Nächstes Experiment</translation>
+    </message>
+    <message>
+        <source>Making a motion …</source>
+        <translation>Eine Bewegung wird erstellt …</translation>
+    </message>
+    <message>
+        <source>Comparing with the twin …</source>
+        <translation>Vergleich mit dem Zwilling …</translation>
+    </message>
+    <message>
+        <source>Play this motion on the machine now?</source>
+        <translation>Diese Bewegung jetzt auf der Maschine abspielen?</translation>
+    </message>
+    <message>
+        <source>Play</source>
+        <translation>Abspielen</translation>
+    </message>
+    <message>
+        <source>Not now</source>
+        <translation>Nicht jetzt</translation>
+    </message>
+    <message>
+        <source>It takes {time:.3g} s, after the way to its first row.</source>
+        <translation>Sie dauert {time:.3g} s, nach dem Weg zur ersten Zeile.</translation>
+    </message>
+    <message>
+        <source>rests at {low} {unit}</source>
+        <translation>ruht bei {low} {unit}</translation>
+    </message>
+    <message>
+        <source>axis, tap</source>
+        <translation>Achse, Abgriff</translation>
+    </message>
+    <message>
+        <source>as it was</source>
+        <translation>vorher</translation>
+    </message>
+    <message>
+        <source>with the twin</source>
+        <translation>mit Zwilling</translation>
+    </message>
+    <message>
+        <source>smaller</source>
+        <translation>kleiner</translation>
+    </message>
+    <message>
+        <source>Rms of what was measured less what the model says, its mean taken out; intervals by drawing blocks of the record anew</source>
+        <translation>Effektivwert von Messung minus Modell, ohne Mittelwert; Intervalle durch neues Ziehen von Blöcken der Aufzeichnung</translation>
+    </message>
+    <message>
+        <source>How far the gap shrinks on the new motion</source>
+        <translation>Wie weit die Lücke bei der neuen Bewegung schrumpft</translation>
+    </message>
+    <message>
+        <source>Gap on {record}, rms</source>
+        <translation>Lücke bei {record}, rms</translation>
+    </message>
+    <message>
+        <source>{axis}: 1 candidate tried</source>
+        <translation>{axis}: 1 Kandidat geprüft</translation>
+    </message>
+    <message>
+        <source>{axis}: {n} candidates tried</source>
+        <translation>{axis}: {n} Kandidaten geprüft</translation>
+    </message>
+    <message>
+        <source>Model re-tuned</source>
+        <translation>Modell abgestimmt</translation>
+    </message>
+    <message>
+        <source>{effect} from {axis}</source>
+        <translation>{effect} von {axis}</translation>
+    </message>
+    <message>
+        <source>Records (*.csv *.txt *.dat *.gz);;All files (*)</source>
+        <translation>Aufzeichnungen (*.csv *.txt *.dat *.gz);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>{n} records</source>
+        <translation>{n} Aufzeichn.</translation>
+    </message>
+    <message>
+        <source>1 record</source>
+        <translation>1 Aufzeichn.</translation>
+    </message>
+    <message>
+        <source>Records …</source>
+        <translation>Aufzeichn. …</translation>
+    </message>
+    <message>
+        <source>Three records of different motions or more tell best.</source>
+        <translation>Drei Aufzeichnungen verschiedener Bewegungen oder mehr sagen am meisten.</translation>
+    </message>
+    <message>
+        <source>Choose the records of the real machine</source>
+        <translation>Die Aufzeichnungen der echten Maschine wählen</translation>
+    </message>
+    <message>
+        <source>Records that are diagnosed:</source>
+        <translation>Aufzeichnungen, die diagnostiziert werden:</translation>
+    </message>
+    <message>
+        <source>{name}: it has no header; add it by itself to name its columns</source>
+        <translation>{name}: ohne Kopfzeile; allein hinzufügen, um die Spalten zu benennen</translation>
+    </message>
+    <message>
+        <source>Reading {name} …</source>
+        <translation>{name} wird gelesen …</translation>
+    </message>
+    <message>
+        <source>Add files …</source>
+        <translation>Dateien hinzufügen …</translation>
+    </message>
+    <message>
+        <source>Add {name}</source>
+        <translation>{name} hinzufügen</translation>
+    </message>
+    <message>
+        <source>Add the last playback</source>
+        <translation>Die letzte Wiedergabe hinzufügen</translation>
+    </message>
+    <message>
+        <source>Remove {name}</source>
+        <translation>{name} entfernen</translation>
+    </message>
+    <message>
+        <source>Records of the real machine</source>
+        <translation>Aufzeichnungen der echten Maschine</translation>
+    </message>
+    <message>
+        <source>Model</source>
+        <translation>Modell</translation>
+    </message>
+    <message>
+        <source>The model whose gap is looked for; at first the one in use</source>
+        <translation>Das Modell, dessen Lücke gesucht wird; zuerst das verwendete</translation>
+    </message>
+    <message>
+        <source>{robot} (in use)</source>
+        <translation>{robot} (aktiv)</translation>
+    </message>
+    <message>
+        <source>Robot file …</source>
+        <translation>Roboterdatei …</translation>
+    </message>
+    <message>
+        <source>Robot file</source>
+        <translation>Roboterdatei</translation>
+    </message>
+    <message>
+        <source>The records are read.</source>
+        <translation>Die Aufzeichnungen werden gelesen.</translation>
+    </message>
+    <message>
+        <source>Where does the gap lie: on which axis, at which tap, in which frequencies?</source>
+        <translation>Wo liegt die Lücke: auf welcher Achse, an welchem Abgriff, bei welchen Frequenzen?</translation>
+    </message>
+    <message>
+        <source>A first look at every effect that the axis may have.</source>
+        <translation>Ein erster Blick auf jeden Effekt, den die Achse haben kann.</translation>
+    </message>
+    <message>
+        <source>The likeliest candidates are fitted to the records, one beside the other.</source>
+        <translation>Die wahrscheinlichsten Kandidaten werden an die Aufzeichnungen angepasst, nebeneinander.</translation>
+    </message>
+    <message>
+        <source>Which of them stands on data that its fit has not seen?</source>
+        <translation>Welcher davon besteht auf ungesehenen Daten?</translation>
+    </message>
+    <message>
+        <source>What was found is drawn.</source>
+        <translation>Das Gefundene wird gezeichnet.</translation>
+    </message>
+    <message>
+        <source>Axis {axis}.</source>
+        <translation>Achse {axis}.</translation>
+    </message>
+    <message>
+        <source>A bar is the share of the gap that a candidate closes: an outline at a first look, light once it is fitted, full once it is judged by data that its fit has not seen. The answer also asks which causes are needed beside each other, and may be another.</source>
+        <translation>Ein Balken ist der Anteil der Lücke, den ein Kandidat schließt: Umriss beim ersten Blick, hell nach der Anpassung, voll nach dem Urteil auf ungesehenen Daten. Die Antwort prüft auch, welche Ursachen zusammen nötig sind, und kann anders sein.</translation>
+    </message>
+    <message>
+        <source>Record and tap</source>
+        <translation>Aufzeichnung und Abgriff</translation>
+    </message>
+    <message>
+        <source>Which record, at which tap of the chain</source>
+        <translation>Welche Aufzeichnung, an welchem Abgriff der Kette</translation>
+    </message>
+    <message>
+        <source>gap [{unit}]: &lt;span style=&quot;color:{command}&quot;&gt;before&lt;/span&gt;, &lt;span style=&quot;color:{good}&quot;&gt;noise floor&lt;/span&gt;</source>
+        <translation>Lücke [{unit}]: &lt;span style=&quot;color:{command}&quot;&gt;vorher&lt;/span&gt;, &lt;span style=&quot;color:{good}&quot;&gt;Rauschgrenze&lt;/span&gt;</translation>
+    </message>
+    <message>
+        <source>gap [{unit}]: &lt;span style=&quot;color:{command}&quot;&gt;before&lt;/span&gt;, &lt;span style=&quot;color:{model}&quot;&gt;after&lt;/span&gt;, &lt;span style=&quot;color:{good}&quot;&gt;noise floor&lt;/span&gt;</source>
+        <translation>Lücke [{unit}]: &lt;span style=&quot;color:{command}&quot;&gt;vorher&lt;/span&gt;, &lt;span style=&quot;color:{model}&quot;&gt;nachher&lt;/span&gt;, &lt;span style=&quot;color:{good}&quot;&gt;Rauschgrenze&lt;/span&gt;</translation>
+    </message>
+    <message>
+        <source>share</source>
+        <translation>Anteil</translation>
+    </message>
+    <message>
+        <source>gap rms</source>
+        <translation>Lücke rms</translation>
+    </message>
+    <message>
+        <source>worst at</source>
+        <translation>am größten bei</translation>
+    </message>
+    <message>
+        <source>while</source>
+        <translation>während</translation>
+    </message>
+    <message>
+        <source>95 % of the share</source>
+        <translation>95 % des Anteils</translation>
+    </message>
+    <message>
+        <source>Where it was read: u is the voltage, ref the reference sensor, meas the machine&apos;s own sensor</source>
+        <translation>Wo gelesen wurde: u ist die Spannung, ref der Referenzsensor, meas der eigene Sensor der Maschine</translation>
+    </message>
+    <message>
+        <source>Of the gap above the noise floors of all axes and taps</source>
+        <translation>Von der Lücke über den Rauschgrenzen aller Achsen und Abgriffe</translation>
+    </message>
+    <message>
+        <source>Of what was measured less what the model says, its mean taken out</source>
+        <translation>Von Messung minus Modell, ohne Mittelwert</translation>
+    </message>
+    <message>
+        <source>Rms of what noise and rounding of the sensor leave, which no model explains</source>
+        <translation>Effektivwert dessen, was Rauschen und Rundung des Sensors lassen und kein Modell erklärt</translation>
+    </message>
+    <message>
+        <source>The band that holds most of it</source>
+        <translation>Das Band, das am meisten davon enthält</translation>
+    </message>
+    <message>
+        <source>What the axis was doing where the gap is largest</source>
+        <translation>Was die Achse tat, wo die Lücke am größten ist</translation>
+    </message>
+    <message>
+        <source>The share is between these in 95 of 100 cases</source>
+        <translation>Der Anteil liegt in 95 von 100 Fällen dazwischen</translation>
+    </message>
+    <message>
+        <source>Where the gap lies</source>
+        <translation>Wo die Lücke liegt</translation>
+    </message>
+    <message>
+        <source>Gap by band and regime</source>
+        <translation>Lücke nach Band und Bewegungsart</translation>
+    </message>
+    <message>
+        <source>{axis} {tap}, {regime}, {low:g} to {high:g} Hz</source>
+        <translation>{axis} {tap}, {regime}, {low:g} bis {high:g} Hz</translation>
+    </message>
+    <message>
+        <source>{place}: no record is sampled evenly and long enough for a map</source>
+        <translation>{place}: keine Aufzeichnung ist gleichmäßig und lang genug für eine Karte</translation>
+    </message>
+    <message>
+        <source>{place}: gap rms [noise floors], by what the axis did and by frequency from … Hz on. Click a cell to see its traces.</source>
+        <translation>{place}: Lücke rms [Rauschgrenzen], nach Bewegungsart und Frequenz ab … Hz. Eine Zelle anklicken, um die Verläufe zu sehen.</translation>
+    </message>
+    <message>
+        <source>{low} to {high} Hz</source>
+        <translation>{low} bis {high} Hz</translation>
+    </message>
+    <message>
+        <source>{regime}, {low} to {high} Hz: {floors} noise floors rms</source>
+        <translation>{regime}, {low} bis {high} Hz: {floors} Rauschgrenzen rms</translation>
+    </message>
+    <message>
+        <source>{share} of the gap of the whole path</source>
+        <translation>{share} der Lücke des ganzen Wegs</translation>
+    </message>
+    <message>
+        <source>Click to see the traces</source>
+        <translation>Klicken, um die Verläufe zu sehen</translation>
+    </message>
+    <message>
+        <source>noise</source>
+        <translation>Rauschen</translation>
+    </message>
+    <message>
+        <source>candidate</source>
+        <translation>Kandidat</translation>
+    </message>
+    <message>
+        <source>probability</source>
+        <translation>Wahrscheinl.</translation>
+    </message>
+    <message>
+        <source>left [floors]</source>
+        <translation>Rest [Grenzen]</translation>
+    </message>
+    <message>
+        <source>What was tried in place of the leading cause, the likeliest first; those that may be it stand out</source>
+        <translation>Was anstelle der führenden Ursache geprüft wurde, das Wahrscheinlichste zuerst; was es sein kann, tritt hervor</translation>
+    </message>
+    <message>
+        <source>How likely it is the cause, of those tried and what is not among them</source>
+        <translation>Wie wahrscheinlich es die Ursache ist, unter den geprüften und dem, was nicht dabei ist</translation>
+    </message>
+    <message>
+        <source>Rms of the gap that it leaves on data that its fit did not see, in noise floors: 1 is all that noise allows</source>
+        <translation>Effektivwert der Lücke, die es auf Daten lässt, die seine Anpassung nicht sah, in Rauschgrenzen: 1 ist alles, was das Rauschen zulässt</translation>
+    </message>
+    <message>
+        <source>What it leaves is between these in 95 of 100 cases, in noise floors</source>
+        <translation>Was es lässt, liegt in 95 von 100 Fällen dazwischen, in Rauschgrenzen</translation>
+    </message>
+    <message>
+        <source>Candidates, likeliest first</source>
+        <translation>Kandidaten, der wahrscheinlichste zuerst</translation>
+    </message>
+    <message>
+        <source>What is said of the axis</source>
+        <translation>Was über die Achse gesagt wird</translation>
+    </message>
+    <message>
+        <source>What the diagnosis says of the axis</source>
+        <translation>Was die Diagnose über die Achse sagt</translation>
+    </message>
+    <message>
+        <source>Not testable: {effects} ({reason}).</source>
+        <translation>Nicht prüfbar: {effects} ({reason}).</translation>
+    </message>
+    <message>
+        <source>Next experiment: {why}</source>
+        <translation>Nächstes Experiment: {why}</translation>
+    </message>
+    <message>
+        <source>{effect}: {share} likely; {before} rms without it, {after} with it at {tap}, on unseen data; closes {closed} ({interval}).</source>
+        <translation>{effect}: zu {share} wahrscheinlich; {before} rms ohne, {after} damit bei {tap}, auf ungesehenen Daten; schließt {closed} ({interval}).</translation>
+    </message>
+    <message>
+        <source>    These records cannot tell it from {effects}.</source>
+        <translation>    Diese Aufzeichnungen können es nicht trennen von: {effects}.</translation>
+    </message>
+    <message>
+        <source>{parameter}, at its low bound</source>
+        <translation>{parameter}, an der unteren Grenze</translation>
+    </message>
+    <message>
+        <source>{parameter}, at its high bound</source>
+        <translation>{parameter}, an der oberen Grenze</translation>
+    </message>
+    <message>
+        <source>Unknown effect</source>
+        <translation>Unbekannter Effekt</translation>
+    </message>
+    <message>
+        <source>No gap: model and machine differ by no more than noise</source>
+        <translation>Keine Lücke: Modell und Maschine unterscheiden sich nur um Rauschen</translation>
+    </message>
+    <message>
+        <source>Explained: the effects below account for the gap</source>
+        <translation>Erklärt: die Effekte unten erklären die Lücke</translation>
+    </message>
+    <message>
+        <source>Unknown: there is a gap that no effect of the catalogue explains</source>
+        <translation>Unbekannt: es gibt eine Lücke, die kein Effekt des Katalogs erklärt</translation>
+    </message>
+    <message>
+        <source>The records cannot tell: the excitation is insufficient</source>
+        <translation>Die Aufzeichnungen reichen nicht: die Anregung ist ungenügend</translation>
+    </message>
+    <message>
+        <source>No gap of its own</source>
+        <translation>Keine eigene Lücke</translation>
+    </message>
+    <message>
+        <source>Explained</source>
+        <translation>Erklärt</translation>
+    </message>
+    <message>
+        <source>rest</source>
+        <translation>Ruhe</translation>
+    </message>
+    <message>
+        <source>settling</source>
+        <translation>Einschwingen</translation>
+    </message>
+    <message>
+        <source>reversal</source>
+        <translation>Umkehr</translation>
+    </message>
+    <message>
+        <source>forward</source>
+        <translation>vorwärts</translation>
+    </message>
+    <message>
+        <source>backward</source>
+        <translation>rückwärts</translation>
+    </message>
+    <message>
+        <source>fast</source>
+        <translation>schnell</translation>
+    </message>
+    <message>
+        <source>slow</source>
+        <translation>langsam</translation>
+    </message>
+    <message>
+        <source>other axis moving</source>
+        <translation>andere Achse bewegt</translation>
+    </message>
+    <message>
+        <source>large swing</source>
+        <translation>große Schwingung</translation>
+    </message>
+    <message>
+        <source>small swing</source>
+        <translation>kleine Schwingung</translation>
+    </message>
+    <message>
+        <source>low end of the way</source>
+        <translation>unteres Wegende</translation>
+    </message>
+    <message>
+        <source>middle of the way</source>
+        <translation>Wegmitte</translation>
+    </message>
+    <message>
+        <source>high end of the way</source>
+        <translation>oberes Wegende</translation>
+    </message>
+    <message>
+        <source>first quarter of a turn</source>
+        <translation>1. Viertelumdrehung</translation>
+    </message>
+    <message>
+        <source>second quarter of a turn</source>
+        <translation>2. Viertelumdrehung</translation>
+    </message>
+    <message>
+        <source>third quarter of a turn</source>
+        <translation>3. Viertelumdrehung</translation>
+    </message>
+    <message>
+        <source>last quarter of a turn</source>
+        <translation>4. Viertelumdrehung</translation>
+    </message>
+    <message>
+        <source>reading</source>
+        <translation>Lesen</translation>
+    </message>
+    <message>
+        <source>where</source>
+        <translation>Ort der Lücke</translation>
+    </message>
+    <message>
+        <source>screening</source>
+        <translation>Vorauswahl</translation>
+    </message>
+    <message>
+        <source>fitting</source>
+        <translation>Anpassung</translation>
+    </message>
+    <message>
+        <source>deciding</source>
+        <translation>Entscheidung</translation>
+    </message>
+    <message>
+        <source>drawing</source>
+        <translation>Zeichnen</translation>
+    </message>
+    <message>
+        <source>first cause right, one effect</source>
+        <translation>erste Ursache richtig, ein Effekt</translation>
+    </message>
+    <message>
+        <source>… where the gap is ≥ 5 floors</source>
+        <translation>… wo die Lücke ≥ 5 Grenzen ist</translation>
+    </message>
+    <message>
+        <source>… where it is smaller</source>
+        <translation>… wo sie kleiner ist</translation>
+    </message>
+    <message>
+        <source>one effect exactly, nothing beside it</source>
+        <translation>ein Effekt genau, nichts daneben</translation>
+    </message>
+    <message>
+        <source>truth in the reported set</source>
+        <translation>Wahrheit in der genannten Menge</translation>
+    </message>
+    <message>
+        <source>mean size of the set</source>
+        <translation>mittlere Größe der Menge</translation>
+    </message>
+    <message>
+        <source>two effects exactly</source>
+        <translation>zwei Effekte genau</translation>
+    </message>
+    <message>
+        <source>three effects exactly</source>
+        <translation>drei Effekte genau</translation>
+    </message>
+    <message>
+        <source>healthy machines accused</source>
+        <translation>gesunde Maschinen beschuldigt</translation>
+    </message>
+    <message>
+        <source>unknown effects called unknown</source>
+        <translation>Unbekanntes unbekannt genannt</translation>
+    </message>
+    <message>
+        <source>poor excitation called so</source>
+        <translation>schlechte Anregung so genannt</translation>
+    </message>
+    <message>
+        <source>gap closed on unseen data, median</source>
+        <translation>Lücke geschlossen, ungesehen, Median</translation>
+    </message>
+    <message>
+        <source>gap closed, 10th percentile</source>
+        <translation>Lücke geschlossen, 10. Perzentil</translation>
+    </message>
+    <message>
+        <source>expected calibration error</source>
+        <translation>erwarteter Kalibrierfehler</translation>
+    </message>
+    <message>
+        <source>seconds a case, median</source>
+        <translation>Sekunden je Fall, Median</translation>
+    </message>
+    <message>
+        <source>seconds a case, greatest</source>
+        <translation>Sekunden je Fall, größte</translation>
+    </message>
+    <message>
+        <source>seconds a healthy case, median</source>
+        <translation>Sekunden je gesundem Fall, Median</translation>
+    </message>
+    <message>
+        <source>or</source>
+        <translation>oder</translation>
+    </message>
+    <message>
+        <source>and</source>
+        <translation>und</translation>
+    </message>
+    <message>
+        <source>Nothing of its own to explain on {axes}.</source>
+        <translation>Nichts Eigenes zu erklären auf {axes}.</translation>
+    </message>
+    <message>
+        <source>{axis}: the records do not move it in a way that could tell what it lacks.</source>
+        <translation>{axis}: die Aufzeichnungen bewegen sie nicht so, dass sich zeigt, was fehlt.</translation>
+    </message>
+    <message>
+        <source>{axis}: the model lacks {causes}.</source>
+        <translation>{axis}: dem Modell fehlt {causes}.</translation>
+    </message>
+    <message>
+        <source>{axis}: there is a gap beside that that no effect here explains.</source>
+        <translation>{axis}: daneben gibt es eine Lücke, die kein Effekt hier erklärt.</translation>
+    </message>
+    <message>
+        <source>{axis}: there is a gap that no effect here explains.</source>
+        <translation>{axis}: es gibt eine Lücke, die kein Effekt hier erklärt.</translation>
+    </message>
+    <message>
+        <source>{effect} ({share} likely)</source>
+        <translation>{effect} (zu {share} wahrscheinlich)</translation>
+    </message>
+    <message>
+        <source>{effect} ({share} likely) from {axis}</source>
+        <translation>{effect} (zu {share} wahrscheinlich) von {axis}</translation>
+    </message>
+    <message>
+        <source>{cause}, or {rivals}, which these records cannot tell from it</source>
+        <translation>{cause} oder {rivals}, was diese Aufzeichnungen nicht trennen können</translation>
+    </message>
+    <message>
+        <source>On data that no fit saw, its gap at {tap} shrinks from {raw} to {corrected} rms (noise floor {floor}).</source>
+        <translation>Auf Daten, die keine Anpassung sah, schrumpft die Lücke bei {tap} von {raw} auf {corrected} rms (Rauschgrenze {floor}).</translation>
+    </message>
+    <message>
+        <source>On data that no fit saw, its gap at {tap} shrinks from {raw} to {corrected} rms (noise floor {floor}): {share} of it closes.</source>
+        <translation>Auf Daten, die keine Anpassung sah, schrumpft die Lücke bei {tap} von {raw} auf {corrected} rms (Rauschgrenze {floor}): {share} davon schließt sich.</translation>
+    </message>
+</context>
+<context>
+    <name>panels</name>
+    <message>
+        <source>Gap diagnosis</source>
+        <translation>Lückendiagnose</translation>
+    </message>
+</context>
+</TS>
