@@ -54,8 +54,8 @@ class MappingSection(Section):
         grid = QGridLayout()
         grid.setHorizontalSpacing(5)
         grid.setVerticalSpacing(3)
-        grid.setColumnStretch(0, 3)
-        grid.setColumnStretch(1, 4)
+        grid.setColumnStretch(0, 1)
+        grid.setColumnStretch(1, 1)
         self.column.addLayout(grid)
         self.target_rows = {
             target: TargetRow(target, grid) for target in axis_targets(tuple(workbench.robot.axes))

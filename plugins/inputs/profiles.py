@@ -9,6 +9,7 @@ from rotemina.app.motion.teleoperation.mapping import check_profile
 from rotemina.app.motion.teleoperation.profile import ListedProfile, Profile, ProfileError
 from rotemina.app.settings import Settings
 from rotemina.app.shell.language import translate
+from rotemina.plugins.inputs.words import device_name
 
 SETTING = "inputs.profile"
 AUTOMATIC = ""  # the setting, where the profile is made for what is plugged in
@@ -151,7 +152,7 @@ class ProfileChoice:
             return self.chosen
         for one in self._devices.view.devices:
             if one.drives:
-                return plain_name(one.device.identity.name)
+                return plain_name(device_name(one.device.identity))
         return translate("inputs", "Profile")
 
     def _use(self, name: str) -> None:

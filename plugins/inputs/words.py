@@ -85,6 +85,7 @@ _ENGINE = (
         "silent, though it streams: nothing has come from it; replug it, or look at its cable",
     ),
     marked("inputs", "no profile is chosen: the input devices do nothing"),
+    marked("inputs", "Automatic"),
     marked("inputs", "move the axis now"),
     marked("inputs", "move the button now"),
 )

@@ -523,7 +523,7 @@
     </message>
     <message>
         <source>Dead-man</source>
-        <translation>Zustimmtaster</translation>
+        <translation>Zustimmung</translation>
     </message>
     <message>
         <source>Clutch</source>
@@ -539,15 +539,15 @@
     </message>
     <message>
         <source>Next mode</source>
-        <translation>Nächster Modus</translation>
+        <translation>Modus ▸</translation>
     </message>
     <message>
         <source>Next law</source>
-        <translation>Nächstes Gesetz</translation>
+        <translation>Gesetz ▸</translation>
     </message>
     <message>
         <source>Next preset</source>
-        <translation>Nächste Stufe</translation>
+        <translation>Skala ▸</translation>
     </message>
     <message>
         <source>Re-centre</source>
@@ -559,7 +559,7 @@
     </message>
     <message>
         <source>Tool on/off</source>
-        <translation>Werkzeug ein/aus</translation>
+        <translation>Werkzeug</translation>
     </message>
     <message>
         <source>Take over</source>

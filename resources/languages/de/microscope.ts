@@ -381,7 +381,7 @@
     </message>
     <message>
         <source>measure</source>
-        <translation>Messen</translation>
+        <translation>Messung</translation>
     </message>
     <message>
         <source>pan</source>
@@ -924,7 +924,7 @@
     </message>
     <message>
         <source>focus at, µm</source>
-        <translation>Fokus bei, µm</translation>
+        <translation>Fokus, µm</translation>
     </message>
     <message>
         <source>Place of the focus drive, µm</source>

@@ -313,7 +313,7 @@
     </message>
     <message>
         <source>Shaping</source>
-        <translation>Impulsformung</translation>
+        <translation>Formung</translation>
     </message>
     <message>
         <source>Time share, depth share</source>
@@ -489,7 +489,7 @@
     </message>
     <message>
         <source>Speed</source>
-        <translation>Geschwindigkeit</translation>
+        <translation>Tempo</translation>
     </message>
     <message>
         <source>How fast the tip comes near</source>
@@ -585,7 +585,7 @@
     </message>
     <message>
         <source>Speed back</source>
-        <translation>Rückzugstempo</translation>
+        <translation>Tempo zurück</translation>
     </message>
     <message>
         <source>How fast the tip goes back</source>
@@ -697,11 +697,11 @@
     </message>
     <message>
         <source>Tool is on</source>
-        <translation>Werkzeug ist ein</translation>
+        <translation>Werkzeug ein</translation>
     </message>
     <message>
         <source>Tool is off</source>
-        <translation>Werkzeug ist aus</translation>
+        <translation>Werkzeug aus</translation>
     </message>
     <message>
         <source>No tool</source>

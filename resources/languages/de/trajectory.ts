@@ -28,7 +28,7 @@
     </message>
     <message>
         <source>Resample …</source>
-        <translation>Abtasten …</translation>
+        <translation>Rate …</translation>
     </message>
     <message>
         <source>Another rate, in Hz, for the trajectory in hand</source>
@@ -236,11 +236,11 @@
     </message>
     <message>
         <source>row {row} of {rows}</source>
-        <translation>Zeile {row} von {rows}</translation>
+        <translation>Z. {row}/{rows}</translation>
     </message>
     <message>
         <source>before its first row</source>
-        <translation>vor der ersten Zeile</translation>
+        <translation>vor Zeile 1</translation>
     </message>
     <message>
         <source>paused, </source>
