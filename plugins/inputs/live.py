@@ -31,7 +31,7 @@ class AxisRow(QFrame):
         self.bar = AxisBar(theme, name)
         self.numbers = QLabel("–")
         self.numbers.setTextFormat(Qt.TextFormat.PlainText)
-        self.numbers.setFixedWidth(_NUMBER_WIDTH)
+        self.numbers.setMinimumWidth(_NUMBER_WIDTH)
         self.numbers.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.numbers.setAccessibleName(
             translate("inputs", "Axis {name}: raw, calibrated").format(name=name)

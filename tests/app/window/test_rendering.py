@@ -1,4 +1,4 @@
-"""All text of all panels has room, and nothing stands on anything else: three themes, two sizes."""
+"""All text of all panels has room, nothing overlaps: three themes, two sizes, two languages."""
 
 import re
 
@@ -16,12 +16,14 @@ from PySide6.QtWidgets import (
     QStyleOptionButton,
     QTabBar,
     QTabWidget,
+    QToolBar,
     QToolButton,
     QWidget,
 )
 
+from rotemina.app.shell import language
 from rotemina.app.shell.controls import ElidedLabel
-from rotemina.app.shell.layouts import OPERATE
+from rotemina.app.shell.layouts import BUILT_IN, OPERATE
 from rotemina.app.shell.theme import THEMES
 
 pytestmark = [pytest.mark.slow, pytest.mark.every_panel]
@@ -161,15 +163,20 @@ def pages(panel):
         book.setCurrentIndex(before)
 
 
-@pytest.mark.parametrize("size", SIZES, ids=lambda size: "x".join(map(str, size)))
-@pytest.mark.parametrize("theme", sorted(THEMES))
-def test_every_text_has_room(make_robot_window, theme, size):
-    window = make_robot_window()
-    window.resize(*size)
-    window.use_theme(theme)
-    window.panels.make_all()
-    window.arrangement.arrange(OPERATE)
-    settle()
+@pytest.fixture
+def speaking(settings, make_robot_window):
+    """Make a window that speaks a language."""
+
+    def make(name):
+        settings.set(language.SETTING, name)
+        return make_robot_window()
+
+    yield make
+    language.use(QApplication.instance(), "en")
+
+
+def faults_in(window):
+    """Return what is cut or stands on something, of every page of every panel."""
     found = []
     for name in window.panels:
         window.bring_up(name)
@@ -179,4 +186,47 @@ def test_every_text_has_room(make_robot_window, theme, size):
     for bar in window.findChildren(QTabBar):
         if bar.isVisible() and bar.parent() is window:
             found += filter(None, [cut(bar)])
-    assert not found, "\n".join(dict.fromkeys(found))
+    for part in (window.layout_row, *window.findChildren(QToolBar)):
+        found += faults_of(part)
+    return list(dict.fromkeys(found))
+
+
+@pytest.mark.parametrize("name", language.LANGUAGES)
+@pytest.mark.parametrize("size", SIZES, ids=lambda size: "x".join(map(str, size)))
+@pytest.mark.parametrize("theme", sorted(THEMES))
+def test_every_text_has_room(speaking, theme, size, name):
+    window = speaking(name)
+    window.use_theme(theme)
+    window.panels.make_all()
+    window.arrangement.arrange(OPERATE)
+    window.resize(*size)
+    settle()
+    assert window.size().toTuple() == size  # it does not need more
+    assert "\n".join(faults_in(window)) == ""
+
+
+@pytest.mark.parametrize("name", language.LANGUAGES)
+def test_every_layout_fits_a_small_screen(speaking, name):
+    window = speaking(name)
+    window.panels.make_all()
+    for layout in BUILT_IN:
+        window.arrangement.arrange(layout)
+        window.resize(*SIZES[0])
+        settle()
+        assert (layout.word, window.size().toTuple()) == (layout.word, SIZES[0])
+    window.reset_layout()  # all panels
+    window.resize(*SIZES[0])
+    settle()
+    assert window.size().toTuple() == SIZES[0]
+    assert "\n".join(faults_in(window)) == ""
+
+
+@pytest.mark.parametrize("name", language.LANGUAGES)
+def test_large_text_has_room(speaking, settings, name):
+    settings.set("window.scale", 1.5)
+    window = speaking(name)
+    window.panels.make_all()
+    window.arrangement.arrange(OPERATE)
+    window.resize(*SIZES[1])
+    settle()
+    assert "\n".join(faults_in(window)) == ""
