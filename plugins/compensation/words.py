@@ -52,7 +52,7 @@ STAGES = (
     marked("compensation", "plays"),
     marked("compensation", "done"),
 )
-_WHY = re.compile(
+WHY = re.compile(
     r"(?P<kind>.+?) leaves (?P<share>\S+) of the range on rows that no inverse was trained on; "
     r"(?P<others>.*?)(\.( (?P<more>.*))?)?",
     re.DOTALL,
@@ -149,7 +149,7 @@ def point_text(point: Point, number: int) -> str:
 
 def _why(told: str) -> str:
     """Return the model's reason in the language of the window."""
-    found = _WHY.fullmatch(told)
+    found = WHY.fullmatch(told)
     if found is None:
         return told
     others = (one.rpartition(" ") for one in found["others"].split(", "))

@@ -15,6 +15,7 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.shell.language import translate
+from rotemina.plugins.effects.meanings import meaning_of
 from rotemina.plugins.effects.quantity import SLIDER_STEPS, Quantity, ValueRefusedError
 from rotemina.plugins.effects.words import spoken
 
@@ -59,7 +60,7 @@ class ParameterField(QObject):
         self._refused = ""
         preset = quantity.text(quantity.preset)
         about = tip(
-            f"{spoken(name)}: {quantity.meaning}",
+            f"{spoken(name)}: {meaning_of(quantity.meaning)}",
             translate("effects", "Must be {range}").format(range=quantity.range_text),
             translate("effects", "Preset {value}").format(value=preset),
         )

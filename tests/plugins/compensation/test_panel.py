@@ -8,12 +8,20 @@ import pytest
 from rotemina.app.motion.state import PlaybackFinished
 from rotemina.plugins.compensation.learning import Learned, learned_from
 from rotemina.plugins.compensation.trial import Help, trial_motion, trial_of
-from rotemina.plugins.compensation.words import beyond, judged, left, micro
+from rotemina.plugins.compensation.words import (
+    KINDS,
+    REASONS,
+    WHY,
+    beyond,
+    judged,
+    left,
+    micro,
+)
 from rotemina.sim.compensate import anfis
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.file import Provenance, write_trained
 from rotemina.sim.compensate.inverse import Beyond
-from rotemina.sim.compensate.judgement import Residual
+from rotemina.sim.compensate.judgement import NAMES, Residual, recommended
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.compensate.training import Trained
 from rotemina.sim.records.record import Record, Tap
@@ -264,3 +272,18 @@ def test_words():
     assert beyond(Beyond.FAST | Beyond.COMMAND) == (
         "It has been faster than it saw, at an end of the machine's range (clamped)."
     )
+
+
+def test_reasons_of_the_model_are_known_by_their_sentences():
+    own = Residual(5e-8, 5e-8, 2e-7, 8e-4, 6e-7, 0.0, 0.0)
+    found = dict.fromkeys(NAMES, own)
+    for one_size in (False, True):
+        _, why = recommended(found, one_size=one_size)
+        match = WHY.fullmatch(why)
+        assert match is not None
+        assert {
+            match["kind"],
+            *(one.rpartition(" ")[0] for one in match["others"].split(", ")),
+        } == {*NAMES.values()}
+        assert match["more"] is None or match["more"] in REASONS
+    assert {name for name in NAMES.values() if name[0].islower()} == set(KINDS)

@@ -1,8 +1,10 @@
 """What becomes an entry of the history, and what is only counted."""
 
+from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 
 import pytest
+from PySide6.QtCore import QTranslator
 
 from rotemina.app.motion.state import (
     CommandRefused,
@@ -28,7 +30,7 @@ def history():
 def tell(history, *events):
     for second, event in enumerate(events):
         history.note_event(BEGIN + timedelta(seconds=second), event)
-    return [(entry.kind, entry.told) for entry in history.entries]
+    return [(entry.kind, replace(entry, count=1).told) for entry in history.entries]
 
 
 def changed(**changes):
@@ -94,3 +96,19 @@ def test_old_entries_give_way(history):
 def test_as_text_every_entry_is_one_line(history):
     history.add(BEGIN, Kind.FAULT, "two\nlines <b>")
     assert as_text(history.entries) == "2026-03-01 12:00:00.250+0000\tfault\ttwo lines <b>\n"
+
+
+def test_an_entry_is_kept_in_english_whatever_the_window_speaks(qapp):
+    class Loud(QTranslator):
+        def translate(self, _context, text, _comment=None, _number=-1):
+            return text.upper().replace("{ABOUT}", "{about}").replace("{TEXT}", "{text}")
+
+    loud = Loud()
+    qapp.installTranslator(loud)
+    history = History()
+    history.add(BEGIN, Kind.RECOVERED, "cleared: {about}", "it {about} hangs")
+    (entry,) = history.entries
+    assert entry.shown == "CLEARED: IT {about} HANGS"
+    assert entry.told == "cleared: it {about} hangs"
+    assert "\trecovered\tcleared: it" in str(entry)
+    qapp.removeTranslator(loud)
