@@ -1,10 +1,36 @@
 """What is written over the picture: what it does not show, and where it is not to scale."""
 
 from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass
 
 from rotemina.app.scene.scene import Command
 
 _STEP_S = 0.5  # in which an age is told, so that not every frame tells another one
+
+
+@dataclass(frozen=True, slots=True)
+class Words:
+    """What is written, in the language of whoever looks; fields in braces are filled.
+
+    Attributes
+    ----------
+    model, real : str
+        The ghosts.
+    unknown, old, enlarged : str
+        A ghost that is not drawn, readings that are old, motion that is not to scale.
+    silent, quiet : str
+        The viewer's own: no connection to the program, and one by which nothing comes.
+    """
+
+    model: str = "model"
+    real: str = "real"
+    unknown: str = "{ghost}: position unknown, not drawn"
+    old: str = "old: the last reading came in {age_s:.1f} s ago"
+    enlarged: str = (
+        "thx, thy, zn drawn {factor:g} × too large from mid-range; the tip is not where it is drawn"
+    )
+    silent: str = "The program does not answer: what is drawn is old."
+    quiet: str = "No news from the program: what is drawn is old."
 
 
 class Old:
@@ -32,20 +58,19 @@ def note(
     age_s: float | None,
     factor: float,
     colours: Mapping[str, str],
+    words: Words,
 ) -> Command:
     """Return the command that writes it, with the legend of the ghosts that are ``shown``."""
-    warnings = [f"{ghost}: position unknown, not drawn" for ghost in sorted(unknown)]
+    warnings = [words.unknown.format(ghost=getattr(words, ghost)) for ghost in sorted(unknown)]
     if age_s is not None:
-        warnings.append(f"old: the last reading came in {age_s:.1f} s ago")
+        warnings.append(words.old.format(age_s=age_s))
     if factor != 1.0:
-        warnings.append(
-            f"thx, thy, zn drawn {factor:g} × too large from mid-range; "
-            "the tip is not where it is drawn"
-        )
+        warnings.append(words.enlarged.format(factor=factor))
     return {
         "type": "note",
         "shown": sorted(shown),
         "colours": dict(colours),
+        "words": {one: getattr(words, one) for one in ("model", "real", "silent", "quiet")},
         "warnings": warnings,
         "old": age_s is not None,
     }

@@ -8,7 +8,7 @@ import numpy as np
 
 from rotemina.app.scene import parts
 from rotemina.app.scene.frames import LINKS, exaggerated, frames
-from rotemina.app.scene.notes import Old, note
+from rotemina.app.scene.notes import Old, Words, note
 from rotemina.app.scene.scene import Command, Scene, set_property, set_transform
 from rotemina.app.scene.solids import Look, Solid, set_object
 from rotemina.app.scene.views import View, look
@@ -56,6 +56,8 @@ class RobotScene:
     colours : Colours
     old_s : float
         Age, s, from which a reading is called old.
+    words : Words, optional
+        What is written over the picture; English by default.
 
     Raises
     ------
@@ -63,13 +65,16 @@ class RobotScene:
         If the robot is no hybrid chain.
     """
 
-    def __init__(self, robot: Robot, colours: Colours, *, old_s: float) -> None:
+    def __init__(
+        self, robot: Robot, colours: Colours, *, old_s: float, words: Words | None = None
+    ) -> None:
         self.scene = Scene()
         self.chain = Chain.of(robot)
         self.factor = 1.0
         self.shown = frozenset(Ghost)
         self._colours = colours
         self._old = Old(old_s)
+        self._words = words or Words()
         self._reading = Reading({}, {})
         self._zone: KeepOutZone | None = None
         self._offset = np.array([axis.offset for axis in robot.axes.values()])
@@ -94,7 +99,8 @@ class RobotScene:
         unknown = frozenset(ghost for ghost, place in joints.items() if place is None)
         age_s = self._old.told(reading.age_s)
         colours = {"model": self._colours.model, "real": self._colours.real}
-        commands.append(note(self.shown, unknown & self.shown, age_s, self.factor, colours))
+        unseen = unknown & self.shown
+        commands.append(note(self.shown, unseen, age_s, self.factor, colours, self._words))
         self.scene.put(*commands)
 
     def choose(self, *ghosts: Ghost) -> None:

@@ -14,6 +14,10 @@
 
   let viewer;
   let notes = [];
+  let words = {  // until the first note tells them in the program's language
+    silent: "The program does not answer: what is drawn is old.",
+    quiet: "No news from the program: what is drawn is old.",
+  };
   let old = false;
   let heard = performance.now();
   let connected = false;
@@ -57,7 +61,9 @@
       const entry = document.getElementById(ghost);
       entry.hidden = !command.shown.includes(ghost);
       entry.firstElementChild.style.color = command.colours[ghost];
+      entry.lastChild.textContent = " " + command.words[ghost];
     }
+    words = command.words;
     notes = command.warnings;
     old = command.old;
   }
@@ -71,8 +77,8 @@
   function tellState() {
     const quiet = performance.now() - heard > QUIET_MS;
     const lost = !connected
-      ? ["The program does not answer: what is drawn is old."]
-      : quiet ? ["No news from the program: what is drawn is old."] : [];
+      ? [words.silent]
+      : quiet ? [words.quiet] : [];
     warnings.textContent = [...lost, ...notes].join("\n");
     pane.className = old || lost.length > 0 ? "old" : "";
   }

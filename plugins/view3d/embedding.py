@@ -75,7 +75,8 @@ class WebProcess(QObject):
 
     def start(self, url: str) -> None:
         """Begin to show an address."""
-        arguments = [*_COMMAND, *([_FRAMELESS] if self._adopting else [])]
+        frame = [_FRAMELESS] if self._adopting else []
+        arguments = [*_COMMAND, translate("view3d", "RoTeMiNa 3-D view"), *frame]
         self._process.start(sys.executable, arguments)
         self._process.write(f"{url}\n".encode())
 

@@ -275,6 +275,7 @@ class View3dPanel(Panel):
 def scene_of(robot: Robot, theme: Theme) -> tuple[RobotScene | None, str | None]:
     """Return the scene of a robot, or why there is none."""
     try:
-        return RobotScene(robot, words.colours_of(theme), old_s=STALE_S), None
+        colours, written = words.colours_of(theme), words.written()
+        return RobotScene(robot, colours, old_s=STALE_S, words=written), None
     except ChainError as error:
         return None, translate("view3d", "There is nothing to draw. {error}").format(error=error)

@@ -1,4 +1,4 @@
-"""A process of its own that shows one address by Qt WebEngine: ``python -m …web_window``.
+"""A process of its own that shows one address by Qt WebEngine: ``python -m …web_window <title>``.
 
 It has the address from its standard input, not from its arguments, which other users may list, and
 ends when that input is closed. On its standard output it says ``window <number>`` once there is
@@ -96,11 +96,12 @@ def main() -> int:
     """Show the address until the input ends; return the exit status."""
     url = QUrl(sys.stdin.readline().strip())
     application = QApplication(sys.argv)
-    application.setApplicationName("RoTeMiNa 3-D view")
+    title = sys.argv[1]
+    application.setApplicationName(title)
     profile = QWebEngineProfile()  # without a name nothing is kept on disk
     page = Page(profile, url)
     view = QWebEngineView()
-    view.setWindowTitle("RoTeMiNa 3-D view")
+    view.setWindowTitle(title)
     view.setContextMenuPolicy(Qt.ContextMenuPolicy.NoContextMenu)
     view.setWindowFlag(Qt.WindowType.WindowDoesNotAcceptFocus)  # keys belong to the other window
     view.setWindowFlag(Qt.WindowType.FramelessWindowHint, FRAMELESS in sys.argv)

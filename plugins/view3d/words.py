@@ -1,5 +1,6 @@
 """Choices and words of the 3-D panel."""
 
+from rotemina.app.scene.notes import Words
 from rotemina.app.scene.robot_scene import Colours, Ghost
 from rotemina.app.scene.views import View
 from rotemina.app.shell.language import marked, translate
@@ -46,6 +47,23 @@ def factor_text(factor: int) -> str:
         translate("view3d", "Nano motion to scale")
         if factor == 1
         else translate("view3d", "Nano motion × {factor}").format(factor=factor)
+    )
+
+
+def written() -> Words:
+    """Return what is written over the picture."""
+    return Words(
+        model=translate("view3d", "model"),
+        real=translate("view3d", "real"),
+        unknown=translate("view3d", "{ghost}: position unknown, not drawn"),
+        old=translate("view3d", "old: the last reading came in {age_s:.1f} s ago"),
+        enlarged=translate(
+            "view3d",
+            "thx, thy, zn drawn {factor:g} × too large from mid-range; "
+            "the tip is not where it is drawn",
+        ),
+        silent=translate("view3d", "The program does not answer: what is drawn is old."),
+        quiet=translate("view3d", "No news from the program: what is drawn is old."),
     )
 
 

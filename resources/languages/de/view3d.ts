@@ -19,6 +19,10 @@
         <translation>Qt WebEngine läuft nicht für den Benutzer root. Den Browser benutzen.</translation>
     </message>
     <message>
+        <source>RoTeMiNa 3-D view</source>
+        <translation>RoTeMiNa 3-D-Ansicht</translation>
+    </message>
+    <message>
         <source>the page was not loaded</source>
         <translation>die Seite wurde nicht geladen</translation>
     </message>
@@ -165,6 +169,34 @@
     <message>
         <source>Nano motion × {factor}</source>
         <translation>Nano × {factor}</translation>
+    </message>
+    <message>
+        <source>model</source>
+        <translation>Modell</translation>
+    </message>
+    <message>
+        <source>real</source>
+        <translation>Maschine</translation>
+    </message>
+    <message>
+        <source>{ghost}: position unknown, not drawn</source>
+        <translation>{ghost}: Position unbekannt, nicht gezeichnet</translation>
+    </message>
+    <message>
+        <source>old: the last reading came in {age_s:.1f} s ago</source>
+        <translation>veraltet: der letzte Messwert kam vor {age_s:.1f} s</translation>
+    </message>
+    <message>
+        <source>thx, thy, zn drawn {factor:g} × too large from mid-range; the tip is not where it is drawn</source>
+        <translation>thx, thy, zn {factor:g}-fach vergrößert von der Mitte aus; die Spitze ist nicht, wo sie gezeichnet ist</translation>
+    </message>
+    <message>
+        <source>The program does not answer: what is drawn is old.</source>
+        <translation>Das Programm antwortet nicht: das Bild ist veraltet.</translation>
+    </message>
+    <message>
+        <source>No news from the program: what is drawn is old.</source>
+        <translation>Nichts Neues vom Programm: das Bild ist veraltet.</translation>
     </message>
 </context>
 </TS>
