@@ -9,6 +9,7 @@ from rotemina.app.files import json_text, write_text
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import SessionState
 from rotemina.app.settings import Settings
+from rotemina.app.shell import language
 from rotemina.app.shell.main_window import MainWindow
 from rotemina.app.shell.window_run import make_window
 from rotemina.app.shell.workbench import Level, Run
@@ -41,6 +42,8 @@ def run(session: MotionSession, output: Path) -> int:
     except OSError as error:
         raise OffscreenError(f"{output}: the folder cannot be made: {error.strerror}") from error
     settings = Settings(output / "settings.json")
+    if not settings.get(language.SETTING, ""):
+        settings.set(language.SETTING, language.ENGLISH)  # as what it prints and writes
     window = make_window(session, settings, output / "played")
     try:
         window.resize(*SIZE)

@@ -34,6 +34,7 @@ def main(folder: Path) -> int:
     count = 0
     with tempfile.TemporaryDirectory() as kept:
         settings = Settings(Path(kept) / "settings.json")
+        settings.set("window.language", "en")
         window = make_window(MotionSession(Simulator(robot)), settings, Path(kept) / "played")
         window.show()
         window.workbench.start()
@@ -67,8 +68,45 @@ def main(folder: Path) -> int:
                     count += 1
         window.workbench.close()
         window.hide()
+        count += in_german(folder, Path(kept))
     print(f"{count} pictures in {folder}")
     return 0
+
+
+def in_german(folder: Path, kept: Path) -> int:
+    """Write a picture of each layout in German, after a short trajectory; return how many."""
+    from PySide6.QtWidgets import QApplication
+
+    from rotemina.app.motion.session import MotionSession
+    from rotemina.app.settings import Settings
+    from rotemina.app.shell.layouts import BUILT_IN
+    from rotemina.app.shell.offscreen_run import play
+    from rotemina.app.shell.window_run import make_window
+    from rotemina.drivers.simulator.driver import Simulator
+    from rotemina.sim.robot.file import load_robot
+    from rotemina.sim.trajectory.example import example_for
+
+    robot = load_robot("rotemina")
+    settings = Settings(kept / "german.json")
+    settings.set("window.language", "de")
+    window = make_window(MotionSession(Simulator(robot)), settings, kept / "played")
+    window.show()
+    window.workbench.start()
+    window.panels.make_all()
+    play(window, example_for(robot))
+    while window.workbench.busy:
+        QApplication.processEvents()
+    width, height = SIZES[0]
+    for layout in BUILT_IN:
+        window.arrangement.arrange(layout)
+        window.resize(width, height)
+        for _ in range(5):
+            QApplication.processEvents()
+        name = f"window-de-{layout.word.lower()}-{width}x{height}-dark.png"
+        window.grab().save(str(folder / name))
+    window.workbench.close()
+    window.hide()
+    return len(BUILT_IN)
 
 
 def bring_up(window: "MainWindow", name: str) -> None:

@@ -544,6 +544,10 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Fehler</translation>
     </message>
     <message>
+        <source>How long the window took to react since it was started. When it does not react for a quarter of a second, the log says what it did.</source>
+        <translation>Wie lange das Fenster seit dem Start zum Reagieren brauchte. Reagiert es eine Viertelsekunde nicht, sagt das Protokoll, was es tat.</translation>
+    </message>
+    <message>
         <source>Log</source>
         <translation>Protokoll</translation>
     </message>
@@ -578,6 +582,10 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     <message>
         <source>no message is shown</source>
         <translation>keine Meldung wird gezeigt</translation>
+    </message>
+    <message>
+        <source>Window late by {usual} ms at most in 99 %, worst {worst} ms</source>
+        <translation>Fenster zu 99 % höchstens {usual} ms verspätet, schlimmstens {worst} ms</translation>
     </message>
     <message>
         <source>no page is about it</source>
@@ -934,6 +942,10 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     <message>
         <source>Robot, driver, and how the connection stands</source>
         <translation>Roboter, Treiber und Stand der Verbindung</translation>
+    </message>
+    <message>
+        <source>How late the window reacted; the log says to what</source>
+        <translation>Wie spät das Fenster reagierte; das Protokoll sagt, worauf</translation>
     </message>
     <message>
         <source>The last record: commands and readings</source>

@@ -532,11 +532,11 @@ Leer  Kupplung</translation>
     </message>
     <message>
         <source>Not trusted: {parts}</source>
-        <translation>Nicht getraut: {parts}</translation>
+        <translation>Nicht verlässlich: {parts}</translation>
     </message>
     <message>
         <source>Trusted</source>
-        <translation>Getraut</translation>
+        <translation>Verlässlich</translation>
     </message>
     <message>
         <source>no answer</source>

@@ -1,0 +1,123 @@
+"""The German of the window: complete, current, and true to the templates of the English texts."""
+
+import ast
+import re
+import subprocess
+import xml.etree.ElementTree as ET
+from pathlib import Path
+from string import Formatter
+
+import PySide6
+import pytest
+from PySide6.QtCore import QTranslator
+
+ROOT = Path(__file__).parents[3]
+FOLDER = ROOT / "resources" / "languages"
+UPDATE = "; run `make languages`, and translate what it has added to resources/languages/de"
+# As `make languages` has them.
+OPTIONS = (
+    *("-silent", "-tr-function-alias", "QT_TRANSLATE_NOOP+=marked"),
+    *("-locations", "none", "-no-obsolete", "-source-language", "en", "-target-language", "de"),
+)
+# What puts a text on the screen, whatever class it is of.
+SHOWN_BY = (
+    *("QLabel", "QPushButton", "QCheckBox", "QRadioButton", "QGroupBox", "QToolButton", "QAction"),
+    *("setText", "setToolTip", "setStatusTip", "setWindowTitle", "setPlaceholderText", "setTitle"),
+    *("setAccessibleName", "setAccessibleDescription", "setSpecialValueText", "setTabText"),
+    *("addItem", "addAction", "addMenu", "addTab", "addRow", "setLabelText"),
+    *("notify", "allow", "plain_tip", "show_text", "setHorizontalHeaderLabels", "setHtml"),
+)
+_WORDS = re.compile(r"[A-Za-z]{2,} [A-Za-z]{2,}|^[A-Z][a-z]{2,}|^[a-z]{4,}$")
+_TAG = re.compile(r"</?[a-z][^<>]*>")
+_MNEMONIC = re.compile(r"&(?=\w)")
+
+
+def messages(path):
+    """(context, source) -> translation of a file, None where it is none yet."""
+    found = {}
+    for context in ET.parse(path).iter("context"):  # noqa: S314 (a file of this repository)
+        for message in context.iter("message"):
+            made = message.find("translation")
+            kind = made.get("type")
+            assert kind in (None, "unfinished"), f"{path.name}: {kind} {message.findtext('source')}"
+            text = None if kind else made.text
+            found[context.findtext("name"), message.findtext("source")] = text
+    return found
+
+
+@pytest.fixture(scope="module")
+def german():
+    found = {}
+    for path in sorted((FOLDER / "de").glob("*.ts")):
+        found |= messages(path)
+    return found
+
+
+def test_every_text_of_the_window_is_translated(german, tmp_path):
+    sources = sorted({*(ROOT / "app" / "shell").glob("*.py"), *(ROOT / "plugins").glob("*/*.py")})
+    found = tmp_path / "found.ts"
+    program = Path(PySide6.__file__).parent / "lupdate"
+    done = subprocess.run(
+        [program, *OPTIONS, *sources, "-ts", found], capture_output=True, text=True, check=True
+    )
+    assert done.stdout + done.stderr == ""
+    wanted = messages(found)
+    assert sorted(wanted.keys() - german.keys()) == [], f"not in a .ts file{UPDATE}"
+    assert sorted(german.keys() - wanted.keys()) == [], f"not in the window any more{UPDATE}"
+    assert [key for key, text in german.items() if not text] == [], f"not translated{UPDATE}"
+
+
+def literals(call):
+    """Texts that a call shows as they are written."""
+    for given in call.args:
+        texts = given.elts if isinstance(given, ast.List | ast.Tuple) else [given]
+        for text in texts:
+            if isinstance(text, ast.IfExp):
+                texts += [text.body, text.orelse]
+            parts = text.values if isinstance(text, ast.JoinedStr) else [text]
+            for part in parts:
+                if isinstance(part, ast.Constant) and isinstance(part.value, str):
+                    yield part.value
+
+
+def test_no_text_is_shown_as_it_is_written():
+    found = []
+    for path in (*(ROOT / "app" / "shell").glob("*.py"), *(ROOT / "plugins").glob("*/*.py")):
+        for call in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if not isinstance(call, ast.Call):
+                continue
+            name = getattr(call.func, "attr", getattr(call.func, "id", ""))
+            if name in SHOWN_BY:
+                texts = [text for text in literals(call) if _WORDS.search(text) and "<" not in text]
+                found += [f"{path.relative_to(ROOT)}:{call.lineno}: {text!r}" for text in texts]
+    assert found == []
+
+
+def test_the_file_that_the_window_reads_holds_them(german):
+    translator = QTranslator()
+    assert translator.load(str(FOLDER / "de.qm"))
+    other = {key: text for key, text in german.items() if translator.translate(*key) != text}
+    assert other == {}, f"de.qm is older than its .ts files{UPDATE}"
+
+
+def fields(text):
+    return sorted((name, spec, how) for _, name, spec, how in Formatter().parse(text) if name)
+
+
+def test_templates_are_those_of_the_english_texts(german):
+    wrong = []
+    for (context, source), text in german.items():
+        text = text or ""
+        pairs = {
+            "fields": (fields(source), fields(text)) if "{" in source + text else ("", ""),
+            "tags": (sorted(_TAG.findall(source)), sorted(_TAG.findall(text))),
+            "mnemonics": (len(_MNEMONIC.findall(source)), len(_MNEMONIC.findall(text))),
+            "ends": (_ends(source), _ends(text)),
+        }
+        wrong += [(context, source, what) for what, (one, other) in pairs.items() if one != other]
+    assert wrong == []
+
+
+def _ends(text):
+    """White space around a text, whether it goes on (…), and whether it has a colon."""
+    return text[: len(text) - len(text.lstrip())], text[len(text.rstrip()) :], text[-1:] == "…"
