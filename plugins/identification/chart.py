@@ -7,6 +7,7 @@ import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
 
+from rotemina.app.shell.controls import plain_tip
 from rotemina.app.shell.plot import SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.identification.findings import Picture
@@ -126,7 +127,9 @@ class Chart(QWidget):
             for name, role in named
         )
         self.title.setText(f"{title}: {legend}" if len(named) > 1 else title)
-        self.title.setToolTip(shown(self._picture.title))
+        names = ", ".join(name for name, _ in named)  # in full, where the title is cut
+        told = shown(self._picture.title)
+        self.title.setToolTip(plain_tip(f"{told}: {names}" if names else told))
 
 
 def _scaled(values: FloatArray, logarithmic: bool) -> FloatArray:

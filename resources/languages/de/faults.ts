@@ -325,7 +325,7 @@
     </message>
     <message>
         <source>Save …</source>
-        <translation>Speichern …</translation>
+        <translation>Sichern …</translation>
     </message>
     <message>
         <source>Empty</source>

@@ -87,7 +87,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>Press “Add to twin …”, then “New motion …” to see the gap shrink.</source>
-        <translation>„In den Zwilling …“ drücken, dann „Neue Bewegung …“, um die Lücke schrumpfen zu sehen.</translation>
+        <translation>„Zwilling …“ drücken, dann „Neue Bewegung …“, um die Lücke schrumpfen zu sehen.</translation>
     </message>
     <message>
         <source>The gap is real, but no effect of the catalogue accounts for it. Nothing is guessed.</source>
@@ -425,7 +425,7 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     </message>
     <message>
         <source>Add to twin …</source>
-        <translation>In den Zwilling …</translation>
+        <translation>Zwilling …</translation>
     </message>
     <message>
         <source>New motion …</source>
@@ -709,7 +709,7 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     </message>
     <message>
         <source>A bar is the share of the gap that a candidate closes: an outline at a first look, light once it is fitted, full once it is judged by data that its fit has not seen. The answer also asks which causes are needed beside each other, and may be another.</source>
-        <translation>Ein Balken ist der Anteil der Lücke, den ein Kandidat schließt: Umriss beim ersten Blick, hell nach der Anpassung, voll nach dem Urteil auf ungesehenen Daten. Die Antwort prüft auch, welche Ursachen zusammen nötig sind, und kann anders sein.</translation>
+        <translation>Balken: Anteil der Lücke, den ein Kandidat schließt. Umriss: erster Blick; hell: angepasst; voll: auf ungesehenen Daten beurteilt. Die Antwort prüft auch, welche Ursachen zusammen nötig sind, und kann anders sein.</translation>
     </message>
     <message>
         <source>Record and tap</source>

@@ -685,7 +685,7 @@
     </message>
     <message>
         <source>largest step, at {time:.4g} s [1]</source>
-        <translation>größter, bei {time:.4g} s [1]</translation>
+        <translation>größter, {time:.4g} s [1]</translation>
     </message>
     <message>
         <source>since the step [ms]</source>
