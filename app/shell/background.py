@@ -1,10 +1,13 @@
 """Work away from the window's thread, with its answer brought back to it."""
 
 import logging
+import threading
+from collections import deque
 from collections.abc import Callable
+from contextlib import suppress
 from typing import NamedTuple, TypeVar
 
-from PySide6.QtCore import QObject, QRunnable, QThreadPool, Signal
+from PySide6.QtCore import QObject, Signal
 
 from rotemina.app.shell.help_topics import explained
 from rotemina.app.shell.language import translate
@@ -20,39 +23,33 @@ class _Request(NamedTuple):
     failed: Callable[[str], None]
 
 
-class _Job(QRunnable):
-    def __init__(self, work: Callable[[], object], finished: Callable[[object, str], None]) -> None:
-        super().__init__()
-        self._work = work
-        self._finished = finished
-
-    def run(self) -> None:
-        answer: object = None
-        failure = ""
-        try:
-            answer = self._work()
-        except InputError as error:
-            failure = explained(error)
-        except Exception as error:  # a fault of the program must reach the operator, not vanish
-            logger.exception("work in the background failed")
-            failure = translate("shell", "a fault of the program: {name}: {error}").format(
-                name=type(error).__name__, error=error
-            )
-        self._finished(answer, failure)
+def _outcome(work: Callable[[], object]) -> tuple[object, str]:
+    """Return the answer of work, and what it failed with or nothing."""
+    try:
+        return work(), ""
+    except InputError as error:
+        return None, explained(error)
+    except Exception as error:  # a fault of the program must reach the operator, not vanish
+        logger.exception("work in the background failed")
+        text = translate("shell", "a fault of the program: {name}: {error}")
+        return None, text.format(name=type(error).__name__, error=error)
 
 
 class Background(QObject):
     """Runs functions one by one on a thread; their answers arrive on the window's thread.
 
-    An answer that was overtaken by a later request of the same kind is dropped.
+    An answer that was overtaken by a later request of the same kind is dropped. The thread is
+    there only while there is something to do. (It is none of Qt's pool: that keeps much of what it
+    has run, and with it the records that this was about.)
     """
 
     _finished = Signal(int, object, object)
 
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
-        self._pool = QThreadPool(self)
-        self._pool.setMaxThreadCount(1)
+        self._waiting: deque[tuple[int, Callable[[], object]]] = deque()
+        self._thread: threading.Thread | None = None
+        self._guard = threading.Lock()  # of both
         self._requests: dict[int, _Request] = {}
         self._latest: dict[str, int] = {}
         self._count = 0
@@ -72,9 +69,11 @@ class Background(QObject):
         self._count += 1
         number = self._latest[kind] = self._count
         self._requests[number] = _Request(kind, done, failed)
-        self._pool.start(
-            _Job(work, lambda answer, failure: self._finished.emit(number, answer, failure))
-        )
+        with self._guard:
+            self._waiting.append((number, work))
+            if self._thread is None:
+                self._thread = threading.Thread(target=self._work_off, name="background")
+                self._thread.start()
 
     @property
     def busy(self) -> bool:
@@ -83,7 +82,23 @@ class Background(QObject):
 
     def wait(self, timeout_s: float = 10.0) -> bool:
         """Wait until nothing runs any more, for closing the window; say whether that came."""
-        return self._pool.waitForDone(round(1000 * timeout_s))
+        with self._guard:
+            thread = self._thread
+        if thread is not None:
+            thread.join(timeout_s)
+        return thread is None or not thread.is_alive()
+
+    def _work_off(self) -> None:
+        while True:
+            with self._guard:
+                if not self._waiting:
+                    self._thread = None
+                    return
+                number, work = self._waiting.popleft()
+            answer, failure = _outcome(work)
+            with suppress(RuntimeError):  # the window may be gone by now
+                self._finished.emit(number, answer, failure)
+            del work, answer  # which are not kept while nobody asks for anything
 
     def _deliver(self, number: int, answer: object, failure: str) -> None:
         request = self._requests.pop(number)

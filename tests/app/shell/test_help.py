@@ -222,7 +222,7 @@ def the_support_bundle_is_shown_before_it_is_written(qtbot, window, tmp_path):
     page = window._support
     assert not page.save.isEnabled()
     qtbot.waitUntil(page.save.isEnabled, timeout=LONG_MS)
-    assert page.list.count() == 4
+    assert page.list.count() == 5
     assert "secret.csv" in page.view.toPlainText()
     assert str(tmp_path.home()) + "/" not in page.view.toPlainText()
     target = tmp_path / "bundle.zip"

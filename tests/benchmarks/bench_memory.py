@@ -1,0 +1,111 @@
+"""Memory of the window in long use: plays, and actions of menus, palette and panels by chance.
+
+Limit: after the first tenth it grows by at most 5 %. As a program of its own it tells of the use
+that it is asked for, as JSON: ``python tests/benchmarks/bench_memory.py --plays 60 --actions 1500``.
+"""
+
+import argparse
+import collections
+import gc
+import json
+import logging
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+PLAYS, ACTIONS = 500, 10_000
+PARTS = 20  # between which memory is looked at
+LIMIT_PERCENT = 5.0
+
+
+def memory_mb() -> dict[str, float]:
+    """Return the program's memory, MB: resident, and its own share of what is mapped."""
+    wanted = {"Rss": "rss_mb", "Pss": "pss_mb", "Private_Dirty": "private_mb"}
+    found = {}
+    for line in Path("/proc/self/smaps_rollup").read_text().splitlines()[1:]:
+        name, _, rest = line.partition(":")
+        if name in wanted:
+            found[wanted[name]] = int(rest.split()[0]) / 1024.0
+    return found
+
+
+def kinds() -> collections.Counter:
+    """Return how many objects there are of each type."""
+    return collections.Counter(f"{type(o).__module__}.{type(o).__qualname__}" for o in gc.get_objects())
+
+
+def use(plays: int, actions: int, *, trace: bool) -> dict[str, object]:
+    """Use a window; return what it took after each part."""
+    import tracemalloc
+
+    from pyqtgraph.util.garbage_collector import GarbageCollector
+    from PySide6.QtWidgets import QApplication
+
+    from window_use import UsedWindow
+
+    logging.basicConfig(level=logging.ERROR)
+    used = UsedWindow()
+    collector = GarbageCollector(interval=1.0)  # as the program does
+    looks, counts, began_s = [], [], time.monotonic()
+    first = None
+    for part in range(PARTS + 1):
+        if part:
+            for _ in range(round(plays / PARTS)):
+                used.play()
+                used.act(round(actions / plays))
+        used.settle(0.3)
+        gc.collect()
+        if part == PARTS // 10 and trace:
+            tracemalloc.start(12)
+            first = tracemalloc.take_snapshot()
+        counts.append(kinds())
+        looks.append(
+            {
+                "plays": round(plays / PARTS) * part,
+                "s": round(time.monotonic() - began_s, 1),
+                **{name: round(value, 1) for name, value in memory_mb().items()},
+                "objects": sum(counts[-1].values()),
+                "widgets": len(QApplication.allWidgets()),
+                "threads": threading.active_count(),
+                "files": len(list(Path("/proc/self/fd").iterdir())),
+            }
+        )
+        print(json.dumps(looks[-1]), file=sys.stderr, flush=True)
+    tenth = PARTS // 10
+    grown = counts[-1] - counts[tenth]
+    if first is not None:
+        for one in tracemalloc.take_snapshot().compare_to(first, "traceback")[:15]:
+            print(one, *one.traceback.format(), sep="\n", file=sys.stderr)
+    growth = {
+        name: round(100.0 * (looks[-1][name] / looks[tenth][name] - 1.0), 2)
+        for name in ("rss_mb", "pss_mb", "private_mb", "objects", "widgets", "threads", "files")
+    }
+    collector.timer.stop()
+    used.close()
+    return {"looks": looks, "grown_percent": growth, "most_grown": dict(grown.most_common(25))}
+
+
+def test_memory(capsys):
+    told = subprocess.run(
+        [sys.executable, __file__, "--plays", str(PLAYS), "--actions", str(ACTIONS)],
+        check=True,
+        capture_output=True,
+        text=True,
+    )
+    found = json.loads(told.stdout)
+    with capsys.disabled():
+        print(
+            f"\n{PLAYS} plays, {ACTIONS} actions: after the first tenth, %: "
+            f"{found['grown_percent']}; limit of rss {LIMIT_PERCENT}"
+        )
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--plays", type=int, default=PLAYS)
+    parser.add_argument("--actions", type=int, default=ACTIONS)
+    parser.add_argument("--trace", action="store_true", help="tell where memory was asked for")
+    options = parser.parse_args()
+    print(json.dumps(use(options.plays, options.actions, trace=options.trace), indent=1))
