@@ -11,6 +11,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.gap.advice import advice
 from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap.sentences import reason_of, remark_of
 from rotemina.plugins.gap.table import Table
 from rotemina.plugins.gap.tips import tip
 from rotemina.plugins.gap.words import (
@@ -108,7 +109,7 @@ def _lines(one: AxisDiagnosis, answer: Answer) -> Iterator[str]:
     yield from advice(one, has_experiment=bool(experiments))
     for cause in one.causes:
         yield from _cause(cause, answer)
-    yield from one.remarks
+    yield from map(remark_of, one.remarks)
     reasons: dict[str, list[str]] = {}
     for each in one.untestable:
         reasons.setdefault(each.reason, []).append(effect_word(each.effect))
@@ -116,7 +117,7 @@ def _lines(one: AxisDiagnosis, answer: Answer) -> Iterator[str]:
         text = translate("gap", "Not testable: {effects} ({reason}).")
         yield text.format(effects=all_of(effects), reason=reason)
     for experiment in experiments:
-        yield translate("gap", "Next experiment: {why}").format(why=experiment.why)
+        yield translate("gap", "Next experiment: {why}").format(why=reason_of(experiment.why))
 
 
 def _cause(cause: Cause, answer: Answer) -> Iterator[str]:

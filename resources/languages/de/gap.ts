@@ -1115,6 +1115,214 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <source>On data that no fit saw, its gap at {tap} shrinks from {raw} to {corrected} rms (noise floor {floor}): {share} of it closes.</source>
         <translation>Auf Daten, die keine Anpassung sah, schrumpft die Lücke bei {tap} von {raw} auf {corrected} rms (Rauschgrenze {floor}): {share} davon schließt sich.</translation>
     </message>
+    <message>
+        <source>Its gap comes from what was found on other axes.</source>
+        <translation>Ihre Lücke kommt von dem, was auf anderen Achsen gefunden wurde.</translation>
+    </message>
+    <message>
+        <source>It is coupled to axis {axis}, whose gap is larger and not explained.</source>
+        <translation>Sie ist mit Achse {axis} gekoppelt, deren Lücke größer und nicht erklärt ist.</translation>
+    </message>
+    <message>
+        <source>What is left depends on {groups}, as far as simple features predict it.</source>
+        <translation>Der Rest hängt ab von {groups}, soweit einfache Merkmale ihn vorhersagen.</translation>
+    </message>
+    <message>
+        <source>{n} sudden jumps by whole multiples of four full steps were taken back.</source>
+        <translation>{n} plötzliche Sprünge um ganze Vielfache von vier Vollschritten wurden zurückgenommen.</translation>
+    </message>
+    <message>
+        <source>{n} spikes or dropouts of the sensor were left out.</source>
+        <translation>{n} Ausreißer oder Ausfälle des Sensors wurden ausgelassen.</translation>
+    </message>
+    <message>
+        <source>A vibration of {frequencies}, whatever the axis did, was set aside.</source>
+        <translation>Eine Schwingung von {frequencies}, unabhängig von der Achse, wurde beiseitegelegt.</translation>
+    </message>
+    <message>
+        <source>The sensor reads in steps of {step}.</source>
+        <translation>Der Sensor liest in Stufen von {step}.</translation>
+    </message>
+    <message>
+        <source>The sensor is {times} times as noisy as declared.</source>
+        <translation>Der Sensor rauscht {times}-mal so stark wie angegeben.</translation>
+    </message>
+    <message>
+        <source>The axis was commanded but not measured: nothing is said of it.</source>
+        <translation>Die Achse bekam Sollwerte, wurde aber nicht gemessen: über sie wird nichts gesagt.</translation>
+    </message>
+    <message>
+        <source>The axis was never commanded to move: only what acts without motion can show.</source>
+        <translation>Die Achse sollte sich nie bewegen: nur was ohne Bewegung wirkt, kann sich zeigen.</translation>
+    </message>
+    <message>
+        <source>The axis&apos; own sensor was not recorded: nothing is said of that sensor.</source>
+        <translation>Der eigene Sensor der Achse wurde nicht aufgezeichnet: über ihn wird nichts gesagt.</translation>
+    </message>
+    <message>
+        <source>No independent reference (ref) was recorded: effects of the sensor cannot be told from those of the axis.</source>
+        <translation>Keine unabhängige Referenz (ref) wurde aufgezeichnet: Effekte des Sensors lassen sich nicht von denen der Achse trennen.</translation>
+    </message>
+    <message>
+        <source>The reading stands at exactly {stand}: either the axis does not follow, or the sensor is {fault}, and the records cannot tell which.</source>
+        <translation>Der Messwert steht auf genau {stand}: entweder folgt die Achse nicht, oder der Sensor ist {fault}; die Aufzeichnungen können es nicht sagen.</translation>
+    </message>
+    <message>
+        <source>A command goes beyond the range {range}, to {value}; the model knows no ends of the range.</source>
+        <translation>Ein Sollwert überschreitet den Bereich {range}, bis {value}; das Modell kennt keine Bereichsenden.</translation>
+    </message>
+    <message>
+        <source>The {tap} channel is {gain} × what is commanded, which no single effect brings about: check signs, units and the gain in the robot file.</source>
+        <translation>Der Kanal {tap} ist {gain} × der Sollwert, was kein einzelner Effekt bewirkt: Vorzeichen, Einheiten und Verstärkung in der Roboterdatei prüfen.</translation>
+    </message>
+    <message>
+        <source>Time leaps {n} times in a record, by up to {time} s, where no axis is under way; the commands are taken as held meanwhile.</source>
+        <translation>Die Zeit springt {n}-mal in einer Aufzeichnung, um bis zu {time} s, wo keine Achse unterwegs ist; die Sollwerte gelten dabei als gehalten.</translation>
+    </message>
+    <message>
+        <source>Rows of a record are {low} to {high} s apart; if these are times of a computer and not of the device, their scatter passes for noise of the sensors.</source>
+        <translation>Zeilen einer Aufzeichnung liegen {low} bis {high} s auseinander; sind das Zeiten eines Rechners und nicht des Geräts, erscheint ihre Streuung als Sensorrauschen.</translation>
+    </message>
+    <message>
+        <source>Rows are missing at {n} places of a record; the commands are taken as held there.</source>
+        <translation>An {n} Stellen einer Aufzeichnung fehlen Zeilen; die Sollwerte gelten dort als gehalten.</translation>
+    </message>
+    <message>
+        <source>The records move {axis} too little to tell effects apart. Play this: {test}; it goes through many amplitudes and speeds.</source>
+        <translation>Die Aufzeichnungen bewegen {axis} zu wenig, um Effekte zu trennen. Dies abspielen: {test}; es durchläuft viele Amplituden und Geschwindigkeiten.</translation>
+    </message>
+    <message>
+        <source>To tell {effects} apart, play this: {test}; it sets them{closest} {floors} apart, even once each is fitted to it</source>
+        <translation>Um {effects} zu trennen, dies abspielen: {test}; es bringt sie{closest} {floors} auseinander, auch wenn jeder daran angepasst ist</translation>
+    </message>
+    <message>
+        <source>, which may be too little</source>
+        <translation>, was zu wenig sein kann</translation>
+    </message>
+    <message>
+        <source>, if the reference (ref) of {axis} is recorded too: without it, it does not tell {effects} apart</source>
+        <translation>, wenn auch die Referenz (ref) von {axis} aufgezeichnet wird: ohne sie trennt es {effects} nicht</translation>
+    </message>
+    <message>
+        <source>; no test here tells {any} from one of them</source>
+        <translation>; kein Test hier trennt {any} von einem davon</translation>
+    </message>
+    <message>
+        <source>{value} for {share} % of the rows, while the axis is commanded to move</source>
+        <translation>{value} in {share} % der Zeilen, während die Achse sich bewegen soll</translation>
+    </message>
+    <message>
+        <source>stuck or not connected</source>
+        <translation>hängengeblieben oder nicht verbunden</translation>
+    </message>
+    <message>
+        <source>saturated</source>
+        <translation>in Sättigung</translation>
+    </message>
+    <message>
+        <source>, the closest two of them,</source>
+        <translation>, die zwei ähnlichsten,</translation>
+    </message>
+    <message>
+        <source>{n} noise floors (rms)</source>
+        <translation>{n} Rauschgrenzen (rms)</translation>
+    </message>
+    <message>
+        <source>{low} to {high}</source>
+        <translation>{low} bis {high}</translation>
+    </message>
+    <message>
+        <source>{name}, ±{size} about {middle}, {time} s</source>
+        <translation>{name}, ±{size} um {middle}, {time} s</translation>
+    </message>
+    <message>
+        <source>{name} of {moved} while {held} is held</source>
+        <translation>{name} von {moved}, während {held} gehalten wird</translation>
+    </message>
+    <message>
+        <source>fast {size}triangle</source>
+        <translation>schnelles {size}Dreieck</translation>
+    </message>
+    <message>
+        <source>slow {size}triangle</source>
+        <translation>langsames {size}Dreieck</translation>
+    </message>
+    <message>
+        <source>fast {hz} Hz sine</source>
+        <translation>schneller {hz}-Hz-Sinus</translation>
+    </message>
+    <message>
+        <source>{hz} Hz sine</source>
+        <translation>{hz}-Hz-Sinus</translation>
+    </message>
+    <message>
+        <source>decaying triangle</source>
+        <translation>abklingendes Dreieck</translation>
+    </message>
+    <message>
+        <source>staircase</source>
+        <translation>Treppe</translation>
+    </message>
+    <message>
+        <source>row of steps</source>
+        <translation>Reihe von Schritten</translation>
+    </message>
+    <message>
+        <source>steps with long holds</source>
+        <translation>Schritte mit langem Halten</translation>
+    </message>
+    <message>
+        <source>one step there and back with very long holds</source>
+        <translation>ein Schritt hin und zurück mit sehr langem Halten</translation>
+    </message>
+    <message>
+        <source>ramps at two constant speeds</source>
+        <translation>Rampen mit zwei konstanten Geschwindigkeiten</translation>
+    </message>
+    <message>
+        <source>multisine</source>
+        <translation>Multisinus</translation>
+    </message>
+    <message>
+        <source>chirp</source>
+        <translation>Chirp</translation>
+    </message>
+    <message>
+        <source>small </source>
+        <translation>kleines </translation>
+    </message>
+    <message>
+        <source>large </source>
+        <translation>großes </translation>
+    </message>
+    <message>
+        <source>command</source>
+        <translation>Sollwert</translation>
+    </message>
+    <message>
+        <source>direction</source>
+        <translation>Richtung</translation>
+    </message>
+    <message>
+        <source>speed</source>
+        <translation>Geschwindigkeit</translation>
+    </message>
+    <message>
+        <source>past commands</source>
+        <translation>früheren Sollwerten</translation>
+    </message>
+    <message>
+        <source>time</source>
+        <translation>Zeit</translation>
+    </message>
+    <message>
+        <source>position phase</source>
+        <translation>Positionsphase</translation>
+    </message>
+    <message>
+        <source>axis {axis}</source>
+        <translation>Achse {axis}</translation>
+    </message>
 </context>
 <context>
     <name>panels</name>
