@@ -14,7 +14,6 @@ import os
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 LATE_MS, WORST_MS = 50.0, 250.0
 FRAMES, FRAMES_BESIDE_3D = 20.0, 12.0
@@ -144,9 +143,9 @@ def measure(seconds):
     import gc
 
     from pyqtgraph.util.garbage_collector import GarbageCollector
+    from window_use import UsedWindow
 
     from rotemina.app.cameras.feed import FeedState
-    from window_use import UsedWindow
 
     logging.basicConfig(level=logging.ERROR)
     load = os.getloadavg()[0]

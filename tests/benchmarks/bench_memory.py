@@ -1,7 +1,7 @@
 """Memory of the window in long use: plays, and actions of menus, palette and panels by chance.
 
 Limit: after the first tenth it grows by at most 5 %. As a program of its own it tells of the use
-that it is asked for, as JSON: ``python tests/benchmarks/bench_memory.py --plays 60 --actions 1500``.
+that it is asked for, as JSON: ``python tests/benchmarks/bench_memory.py --plays 60 --actions 999``.
 """
 
 import argparse
@@ -33,23 +33,23 @@ def memory_mb() -> dict[str, float]:
 
 def kinds() -> collections.Counter:
     """Return how many objects there are of each type."""
-    return collections.Counter(f"{type(o).__module__}.{type(o).__qualname__}" for o in gc.get_objects())
+    types = map(type, gc.get_objects())
+    return collections.Counter(f"{one.__module__}.{one.__qualname__}" for one in types)
 
 
-def use(plays: int, actions: int, *, trace: bool) -> dict[str, object]:
-    """Use a window; return what it took after each part."""
+def use(plays: int, actions: int, *, after: float = 0.1, trace: bool = False) -> dict[str, object]:
+    """Use a window; return what it took after each part, and how that grew after a share of all."""
     import tracemalloc
 
     from pyqtgraph.util.garbage_collector import GarbageCollector
     from PySide6.QtWidgets import QApplication
-
     from window_use import UsedWindow
 
     logging.basicConfig(level=logging.ERROR)
     used = UsedWindow()
     collector = GarbageCollector(interval=1.0)  # as the program does
     looks, counts, began_s = [], [], time.monotonic()
-    first = None
+    first, begun = None, round(after * PARTS)
     for part in range(PARTS + 1):
         if part:
             for _ in range(round(plays / PARTS)):
@@ -57,7 +57,7 @@ def use(plays: int, actions: int, *, trace: bool) -> dict[str, object]:
                 used.act(round(actions / plays))
         used.settle(0.3)
         gc.collect()
-        if part == PARTS // 10 and trace:
+        if part == begun and trace:
             tracemalloc.start(12)
             first = tracemalloc.take_snapshot()
         counts.append(kinds())
@@ -73,13 +73,12 @@ def use(plays: int, actions: int, *, trace: bool) -> dict[str, object]:
             }
         )
         print(json.dumps(looks[-1]), file=sys.stderr, flush=True)
-    tenth = PARTS // 10
-    grown = counts[-1] - counts[tenth]
+    grown = counts[-1] - counts[begun]
     if first is not None:
         for one in tracemalloc.take_snapshot().compare_to(first, "traceback")[:15]:
             print(one, *one.traceback.format(), sep="\n", file=sys.stderr)
     growth = {
-        name: round(100.0 * (looks[-1][name] / looks[tenth][name] - 1.0), 2)
+        name: round(100.0 * (looks[-1][name] / looks[begun][name] - 1.0), 2)
         for name in ("rss_mb", "pss_mb", "private_mb", "objects", "widgets", "threads", "files")
     }
     collector.timer.stop()
@@ -106,6 +105,8 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--plays", type=int, default=PLAYS)
     parser.add_argument("--actions", type=int, default=ACTIONS)
+    parser.add_argument("--after", type=float, default=0.1, help="share from which growth counts")
     parser.add_argument("--trace", action="store_true", help="tell where memory was asked for")
     options = parser.parse_args()
-    print(json.dumps(use(options.plays, options.actions, trace=options.trace), indent=1))
+    found = use(options.plays, options.actions, after=options.after, trace=options.trace)
+    print(json.dumps(found, indent=1))

@@ -1,4 +1,4 @@
-"""A window in use without hands: the simulator on a quick clock, plays, and whatever is harmless."""
+"""A window in use without hands: a simulator with a quick clock, plays, whatever is harmless."""
 
 import os
 import random
@@ -65,7 +65,7 @@ class UsedWindow:
         QDesktopServices.openUrl = staticmethod(lambda _url: True)  # nothing leaves the window
         self._closer = QTimer(interval=1)
         self._closer.timeout.connect(self._close_modal)
-        self._chance = random.Random(1)
+        self._chance = random.Random(1)  # noqa: S311 (no secret)
         self._played = 0
         self.bench.run_changed.connect(lambda _: self._count())
         self.until(lambda: not self.window.panels.waiting and self.ready)
@@ -155,9 +155,8 @@ class UsedWindow:
         self._closer.stop()
         self.settle()
         for widget in QApplication.topLevelWidgets():
-            if widget is not self.window and widget.isVisible():
-                if isinstance(widget, QDialog | QMenu):
-                    widget.close()
+            if isinstance(widget, QDialog | QMenu) and widget.isVisible():
+                widget.close()
         self.settle()
 
     def notify(self, text: str) -> None:
