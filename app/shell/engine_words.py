@@ -5,6 +5,7 @@ stands in the window for long is among these.
 """
 
 import re
+from collections.abc import Callable, Collection
 
 from rotemina.app.shell.language import marked, translate
 
@@ -26,6 +27,17 @@ SAYINGS = (
     marked("shell", "the device has sent nothing for {seconds} s; wait, or reconnect"),
     marked("shell", "{stop} is latched; release it first"),
     marked("shell", "this is a replay; nothing moves"),
+    marked("shell", "motion is locked: {reason}"),
+    marked(
+        "shell",
+        "axis {axis}: {left} of its range are left downwards, {needed} are needed ({approach} to "
+        "approach, {halt} to halt, {thrust} to thrust); move the axis back first, or shorten them",
+    ),
+    marked(
+        "shell",
+        "axis {axis}: {left} of its range are left upwards, {needed} are needed ({approach} to "
+        "approach, {halt} to halt, {thrust} to thrust); move the axis back first, or shorten them",
+    ),
     marked("shell", "operator"),
     marked("shell", "playback"),
     marked("shell", "homing"),
@@ -36,17 +48,41 @@ SAYINGS = (
     marked("shell", "the connection was lost"),
 )
 _FIELD = re.compile(r"\\\{(\w+)\\\}")
-_PATTERNS = tuple(
-    (re.compile(_FIELD.sub(r"(?P<\1>.+)", re.escape(saying)), re.DOTALL), saying)
-    for saying in SAYINGS
-)
 
 
-def spoken(text: str) -> str:
-    """Return what the engine says in the window's language; what is not known here, unchanged."""
-    for pattern, saying in _PATTERNS:
-        found = pattern.fullmatch(text)
-        if found is not None:
-            fields = {name: spoken(value) for name, value in found.groupdict().items()}
-            return translate("shell", saying).format(**fields)
-    return text
+def speaker(
+    context: str, sayings: Collection[str], others: Callable[[str], str] = str
+) -> Callable[[str], str]:
+    """Return a function that says in the window's language what the engine says.
+
+    Parameters
+    ----------
+    context : str
+        In which the sayings are translated.
+    sayings : collection of str
+        Whole ones, marked, with what changes in them as ``{fields}``; those are said likewise.
+    others : callable, optional
+        Says what is none of them; by default that stays as it is.
+    """
+    fixed = frozenset(saying for saying in sayings if "{" not in saying)
+    patterns = tuple(
+        (re.compile(_FIELD.sub(r"(?P<\1>.+)", re.escape(saying)), re.DOTALL), saying)
+        for saying in sayings
+        if saying not in fixed
+    )
+
+    def say(text: str) -> str:
+        if text in fixed:
+            return translate(context, text)
+        for pattern, saying in patterns:
+            found = pattern.fullmatch(text)
+            if found is not None:
+                fields = {name: say(value) for name, value in found.groupdict().items()}
+                return translate(context, saying).format(**fields)
+        return others(text)
+
+    return say
+
+
+#: Says the sayings above; what is not known here is unchanged.
+spoken = speaker("shell", SAYINGS)

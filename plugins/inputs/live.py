@@ -10,8 +10,9 @@ from rotemina.app.shell.controls import ElidedLabel
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.inputs.bars import AxisBar, Lamps
+from rotemina.plugins.inputs.engine_words import spoken
 from rotemina.plugins.inputs.section import Section, clear, show_text
-from rotemina.plugins.inputs.words import engine_text, target_name
+from rotemina.plugins.inputs.words import target_name
 
 _NAME_WIDTH, _NUMBER_WIDTH = 72, 104
 
@@ -56,7 +57,7 @@ class AxisRow(QFrame):
         percent = f"{100.0 * axis.deflection:+.0f}".replace("-0", "0") if axis.deflection else "0"
         self.numbers.setText(f"{said}   {percent} %")
         drives = "" if axis.drives is None else f"→ {target_name(axis.drives)}"
-        parts = (drives, "" if axis.reason is None else engine_text(axis.reason))
+        parts = (drives, "" if axis.reason is None else spoken(axis.reason))
         self.about.show_text(": ".join(part for part in parts if part))
         self.about.setVisible(bool(self.about.text()))
 
@@ -108,7 +109,7 @@ def _said(view: DeviceView, age_s: float | None) -> str:
             "inputs", "Old: the devices were read {age_s:.1f} s ago. Nothing is steered by them."
         ).format(age_s=age_s)
     if view.problem is not None:
-        problem = engine_text(view.problem)
+        problem = spoken(view.problem)
         return problem[:1].upper() + problem[1:]
     return (
         ""

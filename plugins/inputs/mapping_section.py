@@ -13,11 +13,12 @@ from rotemina.app.shell.controls import allow
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.inputs.edits import Edited, exchanged, threshold, turned
+from rotemina.plugins.inputs.engine_words import spoken
 from rotemina.plugins.inputs.finding import Finding
 from rotemina.plugins.inputs.mapping_rows import ActionRow, Row, TargetRow
 from rotemina.plugins.inputs.profiles import ProfileChoice
 from rotemina.plugins.inputs.section import Section, SteadyChoice, button, quiet_text
-from rotemina.plugins.inputs.words import ACTIONS, axis_targets, device_name, engine_text, way_of
+from rotemina.plugins.inputs.words import ACTIONS, axis_targets, device_name, way_of
 from rotemina.sim.errors import InputError
 
 HINT = marked("inputs", "Press a field, then move the control that is to do it.")
@@ -144,13 +145,13 @@ class MappingSection(Section):
         elif isinstance(row, TargetRow):
             self._tell(
                 translate("inputs", "{name}: {message}, {target}. Press again to cancel.").format(
-                    name=row.name, message=engine_text(found.message), target=way_of(row.target)
+                    name=row.name, message=spoken(found.message), target=way_of(row.target)
                 )
             )
         else:
             self._tell(
                 translate("inputs", "{name}: {message}. Press again to cancel.").format(
-                    name=row.name, message=engine_text(found.message)
+                    name=row.name, message=spoken(found.message)
                 )
             )
 

@@ -7,9 +7,9 @@ from rotemina.app.motion.teleoperation.devices_view import DevicesView
 from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.plugins.inputs.engine_words import spoken
 from rotemina.plugins.inputs.profiles import AUTOMATIC, Offer, ProfileChoice
 from rotemina.plugins.inputs.section import Section, SteadyChoice, button, quiet_text, show_text
-from rotemina.plugins.inputs.words import engine_text
 
 _FIRST = marked("inputs", "save or discard the changes first")
 
@@ -180,5 +180,5 @@ def _state(view: DevicesView, profiles: ProfileChoice) -> str:
             "inputs", "Changed, and not kept: {where}, or it is lost when the program ends."
         ).format(where=where)
     if profiles.chosen == AUTOMATIC and view.profile is not None:
-        return translate("inputs", "In use: {name}").format(name=engine_text(view.profile.name))
+        return translate("inputs", "In use: {name}").format(name=spoken(view.profile.name))
     return ""

@@ -13,6 +13,7 @@ from rotemina.app.motion.teleoperation.profile import Seat
 from rotemina.app.shell.language import marked, translate
 from rotemina.drivers.inputs.device import InputIdentity
 from rotemina.drivers.inputs.hub import InputHub
+from rotemina.plugins.inputs.engine_words import spoken
 
 NOTHING_SENT = marked("inputs", "Nothing is sent to the robot while you set up, but stops.")
 ACTIONS = {
@@ -64,31 +65,6 @@ _PAD_BUTTONS = (
     marked("inputs", "coarse"),
     marked("inputs", "take_over"),
 )
-#: What the engine says of axes and devices, where it has no values in it.
-_ENGINE = (
-    marked("inputs", "not yet seen at rest: let go of it"),
-    marked("inputs", "has said nothing yet: move it, and let go of it"),
-    marked("inputs", "jitters from end to end: its potentiometer or cable is bad"),
-    marked(
-        "inputs",
-        "has stood at its end from the first moment: free it; if it rests there, calibrate it as "
-        "one-sided",
-    ),
-    marked("inputs", "the trainer has taken over: let go of it first"),
-    marked("inputs", "the trainee has taken over: let go of it first"),
-    marked(
-        "inputs",
-        "the trainer's device is not there: the trainee does not drive alone: let go of it first",
-    ),
-    marked(
-        "inputs",
-        "silent, though it streams: nothing has come from it; replug it, or look at its cable",
-    ),
-    marked("inputs", "no profile is chosen: the input devices do nothing"),
-    marked("inputs", "Automatic"),
-    marked("inputs", "move the axis now"),
-    marked("inputs", "move the button now"),
-)
 _HID = re.compile(r"hid:([0-9a-f]{4}):([0-9a-f]{4}):")
 
 
@@ -131,11 +107,6 @@ def target_name(target: str) -> str:
         if target in DEGREES_OF_FREEDOM
         else name
     )
-
-
-def engine_text(said: str) -> str:
-    """Return what the engine says in the language in use; what is not known stays as it is."""
-    return translate("inputs", said) if said in _ENGINE else said
 
 
 def control_name(control: str) -> str:
@@ -191,7 +162,7 @@ def troubles(view: DevicesView, hub: InputHub) -> tuple[Trouble, ...]:
         )
         for key, problem in hub.problems.items()
     ]
-    return (*found, *(Trouble(engine_text(problem)) for problem in view.problems))
+    return (*found, *(Trouble(spoken(problem)) for problem in view.problems))
 
 
 def udev_rule(key: str) -> str | None:

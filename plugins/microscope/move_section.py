@@ -10,6 +10,7 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.plugins.microscope.engine_words import spoken
 from rotemina.plugins.microscope.overlays import ghost_text
 from rotemina.plugins.microscope.section import Section, SteadyChoice, button, show_text
 from rotemina.plugins.microscope.standing import against_clicking
@@ -69,7 +70,7 @@ class MoveSection(Section):
             else None
         )
         allow(self.halt, idle, translate("microscope", "Stop the machine where it is"))
-        lines = (ghost_text(sight), visit_text(sight.visiting), sight.stopped)
+        lines = (ghost_text(sight), visit_text(sight.visiting), spoken(sight.stopped))
         show_text(self.said, "\n".join(line for line in lines if line))
 
 

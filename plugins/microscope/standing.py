@@ -128,7 +128,9 @@ def against_moving(sight: Sight, state: SessionState) -> str | None:
             activity=spoken(sight.activity)
         )
     if state.locked is not None:
-        return translate("microscope", "motion is locked: {locked}").format(locked=state.locked)
+        return translate("microscope", "motion is locked: {locked}").format(
+            locked=spoken(state.locked)
+        )
     if state.activity is not DeviceState.IDLE:
         return translate("microscope", "the machine is not at rest")
     return None

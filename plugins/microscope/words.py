@@ -109,7 +109,7 @@ def target_text(number: int, target: Target) -> str:
     text = f"{number}   {target.column:.0f}, {target.row:.0f} px"
     if target.visit is not None:
         text = f"{text}   {spoken(target.visit)}"
-    return f"{text}: {target.note}" if target.note else text
+    return f"{text}: {spoken(target.note)}" if target.note else text
 
 
 def tip_text(tip: TipSeen) -> str:
@@ -146,7 +146,7 @@ def cell_text(sight: Sight) -> str:
     """Return the cell's size, and how far its membrane is."""
     cell = sight.cell
     if cell.outline is None:
-        return cell.reason
+        return spoken(cell.reason)
     long, short = cell.outline.figures[2:4]
     size = f"{2 * long:.0f} × {2 * short:.0f} px"
     if sight.pixel_m is not None:
@@ -166,7 +166,7 @@ def drift_text(seen: DriftSeen) -> str:
     if not seen.watched:
         return ""
     if seen.drift is None:
-        return seen.reason or translate("microscope", "watching")
+        return spoken(seen.reason) or translate("microscope", "watching")
     right, down = seen.drift.shift
     return translate(
         "microscope", "{right:.2f}, {down:.2f} px since the background was taken"

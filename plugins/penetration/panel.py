@@ -21,6 +21,7 @@ from rotemina.app.motion.penetration.run_log import PenetrationRun, as_table
 from rotemina.app.motion.penetration.status import PenetrationStatus
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.penetration.cell_view import CellView
@@ -269,7 +270,7 @@ class PenetrationPanel(Panel):
             self._why_not = self.form.complaint or self.prospect.problem
         elif state.locked is not None:
             self._why_not = translate("penetration", "motion is locked: {locked}").format(
-                locked=state.locked
+                locked=spoken(state.locked)
             )
         else:
             self._why_not = self._penetration.why_not(self.prospect.parameters, self.prospect.plan)

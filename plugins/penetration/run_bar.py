@@ -100,7 +100,7 @@ class RunBar(QWidget):
             else None
         )
         if arm_word(phase) == "Arm" and against is None:
-            against = why_not
+            against = None if why_not is None else spoken(why_not)
         allow(self.arm, against, translate("penetration", arm_tip(phase)))
         self.button.setText(translate("penetration", button_word(phase)))
         allow(

@@ -77,7 +77,7 @@ def row(run: PenetrationRun, now: datetime) -> tuple[str, ...]:
             speed_text(thrust.peak_speed),
             way_text(thrust.error),
         )
-    return when(run.started, now), spoken(run.verdict), _height(run), *figures, run.reason
+    return when(run.started, now), spoken(run.verdict), _height(run), *figures, spoken(run.reason)
 
 
 def when(started: str, now: datetime) -> str:
@@ -92,7 +92,7 @@ def when(started: str, now: datetime) -> str:
 def in_full(run: PenetrationRun) -> str:
     """Return all that is known of a run, a line each."""
     lines = [
-        f"{run.started}  {spoken(run.verdict)}" + (f": {run.reason}" if run.reason else ""),
+        f"{run.started}  {spoken(run.verdict)}" + (f": {spoken(run.reason)}" if run.reason else ""),
         translate("penetration", "robot {robot}, driver {driver}").format(
             robot=run.robot, driver=run.driver
         ),

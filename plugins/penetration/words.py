@@ -5,6 +5,7 @@ from enum import StrEnum
 from rotemina.app.motion.penetration.run_log import Verdict
 from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
 from rotemina.app.motion.state import SessionState
+from rotemina.app.shell import engine_words
 from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.penetration.engine_words import spoken
 from rotemina.plugins.penetration.prospect import speed_text, way_text
@@ -140,7 +141,7 @@ def message(status: PenetrationStatus, why_not: str | None) -> str:
     phase = status.phase
     if phase in UNDER_WAY:
         return translate("penetration", _DOING[phase]) + (
-            translate("penetration", " Why: {reason}.").format(reason=status.reason)
+            translate("penetration", " Why: {reason}.").format(reason=spoken(status.reason))
             if status.reason
             else ""
         )
@@ -149,7 +150,7 @@ def message(status: PenetrationStatus, why_not: str | None) -> str:
             "penetration",
             "Held: {reason}. The tip stays where it is; press Retract to bring it back, "
             "or Free the axes to move it by hand.",
-        ).format(reason=status.reason)
+        ).format(reason=spoken(status.reason))
     if phase is Phase.ARMED:
         return translate(
             "penetration", "Armed: every axis is reserved. Press Start; nothing moves before."
@@ -159,7 +160,7 @@ def message(status: PenetrationStatus, why_not: str | None) -> str:
         translate("penetration", "Ready to be armed.")
         if why_not is None
         else translate("penetration", "Cannot be armed now: {why_not}").format(
-            why_not=_stopped(why_not)
+            why_not=_stopped(spoken(why_not))
         )
     )
     return f"{came} {may}".lstrip()
@@ -169,7 +170,9 @@ def _came_of(status: PenetrationStatus) -> str:
     run = status.run
     if status.phase is Phase.DISARMED or run is None:
         return (
-            translate("penetration", "Disarmed: {reason}").format(reason=_stopped(status.reason))
+            translate("penetration", "Disarmed: {reason}").format(
+                reason=_stopped(spoken(status.reason))
+            )
             if status.reason
             else ""
         )
@@ -184,9 +187,10 @@ def _came_of(status: PenetrationStatus) -> str:
         )
     verdict = spoken(run.verdict)
     return translate("penetration", "{verdict}: {reason} The tip is back.").format(
-        verdict=verdict[:1].upper() + verdict[1:], reason=_stopped(run.reason)
+        verdict=verdict[:1].upper() + verdict[1:], reason=_stopped(spoken(run.reason))
     )
 
 
 def _stopped(sentence: str) -> str:
-    return sentence if sentence.endswith(".") else f"{sentence}."
+    said = engine_words.spoken(sentence)
+    return said if said.endswith(".") else f"{said}."

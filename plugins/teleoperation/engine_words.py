@@ -1,15 +1,18 @@
-"""What the engine says of steering, where it has no values in it, by one table."""
+"""What the engine says of steering: why nothing moves, why a device is not trusted."""
 
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell import engine_words
+from rotemina.app.shell.language import marked
 
-_WORDS = {
+SAYINGS = (
+    marked("teleoperation", "{reason}: let go of it first"),
     # factors that a key or a button holds
     marked("teleoperation", "fine"),
     marked("teleoperation", "coarse"),
     # why nothing moves, or more slowly
     marked("teleoperation", "the machine is being stopped"),
-    marked("teleoperation", "the machine is playing"),
-    marked("teleoperation", "the machine is homing"),
+    marked("teleoperation", "the machine is {activity}"),
+    marked("teleoperation", "playing"),
+    marked("teleoperation", "homing"),
     marked("teleoperation", "no stick is trusted: let go of it; hold its dead-man, if it has one"),
     marked("teleoperation", "slowed: the tip is close to its bounds"),
     # why a device or an axis is not trusted
@@ -27,20 +30,22 @@ _WORDS = {
     ),
     marked("teleoperation", "the trainer has taken over"),
     marked("teleoperation", "the trainee has taken over"),
-    marked("teleoperation", "the trainer has taken over: let go of it first"),
-    marked("teleoperation", "the trainee has taken over: let go of it first"),
     marked(
         "teleoperation",
         "the trainer's device is not there: the trainee does not drive alone",
     ),
+    marked("teleoperation", "no profile is chosen: the input devices do nothing"),
+    marked("teleoperation", "axes are moved by {owner}"),
+    marked("teleoperation", "driver {driver} cannot move at a speed"),
+    marked("teleoperation", "axis {axis} does not follow the stick"),
+    marked("teleoperation", "says {raw}, which is not in −1 to 1: disconnect it and look at it"),
+    marked("teleoperation", "another device is gone ({why}): let go of it"),
+    marked("teleoperation", "calibrated anew"),
     marked(
         "teleoperation",
-        "the trainer's device is not there: the trainee does not drive alone: let go of it first",
+        "profile {name} is for {gone}, not plugged in; plugged in: {present}. Plug it in, or "
+        "choose or make a profile for what is there",
     ),
-    marked("teleoperation", "no profile is chosen: the input devices do nothing"),
-}
-
-
-def spoken(said: str) -> str:
-    """Return what the engine says in the language in use, itself where it is not known."""
-    return translate("teleoperation", said) if said in _WORDS else said
+)
+#: Says them in the language in use, and what the window knows of besides.
+spoken = engine_words.speaker("teleoperation", SAYINGS, engine_words.spoken)

@@ -412,6 +412,54 @@
         <translation>angehalten</translation>
     </message>
     <message>
+        <source>somebody stopped the machine; it stays where it is</source>
+        <translation>die Maschine wurde angehalten; sie bleibt, wo sie ist</translation>
+    </message>
+    <message>
+        <source>the camera is {state}: {reason}</source>
+        <translation>Kamera {state}: {reason}</translation>
+    </message>
+    <message>
+        <source>no picture for {seconds} s; check the camera and its cable, or open it again</source>
+        <translation>seit {seconds} s kein Bild; Kamera und Kabel prüfen oder neu öffnen</translation>
+    </message>
+    <message>
+        <source>every picture has been the same for more than {seconds} s; open it again, and do not trust what it shows</source>
+        <translation>seit über {seconds} s immer dasselbe Bild; neu öffnen und dem Gezeigten nicht trauen</translation>
+    </message>
+    <message>
+        <source>{trouble}; nothing is moved</source>
+        <translation>{trouble}; nichts wird bewegt</translation>
+    </message>
+    <message>
+        <source>the machine does not move any more: {reason}</source>
+        <translation>die Maschine bewegt sich nicht mehr: {reason}</translation>
+    </message>
+    <message>
+        <source>it is not connected</source>
+        <translation>sie ist nicht verbunden</translation>
+    </message>
+    <message>
+        <source>the picture drifted by {drift} px during the calibration, must be at most {most} px; let stage and camera settle, see to backlash, and begin again</source>
+        <translation>das Bild driftete während der Kalibrierung um {drift} px, höchstens {most} px; Tisch und Kamera ruhen lassen, Umkehrspiel prüfen, neu beginnen</translation>
+    </message>
+    <message>
+        <source>{reason}; it could not go back: {error}</source>
+        <translation>{reason}; Rückfahrt nicht möglich: {error}</translation>
+    </message>
+    <message>
+        <source>the tip is {distance} px from where it should be, must be at most {most} px after a move; the calibration does not hold: calibrate anew</source>
+        <translation>die Spitze ist {distance} px von ihrem Sollort, nach einer Fahrt höchstens {most} px; die Kalibrierung stimmt nicht: neu kalibrieren</translation>
+    </message>
+    <message>
+        <source>the tip is still {distance} px off after {n} corrections, must be at most {most} px; the stage resolves no finer, or drifts</source>
+        <translation>die Spitze liegt nach {n} Korrekturen noch {distance} px daneben, höchstens {most} px; der Tisch löst nicht feiner auf oder driftet</translation>
+    </message>
+    <message>
+        <source>the tip is not seen near {column}, {row} px, where it should be; nothing more is moved: look at the picture</source>
+        <translation>die Spitze ist nahe {column}, {row} px, wo sie sein sollte, nicht zu sehen; nichts wird mehr bewegt: Bild prüfen</translation>
+    </message>
+    <message>
         <source>there is no picture</source>
         <translation>kein Bild</translation>
     </message>

@@ -196,6 +196,110 @@
         <translation>aktiv</translation>
     </message>
     <message>
+        <source>axis {axis}: {left} of its range are left {direction}wards, {needed} are needed ({approach} to approach, {halt} to halt, {thrust} to thrust); move the axis back first, or shorten them</source>
+        <translation>Achse {axis}: {direction} sind {left} frei, {needed} nötig ({approach} Anfahrt, {halt} Anhalten, {thrust} Einstich); die Achse zurückfahren oder kürzen</translation>
+    </message>
+    <message>
+        <source>driver {driver} cannot run profiles by itself; a thrust needs that</source>
+        <translation>Treiber {driver} kann keine Profile selbst ausführen; ein Einstich braucht das</translation>
+    </message>
+    <message>
+        <source>driver {driver} cannot move at a speed; the approach needs that</source>
+        <translation>Treiber {driver} kann nicht mit einer Geschwindigkeit fahren; die Anfahrt braucht das</translation>
+    </message>
+    <message>
+        <source>driver {driver} has no tool that could inject; set inject_s to 0</source>
+        <translation>Treiber {driver} hat kein Werkzeug zum Injizieren; Injektion auf 0 setzen</translation>
+    </message>
+    <message>
+        <source>axis {axis} of {robot} turns; a penetration needs a way in m</source>
+        <translation>Achse {axis} von {robot} dreht; eine Penetration braucht einen Weg in m</translation>
+    </message>
+    <message>
+        <source>approach_speed = {speed}/s: axis {axis} goes at {most}/s at most</source>
+        <translation>Tempo der Anfahrt {speed}/s: Achse {axis} fährt höchstens {most}/s</translation>
+    </message>
+    <message>
+        <source>duration_s = {duration} s: input shaping {shaping} takes {taken} s of it; at least {least} s, or another shaping</source>
+        <translation>Dauer {duration} s: die Impulsformung {shaping} braucht davon {taken} s; mindestens {least} s oder eine andere Formung</translation>
+    </message>
+    <message>
+        <source>shaping = {shaping}: axis {axis} of {robot} has no resonance in its robot file; choose &apos;none&apos;</source>
+        <translation>Formung {shaping}: Achse {axis} von {robot} hat keine Resonanz in der Roboterdatei; „keine“ wählen</translation>
+    </message>
+    <message>
+        <source>a trajectory is playing and owns every axis; stop it first</source>
+        <translation>eine Trajektorie läuft und belegt alle Achsen; zuerst anhalten</translation>
+    </message>
+    <message>
+        <source>a penetration is {phase}; end it first</source>
+        <translation>eine Penetration ist in Phase {phase}; zuerst beenden</translation>
+    </message>
+    <message>
+        <source>nobody started it in time</source>
+        <translation>nicht rechtzeitig gestartet</translation>
+    </message>
+    <message>
+        <source>stopped by the button in {phase}</source>
+        <translation>per Taste angehalten, Phase {phase}</translation>
+    </message>
+    <message>
+        <source>the retraction was stopped by the button</source>
+        <translation>der Rückzug wurde per Taste angehalten</translation>
+    </message>
+    <message>
+        <source>retracted by the button; before: {reason}</source>
+        <translation>per Taste zurückgezogen; zuvor: {reason}</translation>
+    </message>
+    <message>
+        <source>the axis has moved since it was armed; arm it again</source>
+        <translation>die Achse hat sich seit dem Scharfstellen bewegt; erneut scharfstellen</translation>
+    </message>
+    <message>
+        <source>no contact</source>
+        <translation>kein Kontakt</translation>
+    </message>
+    <message>
+        <source>no contact within {distance}; start nearer to the cell</source>
+        <translation>kein Kontakt auf {distance}; näher an der Zelle beginnen</translation>
+    </message>
+    <message>
+        <source>the device sends too few samples</source>
+        <translation>das Gerät sendet zu wenige Messwerte</translation>
+    </message>
+    <message>
+        <source>the axis did not come to rest</source>
+        <translation>die Achse kam nicht zur Ruhe</translation>
+    </message>
+    <message>
+        <source>the axis did not come back</source>
+        <translation>die Achse kam nicht zurück</translation>
+    </message>
+    <message>
+        <source>the device did not run the thrust</source>
+        <translation>das Gerät führte den Einstich nicht aus</translation>
+    </message>
+    <message>
+        <source>too few samples of the thrust</source>
+        <translation>zu wenige Messwerte vom Einstich</translation>
+    </message>
+    <message>
+        <source>the thrust went {depth}: must be {asked} within {tolerance} %</source>
+        <translation>der Einstich ging {depth}: verlangt sind {asked} auf {tolerance} %</translation>
+    </message>
+    <message>
+        <source>overload: the axis is {load} from where it should be, {most} at most</source>
+        <translation>Überlast: die Achse ist {load} von ihrem Sollort entfernt, höchstens {most}</translation>
+    </message>
+    <message>
+        <source>a stop was asked for</source>
+        <translation>ein Halt wurde verlangt</translation>
+    </message>
+    <message>
+        <source>somebody took an axis over</source>
+        <translation>eine Achse wurde übernommen</translation>
+    </message>
+    <message>
         <source>S-curve</source>
         <translation>S-Kurve</translation>
     </message>

@@ -52,7 +52,7 @@
     </message>
     <message>
         <source>Deflection of the stick, −100 % to 100 %; dashed: none is trusted</source>
-        <translation>Auslenkung des Knüppels, −100 % bis 100 %; gestrichelt: keinem wird getraut</translation>
+        <translation>Auslenkung des Knüppels, −100 % bis 100 %; gestrichelt: keine verlässliche</translation>
     </message>
     <message>
         <source>{name} scaling</source>
@@ -127,16 +127,24 @@
         <translation>die Maschine wird angehalten</translation>
     </message>
     <message>
-        <source>the machine is playing</source>
-        <translation>die Maschine spielt ab</translation>
+        <source>{reason}: let go of it first</source>
+        <translation>{reason}: zuerst loslassen</translation>
     </message>
     <message>
-        <source>the machine is homing</source>
-        <translation>die Maschine macht Referenzfahrt</translation>
+        <source>the machine is {activity}</source>
+        <translation>die Maschine {activity}</translation>
+    </message>
+    <message>
+        <source>playing</source>
+        <translation>spielt ab</translation>
+    </message>
+    <message>
+        <source>homing</source>
+        <translation>macht Referenzfahrt</translation>
     </message>
     <message>
         <source>no stick is trusted: let go of it; hold its dead-man, if it has one</source>
-        <translation>keinem Knüppel wird getraut: loslassen; Zustimmtaster halten, falls vorhanden</translation>
+        <translation>kein verlässlicher Knüppel: loslassen; Zustimmtaster halten, falls vorhanden</translation>
     </message>
     <message>
         <source>slowed: the tip is close to its bounds</source>
@@ -171,24 +179,40 @@
         <translation>der Trainee hat übernommen</translation>
     </message>
     <message>
-        <source>the trainer has taken over: let go of it first</source>
-        <translation>der Trainer hat übernommen: zuerst loslassen</translation>
-    </message>
-    <message>
-        <source>the trainee has taken over: let go of it first</source>
-        <translation>der Trainee hat übernommen: zuerst loslassen</translation>
-    </message>
-    <message>
         <source>the trainer&apos;s device is not there: the trainee does not drive alone</source>
         <translation>das Gerät des Trainers fehlt: der Trainee steuert nicht allein</translation>
     </message>
     <message>
-        <source>the trainer&apos;s device is not there: the trainee does not drive alone: let go of it first</source>
-        <translation>das Gerät des Trainers fehlt: der Trainee steuert nicht allein: zuerst loslassen</translation>
-    </message>
-    <message>
         <source>no profile is chosen: the input devices do nothing</source>
         <translation>kein Profil gewählt: die Eingabegeräte tun nichts</translation>
+    </message>
+    <message>
+        <source>axes are moved by {owner}</source>
+        <translation>Achsen werden bewegt durch: {owner}</translation>
+    </message>
+    <message>
+        <source>driver {driver} cannot move at a speed</source>
+        <translation>Treiber {driver} kann nicht mit einer Geschwindigkeit fahren</translation>
+    </message>
+    <message>
+        <source>axis {axis} does not follow the stick</source>
+        <translation>Achse {axis} folgt dem Knüppel nicht</translation>
+    </message>
+    <message>
+        <source>says {raw}, which is not in −1 to 1: disconnect it and look at it</source>
+        <translation>meldet {raw}, nicht in −1 bis 1: abstecken und prüfen</translation>
+    </message>
+    <message>
+        <source>another device is gone ({why}): let go of it</source>
+        <translation>ein anderes Gerät ist weg ({why}): loslassen</translation>
+    </message>
+    <message>
+        <source>calibrated anew</source>
+        <translation>neu kalibriert</translation>
+    </message>
+    <message>
+        <source>profile {name} is for {gone}, not plugged in; plugged in: {present}. Plug it in, or choose or make a profile for what is there</source>
+        <translation>Profil {name} ist für {gone}, nicht angesteckt; angesteckt: {present}. Anstecken oder ein Profil für das Vorhandene wählen oder anlegen</translation>
     </message>
     <message>
         <source>How teleoperation stands</source>
@@ -200,7 +224,7 @@
     </message>
     <message>
         <source>Whether it is trusted</source>
-        <translation>Ob ihm getraut wird</translation>
+        <translation>Ob es verlässlich ist</translation>
     </message>
     <message>
         <source>What was refused or slowed last</source>
