@@ -76,7 +76,7 @@ class Measuring(QWidget):
             if now.step is Step.SWEEP or not problems
             else translate("inputs", "Left as they were:\n")
         )
-        show_text(self.problems, lead + "\n".join(map(problems.values())) if problems else "")
+        show_text(self.problems, lead + "\n".join(map(spoken, problems.values())) if problems else "")
 
     def _show_next(self, now: Calibrating, now_s: float) -> None:
         if now.step is Step.EDIT:
