@@ -3,7 +3,7 @@
 from html import escape
 
 from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtGui import QKeySequence, QPainter, QPaintEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
 from rotemina.app.shell.engine_words import spoken
@@ -15,6 +15,11 @@ _WHY_NOT = "whyNot"
 def plain_tip(*lines: str) -> str:
     """Return a tooltip whose lines are no markup, whatever they hold."""
     return f"<qt>{'<br>'.join(escape(line) for line in lines if line)}</qt>"
+
+
+def native_keys(shortcut: str) -> str:
+    """Return a shortcut such as ``Ctrl+S`` as keyboards of the window's language have it."""
+    return QKeySequence(shortcut).toString(QKeySequence.SequenceFormat.NativeText)
 
 
 def allow(widget: QWidget, why_not: str | None, tip: str) -> None:

@@ -28,16 +28,6 @@ SAYINGS = (
     marked("shell", "{stop} is latched; release it first"),
     marked("shell", "this is a replay; nothing moves"),
     marked("shell", "motion is locked: {reason}"),
-    marked(
-        "shell",
-        "axis {axis}: {left} of its range are left downwards, {needed} are needed ({approach} to "
-        "approach, {halt} to halt, {thrust} to thrust); move the axis back first, or shorten them",
-    ),
-    marked(
-        "shell",
-        "axis {axis}: {left} of its range are left upwards, {needed} are needed ({approach} to "
-        "approach, {halt} to halt, {thrust} to thrust); move the axis back first, or shorten them",
-    ),
     marked("shell", "operator"),
     marked("shell", "playback"),
     marked("shell", "homing"),
@@ -84,5 +74,5 @@ def speaker(
     return say
 
 
-#: Says the sayings above; what is not known here is unchanged.
+# Says the sayings above; what is not known here is unchanged.
 spoken = speaker("shell", SAYINGS)

@@ -4,12 +4,14 @@ import logging
 from collections.abc import Callable, Iterator, Mapping, MutableMapping
 
 from rotemina.app.panel import Panel
+from rotemina.app.shell.language import add_texts_of
 from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.registry import discover
 
 logger = logging.getLogger(__name__)
 
 GROUP = "rotemina.panels"
+_OWN = "rotemina"  # whose texts are in use already
 
 
 class Panels(MutableMapping[str, Panel]):
@@ -107,5 +109,8 @@ def find_panels(workbench: Workbench) -> tuple[Panels, Mapping[str, str]]:
     broken : name -> why the panel was left out
     """
     found = discover(GROUP, Panel)
+    packages = {kind.__module__.partition(".")[0] for kind in found.found.values()}
+    for package in sorted(packages - {_OWN}):
+        add_texts_of(package)
     order = sorted(found.found.items(), key=lambda item: (item[1].order, item[0]))
     return Panels(workbench, dict(order)), found.broken

@@ -88,6 +88,21 @@ def install(application: QCoreApplication, folder: Traversable, language: str) -
         logger.warning("%s: not a file that Qt reads texts from, the window speaks English", file)
 
 
+def add_texts_of(package: str) -> None:
+    """Add what a plugin's package carries in ``languages``, if it has the language in use."""
+    application = QCoreApplication.instance()
+    spoken = in_use(application)
+    if application is None or spoken == ENGLISH:
+        return
+    try:
+        folder = resources.files(package).joinpath("languages")
+        carried = folder.joinpath(f"{spoken}.qm").is_file()
+    except (ImportError, TypeError, ValueError, OSError):
+        return  # no package, or one that cannot be looked into: its panels speak English
+    if carried:
+        install(application, folder, spoken)
+
+
 class _Texts(QTranslator):
     """Texts of one file, and the memory that Qt reads them from as long as it translates."""
 

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from PySide6.QtWidgets import QHBoxLayout, QInputDialog, QMenu, QToolButton, QWidget
 
-from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.controls import native_keys, plain_tip
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.layouts import BUILT_IN, LONGEST_NAME, KeptLayouts, Layout
 
@@ -22,7 +22,9 @@ class LayoutRow(QWidget):
             button = self.buttons[layout.word] = QToolButton()
             button.setObjectName("layoutChoice")
             button.setText(layout.shown)
-            button.setToolTip(plain_tip(f"{translate('shell', layout.tip)} ({layout.shortcut})"))
+            button.setToolTip(
+                plain_tip(f"{translate('shell', layout.tip)} ({native_keys(layout.shortcut)})")
+            )
             button.setAccessibleName(translate("shell", "Layout: {name}").format(name=layout.shown))
             button.clicked.connect(lambda _=False, layout=layout: use(layout))
             row.addWidget(button)

@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from rotemina.app.shell.controls import native_keys
 from rotemina.app.shell.entries import Entry
 from rotemina.app.shell.fuzzy import score
 from rotemina.app.shell.language import translate
@@ -125,7 +126,7 @@ class Palette(QDialog):
 
 
 def _item(entry: Entry) -> QListWidgetItem:
-    keys = f"   [{entry.shortcut}]" if entry.shortcut else ""
+    keys = f"   [{native_keys(entry.shortcut)}]" if entry.shortcut else ""
     why = (
         translate("shell", "   – not now: {why_not}").format(why_not=entry.why_not)
         if entry.why_not

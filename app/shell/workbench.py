@@ -19,6 +19,7 @@ from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import CommandRefused, Event, Faulted, PlaybackFinished
 from rotemina.app.settings import Settings
 from rotemina.app.shell.background import Background
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.help_topics import Explained, page_for, page_of
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.progress import Progress
@@ -143,7 +144,9 @@ class Workbench(Requests):
         )
         self.replaying = Replaying(session, self.operation.penetration)
         self._happened.connect(self._on_event)
-        self.refused.connect(lambda reason: self.notify(Level.ERROR, reason))
+        self.refused.connect(
+            lambda reason: self.notify(Level.ERROR, spoken(reason), about=page_of(reason))
+        )
         self._unsubscribe = session.subscribe(self._happened.emit)
         self._frames = QTimer(self, interval=FRAME_MS)
         self._frames.timeout.connect(self._refresh)

@@ -1,11 +1,10 @@
-"""What the panel says of a penetration, and what its two buttons do now.."""
+"""What the panel says of a penetration, and what its two buttons do now."""
 
 from enum import StrEnum
 
 from rotemina.app.motion.penetration.run_log import Verdict
 from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell import engine_words
 from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.penetration.engine_words import spoken
 from rotemina.plugins.penetration.prospect import speed_text, way_text
@@ -192,5 +191,5 @@ def _came_of(status: PenetrationStatus) -> str:
 
 
 def _stopped(sentence: str) -> str:
-    said = engine_words.spoken(sentence)
+    said = spoken(sentence)
     return said if said.endswith(".") else f"{said}."

@@ -269,7 +269,8 @@ def _field(end: str) -> QLineEdit:
     field = QLineEdit()
     what = translate("recorder", end)
     field.setPlaceholderText(what)
-    field.setFixedWidth(60)
+    room = field.fontMetrics().horizontalAdvance(what)
+    field.setFixedWidth(max(60, room + 28))  # the frame and the cursor
     field.setAccessibleName(
         translate("recorder", "{end} of the stretch in seconds").format(
             end=what[:1].upper() + what[1:]
@@ -298,5 +299,5 @@ def _table() -> QTableWidget:
     header.setSectionResizeMode(QHeaderView.ResizeMode.Interactive)
     header.setStretchLastSection(True)
     for column, width in enumerate(_WIDTHS):
-        table.setColumnWidth(column, width)
+        table.setColumnWidth(column, max(width, header.sectionSizeHint(column)))
     return table

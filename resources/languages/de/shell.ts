@@ -332,6 +332,10 @@
         <translation>dies ist eine Wiedergabe; nichts bewegt sich</translation>
     </message>
     <message>
+        <source>motion is locked: {reason}</source>
+        <translation>Bewegung ist gesperrt: {reason}</translation>
+    </message>
+    <message>
         <source>operator</source>
         <translation>Bediener</translation>
     </message>

@@ -1,7 +1,10 @@
 """The window in German, and what happens where a language is unknown or its file is missing."""
 
+import subprocess
+from pathlib import Path
 from types import SimpleNamespace
 
+import PySide6
 import pytest
 from PySide6.QtCore import QCoreApplication, Qt
 from PySide6.QtWidgets import QDialog, QDialogButtonBox
@@ -91,6 +94,25 @@ def test_languages_take_turns(application):
         assert translate("panels", "Plots") == plots
         box = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
         assert box.buttons()[0].text().replace("&", "") == cancel  # Qt's own
+
+
+def test_a_plugin_brings_texts_of_its_own(application, tmp_path, monkeypatch):
+    package = tmp_path / "glass_stage" / "languages"
+    package.mkdir(parents=True)
+    (package.parent / "__init__.py").write_text("", "utf-8")
+    message = "<message><source>Lamp</source><translation>Lampe</translation></message>"
+    context = f"<context><name>glass_stage</name>{message}</context>"
+    (tmp_path / "de.ts").write_text(f'<TS version="2.1" language="de">{context}</TS>', "utf-8")
+    program = Path(PySide6.__file__).parent / "lrelease"
+    made = [program, "-silent", tmp_path / "de.ts", "-qm", package / "de.qm"]
+    subprocess.run(made, check=True)
+    monkeypatch.syspath_prepend(tmp_path)
+    for name, lamp in (("en", "Lamp"), ("de", "Lampe")):
+        language.use(application, name)
+        language.add_texts_of("glass_stage")
+        language.add_texts_of("of_nobody")
+        assert translate("glass_stage", "Lamp") == lamp
+    assert translate("panels", "Plots") == "Diagramme"
 
 
 def test_what_the_engine_says_for_long_is_translated_with_its_values(application):
