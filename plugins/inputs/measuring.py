@@ -8,6 +8,7 @@ from rotemina.app.shell.controls import allow
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.inputs.calibrating import Calibrating, Step
+from rotemina.plugins.inputs.engine_words import spoken
 from rotemina.plugins.inputs.section import button, clear, quiet_text, show_text
 
 _TEXTS = {
@@ -76,7 +77,9 @@ class Measuring(QWidget):
             if now.step is Step.SWEEP or not problems
             else translate("inputs", "Left as they were:\n")
         )
-        show_text(self.problems, lead + "\n".join(map(spoken, problems.values())) if problems else "")
+        show_text(
+            self.problems, lead + "\n".join(map(spoken, problems.values())) if problems else ""
+        )
 
     def _show_next(self, now: Calibrating, now_s: float) -> None:
         if now.step is Step.EDIT:
