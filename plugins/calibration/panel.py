@@ -23,6 +23,7 @@ from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.plugins.calibration.engine_words import spoken
 from rotemina.plugins.calibration.procedure import Procedure
 from rotemina.plugins.calibration.result_view import ResultView
 from rotemina.plugins.calibration.stored_view import StoredView
@@ -188,7 +189,9 @@ class CalibrationPanel(Panel):
             self.fit_record(f"calibration of {self.procedure.chosen}", run.record)
         elif state.phase is Phase.FAILED:
             text = translate("calibration", "Calibration: {message}.")
-            self.workbench.notify(Level.ERROR, text.format(message=state.message), about=self)
+            self.workbench.notify(
+                Level.ERROR, text.format(message=spoken(state.message)), about=self
+            )
 
     def _fit(self, records: Callable[[], list[tuple[str, Record]]]) -> None:
         axis, robot = self.procedure.chosen, self.workbench.robot

@@ -20,6 +20,7 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow
 from rotemina.app.shell.language import translate
 from rotemina.drivers.samples import DeviceState
+from rotemina.plugins.calibration.engine_words import spoken
 from rotemina.plugins.calibration.words import NOTHING, cycles, progress
 from rotemina.sim.calibration.plan import RUNS, TARGETS
 from rotemina.sim.records.record import Record
@@ -117,10 +118,10 @@ class Procedure(QWidget):
             None if moving else translate("calibration", "no run is under way"),
             translate("calibration", "Stop the machine now"),
         )
-        if why_not is None:
-            why_not = session.locked or (
-                translate("calibration", "there is no plan yet") if motion is None else None
-            )
+        if why_not is None and session.locked is not None:
+            why_not = spoken(session.locked)
+        if why_not is None and motion is None:
+            why_not = translate("calibration", "there is no plan yet")
         if why_not is None and session.activity is not DeviceState.IDLE:
             why_not = translate("calibration", "the machine is still moving")
         allow(

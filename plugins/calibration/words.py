@@ -11,6 +11,7 @@ from rotemina.app.calibration.store import Stored
 from rotemina.app.calibration.words import amount, figure_rows, iso_rows
 from rotemina.app.display import duration_text, label
 from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.calibration.engine_words import spoken
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.calibration.calibrating import Calibration
 from rotemina.sim.records.record import Record, Tap
@@ -129,7 +130,7 @@ def progress(state: RunState, duration_s: float) -> str:
         return text.format(share=100.0 * state.progress, time=duration_text(left_s))
     if state.phase is Phase.FAILED:
         return translate("calibration", "The run has failed: {message}.").format(
-            message=state.message
+            message=spoken(state.message)
         )
     return translate("calibration", "The run is done.") if state.phase is Phase.DONE else ""
 
@@ -138,7 +139,9 @@ def verdict(calibration: Calibration) -> str:
     """Return what a calibration is worth, and what was noted."""
     unit = calibration.unit
     if calibration.refusal is not None:
-        text = translate("calibration", "Refused: {reason}.").format(reason=calibration.refusal)
+        text = translate("calibration", "Refused: {reason}.").format(
+            reason=spoken(calibration.refusal)
+        )
     else:
         before, after = (
             amount(each, unit) for each in (calibration.before_rms, calibration.after_rms)
@@ -147,7 +150,9 @@ def verdict(calibration: Calibration) -> str:
             "calibration", "Error at held-out runs: {before} rms before, {after} after."
         )
         text = text.format(before=before, after=after)
-    return "\n".join([text, *(f"{note[:1].upper()}{note[1:]}." for note in calibration.notes)])
+    return "\n".join(
+        [text, *(f"{note[:1].upper()}{note[1:]}." for note in map(spoken, calibration.notes))]
+    )
 
 
 def figures(calibration: Calibration) -> tuple[tuple[str, ...], ...]:

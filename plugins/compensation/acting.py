@@ -6,6 +6,7 @@ from rotemina.app.motion.compensation import NamedInverse
 from rotemina.app.motion.regulation import NamedRegulation, regulation_of
 from rotemina.app.motion.state import Event, PlaybackFinished, SessionState
 from rotemina.app.shell.controls import allow
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.samples import DeviceState
@@ -121,7 +122,8 @@ class Acting:
         moves = (
             None if state.activity is DeviceState.IDLE else translate("compensation", "it moves")
         )
-        still = state.locked or moves or owned(state.owners)
+        locked = spoken(state.locked) if state.locked else None
+        still = locked or moves or owned(state.owners)
         no_axis = None if axis else translate("compensation", "the robot has no piezo in open loop")
         allow(controls.switch, still or (None if inverse_on else other), self._switch_tip())
         no_loop = session.no_regulation or self._no_point(tuning)

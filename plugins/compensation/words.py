@@ -4,6 +4,7 @@ import re
 from collections.abc import Mapping
 
 from rotemina.app.display import label
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.compensation.trial import Trial
 from rotemina.sim.compensate.inverse import Beyond
@@ -119,7 +120,7 @@ def owned(owners: Mapping[str, str]) -> str | None:
     """Return why the axes cannot be played: somebody drives one still."""
     for axis, owner in owners.items():
         text = translate("compensation", "axis {axis} is still driven by {owner}; wait, or stop it")
-        return text.format(axis=label(axis), owner=owner)
+        return text.format(axis=label(axis), owner=spoken(owner))
     return None
 
 

@@ -6,6 +6,7 @@ from PySide6.QtCore import QElapsedTimer, QObject, QTimer, Signal
 
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import CommandRefused, Connection, Event, SessionState
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
 from rotemina.sim.errors import InputError
 from rotemina.sim.robot.model import AxisEffect
@@ -76,7 +77,8 @@ class LiveEffects(QObject):
         elif now == self._sent:
             self._end(Standing.APPLIED)
         elif state.connection is not Connection.CONNECTED:
-            self._end(Standing.REFUSED, state.locked or translate("effects", "not connected"))
+            why = spoken(state.locked) if state.locked else translate("effects", "not connected")
+            self._end(Standing.REFUSED, why)
         elif self._was_done(state):
             self._not_taken()
         elif self._clock.elapsed() >= LONG_MS:

@@ -17,6 +17,7 @@ from rotemina.app.motion.state import (
     SessionState,
     StateChanged,
 )
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
 
 MOST = 500  # entries; the oldest give way
@@ -64,8 +65,7 @@ class Entry:
     @property
     def shown(self) -> str:
         """The same in the language of the window."""
-        about = translate("faults", self.about) if self.about else ""
-        text = _filled(translate("faults", self.text), about)
+        text = _filled(_said(self.text), _said(self.about))
         if self.count == 1:
             return text
         return translate("faults", "{text} ({n} times)").format(text=text, n=self.count)
@@ -148,6 +148,12 @@ class History:
             self.add(at, Kind.RECOVERED, marked("faults", "the device answers again"))
         if before.fault is not None and state.fault is None:
             self.add(at, Kind.RECOVERED, marked("faults", "cleared: {about}"), before.fault)
+
+
+def _said(text: str) -> str:
+    """Return what is kept, or the engine says, in the language of the window."""
+    told = translate("faults", text) if text else ""
+    return told if told != text else spoken(text)
 
 
 def _filled(text: str, about: str) -> str:

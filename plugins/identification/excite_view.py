@@ -19,6 +19,7 @@ from rotemina.app.display import PLAIN_NUMBER, label
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Plan, Run, Workbench
 from rotemina.drivers.samples import DeviceState
@@ -174,7 +175,7 @@ class ExciteView(QWidget):
         owner = translate("identification", "{axis}: free")
         if driver:
             owner = translate("identification", "{axis}: driven by {driver}")
-        self.owner.setText(owner.format(axis=label(axis), driver=driver))
+        self.owner.setText(owner.format(axis=label(axis), driver=spoken(driver or "")))
         allow(
             self.play,
             self._why_not(session, state),
@@ -198,7 +199,7 @@ class ExciteView(QWidget):
         if self._awaited is not None or state.phase is PlaybackPhase.PLAYING:
             return translate("identification", "a trajectory is playing")
         if session.locked is not None:
-            return session.locked
+            return spoken(session.locked)
         return (
             None
             if session.activity is DeviceState.IDLE

@@ -11,8 +11,8 @@ import pytest
 from rotemina.app.shell import engine_words
 
 ROOT = Path(__file__).parents[2]
-PANELS = ("inputs", "microscope", "penetration", "teleoperation")
-ENGINE = ("app/motion", "app/microscope", "app/cameras", "drivers")
+PANELS = ("calibration", "inputs", "microscope", "penetration", "teleoperation")
+ENGINE = ("app/motion", "app/microscope", "app/cameras", "drivers", "sim/calibration")
 
 
 def said_in(folder):

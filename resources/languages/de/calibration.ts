@@ -347,6 +347,22 @@
         <source>off</source>
         <translation>aus</translation>
     </message>
+    <message>
+        <source>{axis}: at runs that were left out of the fit the reading&apos;s error is {after} {unit} rms with the calibration and {before} {same} without; it is not better and not used</source>
+        <translation>{axis}: bei zurückgehaltenen Läufen ist der Fehler des Messwerts {after} {unit} rms mit der Kalibrierung und {before} {same} ohne; sie ist nicht besser und wird nicht genutzt</translation>
+    </message>
+    <message>
+        <source>the zero drifts by {drift} rms while the runs last: it goes with time and not with the axis, and no calibration removes it; warm up, or calibrate often</source>
+        <translation>der Nullpunkt driftet während der Läufe um {drift} rms: er geht mit der Zeit und nicht mit der Achse, und keine Kalibrierung nimmt das weg; aufwärmen oder oft kalibrieren</translation>
+    </message>
+    <message>
+        <source>the laser was lost from {begin} s to {end} s</source>
+        <translation>der Laser war von {begin} s bis {end} s verloren</translation>
+    </message>
+    <message>
+        <source>no rows from {begin} s to {end} s</source>
+        <translation>keine Zeilen von {begin} s bis {end} s</translation>
+    </message>
 </context>
 <context>
     <name>panels</name>
