@@ -91,6 +91,103 @@ SAYINGS = (
         "the tip is not seen near {column}, {row} px, where it should be; nothing more is moved: "
         "look at the picture",
     ),
+    # what is seen, or not
+    marked(
+        "microscope",
+        "calibration: {n} moves, must be at least {least}; allow more of them",
+    ),
+    marked(
+        "microscope",
+        "calibration: {bad} of {n} moves do not fit, must be at most {most} %; something "
+        "else moved, or the tracking slipped: look at the picture and begin again",
+    ),
+    marked(
+        "microscope",
+        "calibration: the moves do not span the plane: across their main direction they "
+        "reach {part} % of the way along it, must be at least {least} %; move both axes",
+    ),
+    marked(
+        "microscope",
+        "calibration: residuals of {rms} px rms (greatest at move {worst}), must be at most "
+        "{most} px; backlash, drift or a loose tool: let the stage settle, home it, and "
+        "begin again",
+    ),
+    marked(
+        "microscope",
+        "calibration: both axes move the picture in nearly the same direction ({angle}° "
+        "apart, must be at least {least}°); one of them does not move, or moves along the "
+        "view",
+    ),
+    marked(
+        "microscope",
+        "calibration: the pixel size is known within {known} %, must be {asked} %; make "
+        "larger moves, or more of them",
+    ),
+    marked(
+        "microscope",
+        "cell: the line about {column}, {row} px takes {darker} % of the light, must be at "
+        "least {least} %; focus on the membrane, or point into the cell",
+    ),
+    marked(
+        "microscope",
+        "cell: its outline is {rms} px rms off an ellipse, must be at most {most} % of its "
+        "radius; point into the middle of one cell",
+    ),
+    marked(
+        "microscope",
+        "drift: {most} of {count} parts of the picture agree on a shift, must be at least "
+        "{least} and half of the {seen} that show enough; bring a background with detail "
+        "into view and focus",
+    ),
+    marked(
+        "microscope",
+        "focus: every look is as sharp as the others; bring detail into view",
+    ),
+    marked(
+        "microscope",
+        "focus: no peak of the sharpness stands out; bring detail into view, give more "
+        "light, or search a larger range",
+    ),
+    marked(
+        "microscope",
+        "focus: it would be sharpest at {place} µm, outside the searched {low} to {high} µm; "
+        "search there",
+    ),
+    marked(
+        "microscope",
+        "tip: nothing looks like it (greatest likeness {likeness}); bring the tip into view "
+        "and near focus, or correct its direction in the image",
+    ),
+    marked(
+        "microscope",
+        "tip: nothing in the picture looks like a pipette, in whatever direction; bring the "
+        "tip into view and near focus",
+    ),
+    marked(
+        "microscope",
+        "nothing like it where it should be",
+    ),
+    marked(
+        "microscope",
+        "only {part} % of its surroundings look as they should",
+    ),
+    marked(
+        "microscope",
+        "its place is uncertain by {doubt} px",
+    ),
+    marked(
+        "microscope",
+        "what is there takes {part} % of the light",
+    ),
+    marked(
+        "microscope",
+        "its contrast is {part} % of what it was",
+    ),
+    marked(
+        "microscope",
+        "registration: the picture moved by {right}, {down} px and hardly overlaps the one "
+        "before; make the move smaller",
+    ),
 )
 #: Says them in the language in use, and what the window knows of besides.
 spoken = engine_words.speaker("microscope", SAYINGS, engine_words.spoken)

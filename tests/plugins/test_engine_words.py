@@ -12,7 +12,7 @@ from rotemina.app.shell import engine_words
 
 ROOT = Path(__file__).parents[2]
 PANELS = ("calibration", "inputs", "microscope", "penetration", "teleoperation")
-ENGINE = ("app/motion", "app/microscope", "app/cameras", "drivers", "sim/calibration")
+ENGINE = ("app/motion", "app/microscope", "app/cameras", "drivers", "sim/calibration", "sim/vision")
 
 
 def said_in(folder):

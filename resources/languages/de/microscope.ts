@@ -460,6 +460,86 @@
         <translation>die Spitze ist nahe {column}, {row} px, wo sie sein sollte, nicht zu sehen; nichts wird mehr bewegt: Bild prüfen</translation>
     </message>
     <message>
+        <source>calibration: {n} moves, must be at least {least}; allow more of them</source>
+        <translation>Kalibrierung: {n} Bewegungen, mindestens {least}; mehr erlauben</translation>
+    </message>
+    <message>
+        <source>calibration: {bad} of {n} moves do not fit, must be at most {most} %; something else moved, or the tracking slipped: look at the picture and begin again</source>
+        <translation>Kalibrierung: {bad} von {n} Bewegungen passen nicht, höchstens {most} %; anderes bewegte sich oder die Verfolgung verrutschte: Bild prüfen, neu beginnen</translation>
+    </message>
+    <message>
+        <source>calibration: the moves do not span the plane: across their main direction they reach {part} % of the way along it, must be at least {least} %; move both axes</source>
+        <translation>Kalibrierung: die Bewegungen spannen die Ebene nicht auf: quer reichen sie {part} % des Wegs, mindestens {least} %; beide Achsen bewegen</translation>
+    </message>
+    <message>
+        <source>calibration: residuals of {rms} px rms (greatest at move {worst}), must be at most {most} px; backlash, drift or a loose tool: let the stage settle, home it, and begin again</source>
+        <translation>Kalibrierung: Restfehler {rms} px effektiv (größter bei Bewegung {worst}), höchstens {most} px; Umkehrspiel, Drift oder loses Werkzeug: Tisch ruhen lassen, Referenzfahrt, neu beginnen</translation>
+    </message>
+    <message>
+        <source>calibration: both axes move the picture in nearly the same direction ({angle}° apart, must be at least {least}°); one of them does not move, or moves along the view</source>
+        <translation>Kalibrierung: beide Achsen bewegen das Bild fast gleich gerichtet ({angle}° auseinander, mindestens {least}°); eine bewegt sich nicht oder entlang der Blickrichtung</translation>
+    </message>
+    <message>
+        <source>calibration: the pixel size is known within {known} %, must be {asked} %; make larger moves, or more of them</source>
+        <translation>Kalibrierung: die Pixelgröße ist auf {known} % bekannt, verlangt {asked} %; größere oder mehr Bewegungen machen</translation>
+    </message>
+    <message>
+        <source>cell: the line about {column}, {row} px takes {darker} % of the light, must be at least {least} %; focus on the membrane, or point into the cell</source>
+        <translation>Zelle: die Linie um {column}, {row} px nimmt {darker} % des Lichts, mindestens {least} %; auf die Membran fokussieren oder in die Zelle zeigen</translation>
+    </message>
+    <message>
+        <source>cell: its outline is {rms} px rms off an ellipse, must be at most {most} % of its radius; point into the middle of one cell</source>
+        <translation>Zelle: ihr Umriss weicht {rms} px effektiv von einer Ellipse ab, höchstens {most} % des Radius; in die Mitte einer Zelle zeigen</translation>
+    </message>
+    <message>
+        <source>drift: {most} of {count} parts of the picture agree on a shift, must be at least {least} and half of the {seen} that show enough; bring a background with detail into view and focus</source>
+        <translation>Drift: {most} von {count} Teilen des Bilds zeigen dieselbe Verschiebung, mindestens {least} und die Hälfte der {seen} mit genug Zeichnung; einen Hintergrund mit Zeichnung in Sicht und Fokus bringen</translation>
+    </message>
+    <message>
+        <source>focus: every look is as sharp as the others; bring detail into view</source>
+        <translation>Fokus: jeder Blick ist gleich scharf; Zeichnung in Sicht bringen</translation>
+    </message>
+    <message>
+        <source>focus: no peak of the sharpness stands out; bring detail into view, give more light, or search a larger range</source>
+        <translation>Fokus: kein Maximum der Schärfe hebt sich ab; Zeichnung in Sicht bringen, mehr Licht geben oder weiter suchen</translation>
+    </message>
+    <message>
+        <source>focus: it would be sharpest at {place} µm, outside the searched {low} to {high} µm; search there</source>
+        <translation>Fokus: am schärfsten wäre es bei {place} µm, außerhalb der abgesuchten {low} bis {high} µm; dort suchen</translation>
+    </message>
+    <message>
+        <source>tip: nothing looks like it (greatest likeness {likeness}); bring the tip into view and near focus, or correct its direction in the image</source>
+        <translation>Spitze: nichts sieht ihr ähnlich (größte Ähnlichkeit {likeness}); in Sicht und nahe an den Fokus bringen oder ihre Richtung im Bild berichtigen</translation>
+    </message>
+    <message>
+        <source>tip: nothing in the picture looks like a pipette, in whatever direction; bring the tip into view and near focus</source>
+        <translation>Spitze: nichts im Bild gleicht einer Pipette, in keiner Richtung; die Spitze in Sicht und nahe an den Fokus bringen</translation>
+    </message>
+    <message>
+        <source>nothing like it where it should be</source>
+        <translation>nichts Ähnliches, wo sie sein sollte</translation>
+    </message>
+    <message>
+        <source>only {part} % of its surroundings look as they should</source>
+        <translation>nur {part} % ihrer Umgebung sehen aus wie erwartet</translation>
+    </message>
+    <message>
+        <source>its place is uncertain by {doubt} px</source>
+        <translation>ihr Ort ist auf {doubt} px unsicher</translation>
+    </message>
+    <message>
+        <source>what is there takes {part} % of the light</source>
+        <translation>was dort ist, nimmt {part} % des Lichts</translation>
+    </message>
+    <message>
+        <source>its contrast is {part} % of what it was</source>
+        <translation>ihr Kontrast ist {part} % des früheren</translation>
+    </message>
+    <message>
+        <source>registration: the picture moved by {right}, {down} px and hardly overlaps the one before; make the move smaller</source>
+        <translation>Registrierung: das Bild bewegte sich um {right}, {down} px und überlappt das vorige kaum; kleiner bewegen</translation>
+    </message>
+    <message>
         <source>there is no picture</source>
         <translation>kein Bild</translation>
     </message>
