@@ -71,7 +71,8 @@ class AxisPlot(QWidget):
         self.plot.add_curve("model", "model", width=3)  # seen on both sides of the measured line
         self.plot.add_curve("other", "good")
         self.plot.add_curve("measured", "real")
-        self.plot.setMinimumHeight(60)  # notices and the banner of a replay need room, too
+        # Notices and the banner of a replay need room, too; the lowest has the times below it.
+        self.plot.setMinimumHeight(62 if times else 36)
         head = QHBoxLayout()
         head.setContentsMargins(4, 0, 4, 0)
         head.setSpacing(6)
