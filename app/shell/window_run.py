@@ -17,6 +17,7 @@ from rotemina.app.plugin_kit.panel_watch import PanelWatch
 from rotemina.app.settings import Settings
 from rotemina.app.shell import language
 from rotemina.app.shell import theme as themes
+from rotemina.app.shell.allocator import give_memory_back
 from rotemina.app.shell.layouts import OPERATE
 from rotemina.app.shell.main_window import MainWindow
 from rotemina.app.shell.preloading import preload
@@ -53,6 +54,7 @@ def make_window(
 
 def run(session: MotionSession, settings: Settings) -> int:
     """Show the window and run it; return the exit status."""
+    give_memory_back()
     application = make_application()
     window = make_window(session, settings)
     panels = window.panels

@@ -18,6 +18,7 @@ from PySide6.QtWidgets import QApplication, QDialog, QMenu, QMessageBox
 
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.settings import Settings
+from rotemina.app.shell.allocator import give_memory_back
 from rotemina.app.shell.entries import Entry
 from rotemina.app.shell.layouts import OPERATE
 from rotemina.app.shell.window_run import make_application, make_window
@@ -47,6 +48,7 @@ class UsedWindow:
         size: tuple[int, int] = (1280, 800),
         times_as_fast: float = TIMES_AS_FAST,
     ) -> None:
+        give_memory_back()  # as the program does
         self.application = make_application()
         self.folder = Path(tempfile.mkdtemp(prefix="rotemina-use-"))
         simulator = Simulator(

@@ -1,0 +1,30 @@
+"""How the C library hands out memory: so that what was large and is free goes back to the system.
+
+Left to itself it opens an arena for every few threads and, after the first large array was freed,
+keeps ever larger ones in them. Hours of plays then leave gaps that nothing fits into.
+"""
+
+import ctypes
+import sys
+
+_ARENAS = 2
+_LARGE_BYTES = 1 << 20  # what is larger is mapped by itself, and given back when it is freed
+# malloc.h of the GNU C library
+_TRIM_THRESHOLD, _MMAP_THRESHOLD, _ARENA_MAX = -1, -3, -8
+
+
+def give_memory_back() -> bool:
+    """Ask the C library for it, before there are threads; return whether it can do that."""
+    if not sys.platform.startswith("linux"):
+        return False
+    try:
+        mallopt = ctypes.CDLL(None).mallopt
+    except (AttributeError, OSError):
+        return False  # another C library, with ways of its own
+    asked = (
+        (_ARENA_MAX, _ARENAS),
+        (_MMAP_THRESHOLD, _LARGE_BYTES),
+        (_TRIM_THRESHOLD, _LARGE_BYTES),
+    )
+    done = [mallopt(what, value) == 1 for what, value in asked]
+    return all(done)
