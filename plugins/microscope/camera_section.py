@@ -103,8 +103,8 @@ class CameraSection(Section):
         )
         closed = translate("microscope", "no camera is open") if sight.feed.state in _OPEN else None
         allow(self.close_button, closed, translate("microscope", "Let go of the camera"))
-        problems = [f"{source}: {why}" for source, why in sight.camera_problems.items()]
-        show_text(self.said, "\n".join([one for one in (sight.truth, *problems) if one]))
+        problems = [f"{source}: {spoken(why)}" for source, why in sight.camera_problems.items()]
+        show_text(self.said, "\n".join([one for one in (spoken(sight.truth), *problems) if one]))
 
     def _open(self) -> None:
         source, colon, address = self.address.text().strip().partition(":")

@@ -91,6 +91,13 @@ SAYINGS = (
         "the tip is not seen near {column}, {row} px, where it should be; nothing more is moved: "
         "look at the picture",
     ),
+    # cameras
+    marked("microscope", "pymmcore-plus is not installed: {install}"),
+    marked("microscope", "pip install 'rotemina[micromanager]', then mmcore install"),
+    marked(
+        "microscope",
+        "{camera} ({key}), the camera used last, is not there; plug it in, or choose another",
+    ),
     # what is seen, or not
     marked(
         "microscope",

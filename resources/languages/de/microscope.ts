@@ -460,6 +460,18 @@
         <translation>die Spitze ist nahe {column}, {row} px, wo sie sein sollte, nicht zu sehen; nichts wird mehr bewegt: Bild prüfen</translation>
     </message>
     <message>
+        <source>pymmcore-plus is not installed: {install}</source>
+        <translation>pymmcore-plus ist nicht installiert: {install}</translation>
+    </message>
+    <message>
+        <source>pip install &apos;rotemina[micromanager]&apos;, then mmcore install</source>
+        <translation>pip install &apos;rotemina[micromanager]&apos;, dann mmcore install</translation>
+    </message>
+    <message>
+        <source>{camera} ({key}), the camera used last, is not there; plug it in, or choose another</source>
+        <translation>{camera} ({key}), die zuletzt benutzte Kamera, fehlt; anstecken oder eine andere wählen</translation>
+    </message>
+    <message>
         <source>calibration: {n} moves, must be at least {least}; allow more of them</source>
         <translation>Kalibrierung: {n} Bewegungen, mindestens {least}; mehr erlauben</translation>
     </message>
