@@ -4,7 +4,7 @@ from html import escape
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QKeySequence, QPainter, QPaintEvent
-from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QLabel, QProgressBar, QSizePolicy, QWidget
 
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
@@ -37,6 +37,18 @@ def allow(widget: QWidget, why_not: str | None, tip: str) -> None:
 def why_not(widget: QWidget) -> str | None:
     """Return why a control cannot act, as :func:`allow` was told last."""
     return widget.property(_WHY_NOT) or None
+
+
+def fill(bar: QProgressBar, value: int) -> None:
+    """Set how full a bar is; it is painted with the rest of the window.
+
+    Left to itself it would be painted at once, and with it, in one go, all of the window that waits
+    to be painted: many times a second, in the middle of something else.
+    """
+    if bar.value() != value:
+        bar.setUpdatesEnabled(False)
+        bar.setValue(value)
+        bar.setUpdatesEnabled(True)
 
 
 class ElidedLabel(QLabel):

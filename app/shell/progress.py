@@ -5,7 +5,7 @@ import time
 from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QToolButton, QWidget
 
 from rotemina.app.display import duration_text
-from rotemina.app.shell.controls import ElidedLabel
+from rotemina.app.shell.controls import ElidedLabel, fill
 from rotemina.app.shell.language import translate
 from rotemina.drivers.clock import Clock
 from rotemina.sim.errors import InputError
@@ -119,4 +119,4 @@ class ProgressLine(QWidget):
         known = progress.share is not None
         self.bar.setRange(0, _STEPS if known else 0)
         if known:
-            self.bar.setValue(round(_STEPS * (progress.share or 0.0)))
+            fill(self.bar, round(_STEPS * (progress.share or 0.0)))

@@ -13,7 +13,7 @@ from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S
-from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.controls import allow, fill, plain_tip
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.penetration.figures import Figures
@@ -93,7 +93,7 @@ class Readouts(QWidget):
         self.run.set_stale(state.age_s is None or state.age_s > STALE_S)
         most = parameters.overload
         share = 0.0 if load is None else min(load / most, 1.0)
-        self.load.setValue(round(1000 * share))
+        fill(self.load, round(1000 * share))
         value = UNKNOWN if load is None else f"{1e6 * load:.2f}"
         self.load.setFormat(
             translate("penetration", "load {value} of {most:.4g} µm").format(

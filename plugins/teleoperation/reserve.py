@@ -6,7 +6,7 @@ from rotemina.app.display import label
 from rotemina.app.motion.operation import has_tip
 from rotemina.app.motion.state import SessionState
 from rotemina.app.motion.teleoperation.views import TeleoperationState
-from rotemina.app.shell.controls import allow
+from rotemina.app.shell.controls import allow, fill
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.samples import DeviceState
@@ -75,7 +75,7 @@ class ReserveSection(Section):
     def refresh(self, machine: SessionState, state: TeleoperationState) -> None:
         """Show a moment, and lock what cannot be done now."""
         left = state.reserve
-        self.bar.setValue(0 if left is None else round(100 * left))
+        fill(self.bar, 0 if left is None else round(100 * left))
         self.bar.setEnabled(left is not None)
         self.left.setText(wording.reserve_text(state))
         self.tilt.setText(wording.tilt_shown(state))

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import (
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.retiming import FASTEST, SLOWEST
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.controls import allow
+from rotemina.app.shell.controls import allow, fill
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.samples import DeviceState
@@ -133,11 +133,11 @@ class Transport(QWidget):
 
     def _show_progress(self, state: PlaybackState) -> None:
         if state.phase is PlaybackPhase.IDLE:
-            self.progress.setValue(0)
+            fill(self.progress, 0)
             self.progress.setFormat("")
             return
         share = state.path_s / state.duration_s if state.duration_s else 0.0
-        self.progress.setValue(round(1000 * share))
+        fill(self.progress, round(1000 * share))
         left_s = (state.duration_s - state.path_s) / state.speed
         row = (
             translate("trajectory", "row {row} of {rows}").format(

@@ -40,6 +40,31 @@ class Frames:
             widget.installEventFilter(self._watcher)
 
 
+class Work:
+    """Measures the thread's own work between two beats: processor time, whatever else runs here."""
+
+    def __init__(self):
+        from PySide6.QtCore import QTimer
+
+        self._spent, self._last_s = [], time.thread_time()
+        self._timer = QTimer(interval=20)
+        self._timer.timeout.connect(self._beat)
+        self._timer.start()
+
+    def _beat(self):
+        now_s = time.thread_time()
+        self._spent.append(now_s - self._last_s)
+        self._last_s = now_s
+
+    def summary(self):
+        spent = sorted(self._spent) or [0.0]
+        usual = spent[int(0.99 * (len(spent) - 1))]
+        return {
+            "work_99_percent_ms": round(1e3 * usual, 1),
+            "work_worst_ms": round(1e3 * spent[-1], 1),
+        }
+
+
 class Operator:
     """Plays, switches panels and jogs in turns, as quick as nobody is."""
 
@@ -94,9 +119,10 @@ def in_use(used, seconds):
     watch = used.window.loop_watch
     operator = Operator(used)
     operator.begin()
+    work = Work()
     watch.restart()
     run_for(seconds)
-    found = {**watch.lateness.as_json(), "diagnoses": operator.diagnoses}
+    found = {**watch.lateness.as_json(), **work.summary(), "diagnoses": operator.diagnoses}
     found["stalls"] = [(round(one.lasted_s, 3), one.calls) for one in watch.stalls]
     operator.end()
     used.window.panels["gap"].end()
@@ -123,6 +149,7 @@ def frames(used, seconds):
     used.bench.play()
     run_for(1.0)
     watch = window.loop_watch
+    work = Work()
     watch.restart()
     counted.counts.clear()
     began_s, cpu_s = time.monotonic(), time.process_time()
@@ -130,7 +157,7 @@ def frames(used, seconds):
     lasted_s = time.monotonic() - began_s
     found = {name: round(count / lasted_s, 1) for name, count in counted.counts.items()}
     found["cpu_percent"] = round(100.0 * (time.process_time() - cpu_s) / lasted_s)
-    return {**found, **watch.lateness.as_json()}
+    return {**found, **watch.lateness.as_json(), **work.summary()}
 
 
 def plots_of(panel):
