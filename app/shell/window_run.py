@@ -2,6 +2,7 @@
 
 import gc
 import signal
+import sys
 from importlib import resources
 from pathlib import Path
 
@@ -24,6 +25,8 @@ from rotemina.app.shell.preloading import preload
 from rotemina.app.shell.workbench import Workbench
 
 DEFAULT_THEME = "dark"
+# How long another thread may go on once the window's, or the session's, wants to: both do so often.
+SWITCH_S = 0.001
 
 
 def make_application() -> QApplication:
@@ -55,6 +58,7 @@ def make_window(
 def run(session: MotionSession, settings: Settings) -> int:
     """Show the window and run it; return the exit status."""
     give_memory_back()
+    sys.setswitchinterval(SWITCH_S)
     application = make_application()
     window = make_window(session, settings)
     panels = window.panels

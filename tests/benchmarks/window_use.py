@@ -3,6 +3,7 @@
 import os
 import random
 import re
+import sys
 import tempfile
 import time
 from collections.abc import Callable
@@ -21,7 +22,7 @@ from rotemina.app.settings import Settings
 from rotemina.app.shell.allocator import give_memory_back
 from rotemina.app.shell.entries import Entry
 from rotemina.app.shell.layouts import OPERATE
-from rotemina.app.shell.window_run import make_application, make_window
+from rotemina.app.shell.window_run import SWITCH_S, make_application, make_window
 from rotemina.drivers.samples import DeviceState
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.records.record import Record, Tap
@@ -49,6 +50,7 @@ class UsedWindow:
         times_as_fast: float = TIMES_AS_FAST,
     ) -> None:
         give_memory_back()  # as the program does
+        sys.setswitchinterval(SWITCH_S)
         self.application = make_application()
         self.folder = Path(tempfile.mkdtemp(prefix="rotemina-use-"))
         simulator = Simulator(
