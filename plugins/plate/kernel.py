@@ -8,7 +8,7 @@ _ONE, _TINY, _NONE = np.float32(1.0), np.float32(1e-9), np.float32(-1e9)
 _OUT = np.float32(-5e-3)  # rounding must leave no gaps between neighbours
 
 
-@numba.njit(cache=True, error_model="numpy")
+@numba.njit(cache=True, nogil=True, error_model="numpy")
 def fill(
     image: NDArray[np.uint32],
     depth: NDArray[np.float32],

@@ -1,4 +1,7 @@
-"""The loops over pixels, compiled. Distances in px, light in photoelectrons, single precision."""
+"""The loops over pixels, compiled. Distances in px, light in photoelectrons, single precision.
+
+They leave the interpreter to other threads: a picture takes long enough for a window to stutter.
+"""
 
 import numba
 import numpy as np
@@ -38,7 +41,7 @@ def _between(across: np.float32, radius: np.float32, share: np.float32) -> np.fl
     return np.float32(_HALF * (_erf((radius - across) * share) + _erf((radius + across) * share)))
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=True)
+@numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=True)
 def draw_tube(
     light: Image,
     box: tuple[int, int, int, int],
@@ -91,7 +94,7 @@ def draw_tube(
             line[column] *= _ONE - end * (wall * whole - lumen * bore)
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=True)
+@numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=True)
 def draw_radial(
     light: Image,
     box: tuple[int, int, int, int],
@@ -115,7 +118,7 @@ def draw_radial(
             light[row, column] *= profile[at] * (_ONE - part) + profile[at + 1] * part
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=True)
+@numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=True)
 def outside_of(outline: Image, centre: Image, shape: tuple[int, int]) -> Image:
     """Return how far pixels (shape) are outside an outline, px; negative inside.
 
@@ -139,7 +142,7 @@ def outside_of(outline: Image, centre: Image, shape: tuple[int, int]) -> Image:
     return out
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=True)
+@numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=True)
 def expose(
     light: Image,
     noise: Image,

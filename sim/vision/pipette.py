@@ -178,7 +178,7 @@ class Pipette:
         return out
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=True)
+@numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=True)
 def _strip(across: float, half: float, share: float) -> tuple[float, float, float, float]:
     """Return a strip −half…half seen at ``across`` and its derivatives by all three."""
     upper, lower = (across + half) * share, (across - half) * share
@@ -191,7 +191,7 @@ def _strip(across: float, half: float, share: float) -> tuple[float, float, floa
     )
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=True)
+@numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=True)
 def _draw(
     out: FloatArray, column: float, row: float, depth: float, figures: FloatArray, stride: float
 ) -> None:

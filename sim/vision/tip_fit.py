@@ -301,7 +301,7 @@ def least_squares(
         return None
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=True)
+@numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=True)
 def _sum_up(
     rows: FloatArray, aim: FloatArray, weights: FloatArray, normal: FloatArray, right: FloatArray
 ) -> None:
