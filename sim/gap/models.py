@@ -79,7 +79,14 @@ def mean_squares(evidence: Evidence, left: FloatArray) -> dict[Tap, float]:
     }
 
 
-def beside(evidence: Evidence, causes: Sequence[AxisEffect]) -> list[AxisEffect]:
-    """Return causes, and the model's own parameters as far as they are not among them."""
+def beside(
+    evidence: Evidence, causes: Sequence[AxisEffect], begun: Explanation | None = None
+) -> list[AxisEffect]:
+    """Return causes, and the model's own parameters as far as they are not among them.
+
+    These are as they were ``begun`` with, else as the model has them.
+    """
     named = {cause.id for cause in causes}
-    return [*causes, *(own for own in baseline(evidence) if own.id not in named)]
+    tuned = begun.fit.effects[len(begun.causes) :] if begun else ()
+    found = {(one.id, one.formulation): one for one in (*baseline(evidence), *tuned)}
+    return [*causes, *(own for own in found.values() if own.id not in named)]

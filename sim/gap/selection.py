@@ -22,6 +22,7 @@ from rotemina.sim.gap.models import (
     untouched,
 )
 from rotemina.sim.gap.progress import Account
+from rotemina.sim.gap.retuning import retuned
 from rotemina.sim.gap.screening import Screened, screen
 from rotemina.sim.gap.standing import Grade
 from rotemina.sim.gap.starts import from_stop
@@ -51,6 +52,7 @@ _WORTH_GOING_ON = (0.25, 0.5, 1.0)  # share closed by one, two causes, to look f
 _WORTH_A_FIRST_TRY = 4.0  # times what quick formulations leave, that a slow one may promise
 _WORTH_A_TRY = 0.8  # the same beside other causes, where each step takes longer still
 _PROMISING = 0.3  # of what a quick form leaves, that a slow one leaves at first sight
+_MOSTLY_OWN = 0.9  # of the gap, that re-tuning closes for causes to be looked for beside it
 _SKETCHED = 3  # steps after which attempts are compared
 _BEHIND = 3.0  # times the cost of the best, from which an attempt is given up
 _LEAST_PROMISE = 0.5  # of the score: a best candidate that leaves more is no clear cause
@@ -87,10 +89,12 @@ def select(evidence: Evidence, account: Account, *, jobs: int = 1) -> Selection:
         own = [one for one in own if one.id not in _SENSORS_OWN]
     bare = untouched(evidence)
     account.begin(bare.score)
-    retuned = explain(evidence, ())
-    account.tried((), retuned.score, Grade.UNSEEN)
-    best = retuned if enters(bare, bare, retuned) else bare
-    beam, tried = [bare], [retuned]
+    alone = retuned(evidence)
+    account.tried((), alone.score, Grade.UNSEEN)
+    best = alone if enters(bare, bare, alone) else bare
+    beam, tried = [bare], [alone]
+    if alone.score >= NOTICED and closed(bare.score, alone.score) >= _MOSTLY_OWN:
+        beam = [bare, alone]
     for level in range(MOST_CAUSES):
         found: list[Explanation] = []
         for begun in beam:
@@ -109,7 +113,7 @@ def select(evidence: Evidence, account: Account, *, jobs: int = 1) -> Selection:
         if best.score < NOTICED or closed(bare.score, best.score) < _WORTH_GOING_ON[level]:
             break
     simplest = _simplified(evidence, bare, best)
-    return Selection(bare, retuned, simplest, tuple(sorted(tried, key=lambda one: one.score)))
+    return Selection(bare, alone, simplest, tuple(sorted(tried, key=lambda one: one.score)))
 
 
 def enters(bare: Explanation, before: Explanation, after: Explanation) -> bool:
@@ -154,7 +158,7 @@ def _extended(
     free = [one for one in own if (one.id, one.from_axis) not in named]
     # No single further cause closes its share where less than that is left; only one that takes
     # nearly all of it away is looked for then, and that shows at once.
-    little = bool(begun.causes) and _is_little(bare, begun)
+    little = begun is not bare and _is_little(bare, begun)
     account.tell("screening", None)
     first = scouts(evidence, free)
     slow = any(is_slow(evidence, cause) for cause in begun.causes)
@@ -166,7 +170,7 @@ def _extended(
         most = _FITTED_SLOWLY
     chosen = _chosen(screened, most)
     account.tell("fitting", chosen[0].id)
-    found = _fitted(evidence, [[*begun.causes, one] for one in chosen], account, jobs)
+    found = _fitted(evidence, [[*begun.causes, one] for one in chosen], account, jobs, begun)
     if min(one.fit.cost for one in found) < ADEQUATE:
         return found  # other formulations, which take long, could not do better
     others = [_informed(one, found) for one in siblings(chosen, free) if one not in first]
@@ -180,7 +184,7 @@ def _extended(
             if one.cost < max(worth * least, _PROMISING * _quick(one.effect, found))
         ]
         attempts = [[*begun.causes, one.effect] for one in slower]
-        found += _fitted(evidence, attempts, account, jobs) if attempts else []
+        found += _fitted(evidence, attempts, account, jobs, begun) if attempts else []
     return found
 
 
@@ -217,7 +221,7 @@ def _reformulated(
         for cause in begun.causes
         for sibling in siblings([cause], own)
     ]
-    return _fitted(evidence, attempts, account, jobs) if attempts else []
+    return _fitted(evidence, attempts, account, jobs, begun) if attempts else []
 
 
 def _screened(
@@ -238,9 +242,16 @@ def _screened(
 
 
 def _fitted(
-    evidence: Evidence, attempts: Sequence[Sequence[AxisEffect]], account: Account, jobs: int
+    evidence: Evidence,
+    attempts: Sequence[Sequence[AxisEffect]],
+    account: Account,
+    jobs: int,
+    begun: Explanation,
 ) -> list[Explanation]:
-    """Fit sets of causes; those that are far behind after a few steps are given up."""
+    """Fit sets of causes; those that are far behind after a few steps are given up.
+
+    The model's own parameters begin where they are beside what was ``begun`` with.
+    """
     number = len(attempts[0])
 
     def told(_: int, one: Fit) -> None:
@@ -248,7 +259,7 @@ def _fitted(
 
     sketches = _each(
         [
-            partial(sketched, evidence, beside(evidence, causes), most_steps=_SKETCHED)
+            partial(sketched, evidence, beside(evidence, causes, begun), most_steps=_SKETCHED)
             for causes in attempts
         ],
         jobs,

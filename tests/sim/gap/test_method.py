@@ -126,6 +126,15 @@ def test_what_sticks_and_breaks_loose_by_whole_steps_lost_none():
     assert named(diagnose(ROBOT, seen)) == {("x", "friction", None)}
 
 
+def test_a_resonance_that_is_far_off_is_no_further_mode():
+    off = {"frequency_error": -0.194, "damping_error": -0.25}
+    truth = AxisEffect(axis="thy", id="resonance_mismatch", parameters=off)
+    found = diagnose(ROBOT, records([truth], "thy"))
+    assert named(found) == {("thy", "resonance_mismatch", None)}
+    fitted = {one.name: one.value for one in found.causes[0].parameters}
+    assert fitted == pytest.approx(off, abs=0.01)
+
+
 def test_what_no_effect_explains_is_unknown():
     def shaken(record, seed):
         """Add what depends on the product of time and speed, in nobody's catalogue."""
