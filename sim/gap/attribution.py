@@ -19,6 +19,10 @@ _BRINGS_ALONG = {  # what a loop, a curve, a stiffening spring, or a mass on a s
     "stiffness_nonlinearity": (GAIN,),
     "flexible_mode": (RESONANCE,),
 }
+_BENDS = {  # an axis that sticks, or is loose, rings otherwise: what a re-tuning must close then
+    ("friction", RESONANCE): 0.12,
+    ("backlash", RESONANCE): 0.12,
+}
 
 
 def attributed(evidence: Evidence, bare: Explanation, explained: Explanation) -> Explanation:
@@ -37,7 +41,8 @@ def attributed(evidence: Evidence, bare: Explanation, explained: Explanation) ->
         light = _with_another_mass(evidence, explained)
         without[FRICTION] = min(light, without[FRICTION], key=lambda one: one.score)
     for one in own:
-        if one.id not in brought and _closes(bare, without[one.id], explained):
+        least = max([LEAST_SHARE, *(_BENDS.get((cause, one.id), 0.0) for cause in named)])
+        if one.id not in brought and _closes(bare, without[one.id], explained, least):
             found.append(_fitted(explained, one.id))
     if not found and own:
         # Either would do: the one without which most is left.
@@ -73,9 +78,9 @@ def without_own(
     ]
 
 
-def _closes(bare: Explanation, before: Explanation, after: Explanation) -> bool:
+def _closes(bare: Explanation, before: Explanation, after: Explanation, least: float) -> bool:
     return any(
-        before.by_tap[tap] - left >= max(LEAST_SHARE * (bare.by_tap[tap] - 1.0), LEAST_POWER)
+        before.by_tap[tap] - left >= max(least * (bare.by_tap[tap] - 1.0), LEAST_POWER)
         for tap, left in after.by_tap.items()
     )
 
