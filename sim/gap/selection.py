@@ -9,7 +9,7 @@ from typing import TypeVar
 import numpy as np
 from joblib import Parallel, delayed
 
-from rotemina.sim.gap.baseline import is_own
+from rotemina.sim.gap.baseline import RESONANCE, is_own
 from rotemina.sim.gap.candidates import candidates, is_slow, scouts, siblings
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import Fit, finished, sketched
@@ -53,6 +53,7 @@ _WORTH_A_FIRST_TRY = 4.0  # times what quick formulations leave, that a slow one
 _WORTH_A_TRY = 0.8  # the same beside other causes, where each step takes longer still
 _PROMISING = 0.3  # of what a quick form leaves, that a slow one leaves at first sight
 _MOSTLY_OWN = 0.9  # of the gap, that re-tuning closes for causes to be looked for beside it
+_ONE_MODE = 0.03  # relative difference of frequencies that are one mode's
 _SKETCHED = 3  # steps after which attempts are compared
 _BEHIND = 3.0  # times the cost of the best, from which an attempt is given up
 _LEAST_PROMISE = 0.5  # of the score: a best candidate that leaves more is no clear cause
@@ -99,7 +100,7 @@ def select(evidence: Evidence, account: Account, *, jobs: int = 1) -> Selection:
         found: list[Explanation] = []
         for begun in beam:
             found += _extended(evidence, begun, own, bare, account, jobs)
-        found = _unique(found)
+        found = _unique(_apart_from_own(evidence, bare, alone, found))
         if found and enters(bare, best, found[0]):
             found = _unique([*found, *_reformulated(evidence, found[0], own, account, jobs)])
         tried += found
@@ -142,6 +143,34 @@ def _is_little(bare: Explanation, begun: Explanation) -> bool:
     return all(
         left - 1.0 < max(LEAST_SHARE * (bare.by_tap[tap] - 1.0), LEAST_POWER)
         for tap, left in begun.by_tap.items()
+    )
+
+
+def _apart_from_own(
+    evidence: Evidence, bare: Explanation, alone: Explanation, found: Sequence[Explanation]
+) -> list[Explanation]:
+    """Return explanations but those whose further mode is the axis' own, re-tuned.
+
+    Two modes at one frequency follow whatever the ring of a single one looks like: where that one
+    ``alone`` explains most of the gap, it is the simpler reason.
+    """
+    if closed(bare.score, alone.score) < _MOSTLY_OWN:
+        return list(found)
+    return [one for one in found if not _is_own_mode(evidence, alone, one)]
+
+
+def _is_own_mode(evidence: Evidence, alone: Explanation, one: Explanation) -> bool:
+    inertia = evidence.robot.axes[evidence.axis].inertia
+    off = [own.parameters["frequency_error"] for own in alone.fit.effects if own.id == RESONANCE]
+    if inertia is None or not off:
+        return False
+    rings_hz = np.sqrt(inertia.stiffness / inertia.mass) / (2.0 * np.pi) * (1.0 + off[0])
+    return any(
+        abs(value - rings_hz) < _ONE_MODE * rings_hz
+        for cause in one.causes
+        if cause.id == "flexible_mode"
+        for name, value in cause.parameters.items()
+        if name.startswith("frequency")
     )
 
 
