@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from rotemina.drivers import abilities, errors, tool
+from rotemina.drivers import abilities, errors, model_abilities, tool
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.driver import Driver
 from rotemina.sim.robot.file import load_robot
@@ -25,7 +25,8 @@ def test_the_example_keeps_the_contract(name):
 def test_every_ability_is_on_the_page_and_no_other():
     own = {
         name
-        for name, one in (*vars(abilities).items(), *vars(tool).items())
+        for module in (abilities, model_abilities, tool)
+        for name, one in vars(module).items()
         if isinstance(one, type) and issubclass(one, Driver) and one is not Driver
     }
     section = PAGE.split("## Abilities")[1].split("\n## ")[0]
