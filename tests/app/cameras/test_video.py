@@ -190,10 +190,12 @@ from rotemina.app.cameras.video import Video
 from rotemina.drivers.cameras.frame import Frame, Region
 video = Video(Path(sys.argv[1]))
 video.start()
-for number in range(100000):
+told = False
+for number in range(1000000):
     pixels = np.full((200, 300), number, np.uint16)
     video.take(Frame(pixels, number / 30.0, number, 16, Region(0, 0, 300, 200)))
-    if number == 50:
+    if not told and video.status.pictures > 10:  # the disk has some of them
+        told = True
         print("go", flush=True)
 """
 
