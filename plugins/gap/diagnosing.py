@@ -1,6 +1,5 @@
 """A diagnosis under way, away from the window's thread: its progress, its end, and its stop."""
 
-import os
 import time
 from collections.abc import Sequence
 from threading import Event
@@ -11,9 +10,9 @@ from rotemina.app.display import label
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.language import translate
 from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap.diagnosis_process import DiagnosisProcess
 from rotemina.plugins.gap.words import effect_word, stage_name
-from rotemina.sim.gap.diagnosis import Diagnosis
-from rotemina.sim.gap.progress import Listener, Progress
+from rotemina.sim.gap.progress import Progress
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
 
@@ -49,6 +48,7 @@ class Diagnosing(QObject):
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
         self._background = Background(self)
+        self._process = DiagnosisProcess()
         self._number = 0
         self._stopped = Event()
         self._stopped.set()
@@ -83,16 +83,13 @@ class Diagnosing(QObject):
             nonlocal latest
             if stopped.is_set():
                 raise StoppedError
-            if progress is not latest:  # which comes again before every simulation
+            if progress is not latest:  # which is told again and again
                 latest = progress
                 self._heard.emit(number, progress)
 
         def work() -> Answer | None:
             try:
-                listen(Progress("reading", None, None, 0.0))
-                diagnosis = diagnose(robot, records, listen)
-                listen(Progress("drawing", None, None, 1.0))
-                return Answer.of(diagnosis, names, records)
+                return self._process.answer(robot, names, records, listen)
             except StoppedError:
                 return None
 
@@ -109,9 +106,10 @@ class Diagnosing(QObject):
         self._clock.stop()
 
     def close(self) -> None:
-        """Stop, and wait until the thread is free."""
+        """Stop, and wait until thread and process have ended."""
         self.stop()
         self._background.wait()
+        self._process.close()
 
     def _is_wanted(self, number: int) -> bool:
         return number == self._number and self.running
@@ -137,14 +135,6 @@ class Diagnosing(QObject):
         if self._is_wanted(number):
             self.stop()
             self.failed.emit(message)
-
-
-def diagnose(robot: Robot, records: Sequence[Record], listener: Listener) -> Diagnosis:
-    """Load the diagnosis, which takes its time, and run it; one core stays free for the machine."""
-    from rotemina.sim.gap import method
-
-    jobs = max((os.cpu_count() or 1) - 1, 1)
-    return method.diagnose(robot, records, jobs=jobs, listener=listener)
 
 
 def said(progress: Progress, at_s: float, now_s: float) -> str:

@@ -12,9 +12,9 @@ from PySide6.QtWidgets import QFileDialog, QMessageBox
 
 from rotemina.app.shell.workbench import Run
 from rotemina.plugins.gap import actions
-from rotemina.plugins.gap import diagnosing as module
 from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.diagnosing import StoppedError, said
+from rotemina.plugins.gap.diagnosis_process import DiagnosisProcess
 from rotemina.plugins.gap.proof import new_motion
 from rotemina.plugins.gap.ranking_view import name_of
 from rotemina.plugins.gap.where import warmth
@@ -79,10 +79,19 @@ class Stepwise:
         return self.diagnosis
 
 
+def use(monkeypatch, diagnose):
+    """Let a function diagnose, on the thread that would wait for the process."""
+
+    def answer(_self, robot, names, records, listener):
+        return Answer.of(diagnose(robot, records, listener), names, records)
+
+    monkeypatch.setattr(DiagnosisProcess, "answer", answer)
+
+
 @pytest.fixture
 def stepwise(monkeypatch, diagnosis):
     made = Stepwise(diagnosis)
-    monkeypatch.setattr(module, "diagnose", made)
+    use(monkeypatch, made)
     yield made
     made.steps.release(100)
 
@@ -268,7 +277,7 @@ def test_records_that_cannot_be_diagnosed_become_a_notice(qtbot, window, chosen,
     def refuse(_robot, _records, _listener):
         raise GapError("record 1: too short to tell anything; record 2 s or more")
 
-    monkeypatch.setattr(module, "diagnose", refuse)
+    use(monkeypatch, refuse)
     click(qtbot, chosen.start)
     qtbot.waitUntil(lambda: "too short" in newest(window), timeout=LONG_MS)
     assert chosen.doing.text().startswith("The diagnosis failed")
@@ -288,7 +297,7 @@ def test_closing_the_window_ends_a_diagnosis(qtbot, window, chosen, monkeypatch)
             ended.set()
             raise
 
-    monkeypatch.setattr(module, "diagnose", endless)
+    use(monkeypatch, endless)
     click(qtbot, chosen.start)
     qtbot.waitUntil(under_way.is_set, timeout=LONG_MS)
     window.workbench.close()
