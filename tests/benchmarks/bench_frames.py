@@ -129,22 +129,20 @@ def in_use(used, seconds):
     return found
 
 
-def frames(used, seconds):
-    """Return frames a second of plots and camera side by side, while a trajectory plays."""
+def frames(used, seconds, *, also=()):
+    """Return frames a second of plots and camera side by side, while a trajectory plays.
+
+    Panels that are shown ``also`` stand below the camera.
+    """
     from PySide6.QtCore import Qt
-    from PySide6.QtWidgets import QDockWidget
 
     window, panels = used.window, used.window.panels
-    camera = panels["microscope"]
-    dock = QDockWidget("camera")
-    dock.setWidget(camera)  # beside the plots: in the window as it is one hides the other
-    camera.show()
-    window.addDockWidget(Qt.DockWidgetArea.RightDockWidgetArea, dock)
     window.resize(1920, 1080)
     window.bring_up("plots")
-    window.resizeDocks([dock], [800], Qt.Orientation.Horizontal)
+    beside = [put_beside(window, panels[name]) for name in ("microscope", *also)]
+    window.resizeDocks(beside[:1], [800], Qt.Orientation.Horizontal)
     plots = {name: plot.viewport() for name, plot in plots_of(panels["plots"])}
-    counted = Frames({**plots, "camera": camera.view})
+    counted = Frames({**plots, "camera": panels["microscope"].view})
     used.until(lambda: used.ready)
     used.bench.play()
     run_for(1.0)
@@ -158,6 +156,47 @@ def frames(used, seconds):
     found = {name: round(count / lasted_s, 1) for name, count in counted.counts.items()}
     found["cpu_percent"] = round(100.0 * (time.process_time() - cpu_s) / lasted_s)
     return {**found, **watch.lateness.as_json(), **work.summary()}
+
+
+def put_beside(window, panel):
+    """Show a panel in a dock of its own: in the window as it is one hides the other."""
+    from PySide6.QtCore import Qt
+    from PySide6.QtWidgets import QDockWidget
+
+    dock = QDockWidget("beside")
+    dock.setWidget(panel)
+    panel.show()
+    window.addDockWidget(Qt.DockWidgetArea.RightDockWidgetArea, dock)
+    return dock
+
+
+def beside_3d(used, seconds):
+    """Return the same with the 3-D view shown as well, and its own frames; None without WebEngine.
+
+    The page tells of every frame that it has drawn.
+    """
+    from rotemina.app.scene.handlers import SceneSocket
+    from rotemina.plugins.view3d import embedding
+
+    if embedding.why_not(os.environ, embedding.user_number()) is not None:
+        return None
+    heard, drawn = SceneSocket.on_message, collections.Counter()
+
+    def on_message(socket, message):
+        drawn["view3d"] += 1
+        return heard(socket, message)
+
+    SceneSocket.on_message = on_message
+    panel = used.window.panels["view3d"]
+    panel.open_here()
+    used.until(lambda: not panel._busy)
+    began_s = time.monotonic()
+    found = frames(used, seconds, also=["view3d"])
+    lasted_s = time.monotonic() - began_s
+    found["view3d"], found["inside"] = round(drawn["view3d"] / lasted_s, 1), not panel._own_window
+    panel.close_view(wait=True)
+    SceneSocket.on_message = heard
+    return found
 
 
 def plots_of(panel):
@@ -191,6 +230,7 @@ def measure(seconds):
     told = {"load_before": round(load, 2), "cores": os.cpu_count()}
     told["in_use"] = in_use(used, seconds)
     told["frames"] = frames(used, min(seconds, 15.0))
+    told["beside_3d"] = beside_3d(used, min(seconds, 15.0))
     told["load_after"] = round(os.getloadavg()[0], 2)
     collector.timer.stop()
     used.close()
@@ -213,6 +253,10 @@ def test_frames_and_lateness(capsys):
             f"{WORST_MS:.0f}); plots and camera side by side, frames/s: {drawn} (limit "
             f"{FRAMES:.0f}); load of the machine {found['load_before']} to {found['load_after']}"
         )
+        if found["beside_3d"] is None:
+            print("the 3-D view was not measured: Qt WebEngine is not to be had here")
+        else:
+            print(f"with the 3-D view: {found['beside_3d']} (limit {FRAMES_BESIDE_3D:.0f})")
         for lasted_s, calls in used["stalls"]:
             print(f"  {lasted_s} s in", *calls, sep="\n  ")
 
