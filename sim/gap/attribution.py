@@ -11,6 +11,7 @@ from rotemina.sim.gap.selection import LEAST_POWER, LEAST_SHARE
 from rotemina.sim.robot.model import AxisEffect
 
 _REFITTED = 5
+_SAME_MASS = 0.3  # relative difference of masses that are one
 _NEAR = 4.0  # times the best score
 _BRINGS_ALONG = {  # what a loop, a curve, a stiffening spring, or a mass on a spring moves as well
     "hysteresis": (GAIN,),
@@ -35,6 +36,8 @@ def attributed(evidence: Evidence, bare: Explanation, explained: Explanation) ->
     named = {cause.id for cause in explained.causes}
     own = [one for one in baseline(evidence) if one.id not in named]
     brought = {name for cause in named for name in _BRINGS_ALONG.get(cause, ())}
+    if _is_part_of_the_mass(explained):
+        brought.add(GAIN)
     found = list(explained.causes)
     without = {one.id: _without(evidence, explained, one.id) for one in own}
     if FRICTION in without:
@@ -83,6 +86,21 @@ def _closes(bare: Explanation, before: Explanation, after: Explanation, least: f
         before.by_tap[tap] - left >= max(least * (bare.by_tap[tap] - 1.0), LEAST_POWER)
         for tap, left in after.by_tap.items()
     )
+
+
+def _is_part_of_the_mass(explained: Explanation) -> bool:
+    """Tell whether a mass on a spring was hung on the axis that its own mass holds already.
+
+    Its share μ of the mass more is then a gain that is higher by as much: of both together the
+    motion is that of the whole mass, of which a part is not rigid.
+    """
+    gain = sum(one.parameters["error"] for one in explained.fit.effects if one.id == GAIN)
+    ratios = [
+        one.parameters["mass_ratio"]
+        for one in explained.causes
+        if one.id == "flexible_mode" and "mass_ratio" in one.parameters
+    ]
+    return any(abs(gain - ratio) < _SAME_MASS * ratio for ratio in ratios)
 
 
 def _without(evidence: Evidence, explained: Explanation, name: str) -> Explanation:

@@ -7,11 +7,11 @@ import numpy as np
 
 from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.attribution import attributed, without_own
-from rotemina.sim.gap.baseline import GAIN, is_own
+from rotemina.sim.gap.baseline import GAIN, OWN, is_own
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.models import Explanation, explain, mean_squares
 from rotemina.sim.gap.richness import alike_axes
-from rotemina.sim.gap.rivals import Key, Rival, probability, rivals
+from rotemina.sim.gap.rivals import Key, Rival, rivals
 from rotemina.sim.gap.selection import LEAST_POWER, Selection
 from rotemina.sim.gap.verdict import closed
 from rotemina.sim.records.record import Tap
@@ -58,7 +58,7 @@ def contested(
     doubted = [
         key
         for key, own in ranked.items()
-        if probability(own, key) < _least_sure(evidence, selection.bare, aside, best, key)
+        if _of_its_kind(own, key) < _least_sure(evidence, selection, aside, best, key)
     ]
     if wanders:
         doubted += [key for key in best.ids if _bends_to(evidence, best, key)]
@@ -81,22 +81,44 @@ def _likelier(ranked: Mapping[Key, Sequence[Rival]]) -> Explanation | None:
     return None if surest is None or surest.probability < _LIKELIER else surest.explanation
 
 
+def _of_its_kind(ranked: Sequence[Rival], key: Key) -> float:
+    """Return the probability that a cause is there, or what does the same at the sensor.
+
+    Which of these it is may be in doubt, and that one of them is there beyond doubt.
+    """
+    name, source = key
+    alike = {name, *_TWINS.get(name, ())}
+    alike |= {other for other, twins in _TWINS.items() if alike & set(twins)}
+    return sum(one.probability for one in ranked if one.effect in alike and one.from_axis == source)
+
+
 def _least_sure(
     evidence: Evidence,
-    bare: Explanation,
+    selection: Selection,
     aside: Mapping[Tap, float],
     best: Explanation,
     key: Key,
 ) -> float:
     """Return the probability that a cause needs: more where it closes little of any tap's gap."""
-    others = [one for one in best.causes if (one.id, one.from_axis) != key]
-    before = mean_squares(evidence, evidence.residual(others))
+    before, raw = _without(evidence, selection, best, key), selection.bare.by_tap
     much = any(
-        before[tap] - left
-        >= max(_LITTLE * (bare.by_tap[tap] + aside.get(tap, 0.0) - 1.0), LEAST_POWER)
+        before[tap] - left >= max(_LITTLE * (raw[tap] + aside.get(tap, 0.0) - 1.0), LEAST_POWER)
         for tap, left in best.by_tap.items()
     )
     return _DOUBTED if much else _DOUBTED_OF_LITTLE
+
+
+def _without(
+    evidence: Evidence, selection: Selection, best: Explanation, key: Key
+) -> Mapping[Tap, float]:
+    """Return what is left at each tap without a cause: as the others alone were fitted, if so."""
+    others = [one for one in best.causes if (one.id, one.from_axis) != key]
+    named = {(one.id, one.from_axis) for one in others if not is_own(evidence, one)}
+    if key[0] not in OWN and named:
+        alone = [one for one in selection.tried if set(one.ids) == named]
+        if alone:
+            return min(alone, key=lambda one: one.score).by_tap
+    return mean_squares(evidence, evidence.residual(others))
 
 
 def _bends_to(evidence: Evidence, best: Explanation, key: Key) -> bool:

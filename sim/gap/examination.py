@@ -73,7 +73,7 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
     if modal is not None:
         return _of_modes(whole, modal)
     evidence, aside = set_aside(whole)
-    selection, best = _explained(evidence, account, jobs)
+    selection, best = _explained(whole, evidence, aside, account, jobs)
     evidence, aside, selection, best = _looked_again(
         whole, (evidence, aside, selection, best), account, jobs
     )
@@ -132,7 +132,7 @@ def _looked_again(whole: Evidence, first: _Found, account: Account, jobs: int) -
         evidence, found = set_aside(whole, acting)
         if not _more(found, aside):
             break
-        selection, better = _explained(evidence, account, jobs)
+        selection, better = _explained(whole, evidence, found, account, jobs)
         if better.score > _MUCH_BETTER * best.score:
             break
         first = evidence, found, selection, better
@@ -155,7 +155,7 @@ def _without_false_noise(whole: Evidence, first: _Found, account: Account, jobs:
         ]
     )
     others = tuple(one for one in aside if one.effect != "sensor_noise")
-    second = declared, others, *_explained(declared, account, jobs)
+    second = declared, others, *_explained(whole, declared, others, account, jobs)
     if not selection.tried and second[3].score > _NOT_NOISE * second[2].raw:
         return first  # nothing but noise explains it
     return second
@@ -170,7 +170,7 @@ def _without_false_jumps(whole: Evidence, first: _Found, account: Account, jobs:
     if best.score < NOTICED or not any(one.effect == "lost_steps" for one in aside):
         return first
     evidence, others = set_aside(whole, jumps=False)
-    second = evidence, others, *_explained(evidence, account, jobs)
+    second = evidence, others, *_explained(whole, evidence, others, account, jobs)
     return second if second[3].score < _MUCH_BETTER * best.score else first
 
 
@@ -226,12 +226,22 @@ def _of_modes(evidence: Evidence, modal: Explanation) -> Examination:
     )
 
 
-def _explained(evidence: Evidence, account: Account, jobs: int) -> tuple[Selection, Explanation]:
+def _explained(
+    whole: Evidence,
+    evidence: Evidence,
+    aside: Sequence[Disturbance],
+    account: Account,
+    jobs: int,
+) -> tuple[Selection, Explanation]:
     """Return the selection, and the best explanation with its own parameters as causes."""
     bare = untouched(evidence)
     if max(bare.by_tap.values()) < _GAP:
         return Selection(bare, bare, bare, ()), bare
-    selection = select(evidence, account, jobs=jobs)
+    power = {
+        tap: power * (whole.floor(tap) / evidence.floor(tap)) ** 2
+        for tap, power in power_by_tap(whole, aside).items()
+    }
+    selection = select(evidence, account, power, jobs=jobs)
     return selection, attributed(evidence, selection.bare, selection.best)
 
 

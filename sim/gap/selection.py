@@ -1,6 +1,6 @@
 """Which effects explain the gap of an axis: forward selection on data that no fit has seen."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
@@ -39,7 +39,9 @@ _SENSORS_OWN = {"sensor_gain"}  # what a gain of the axis does as well: a rival,
 _BENT_LOOP = {"hysteresis", "static_nonlinearity"}
 _BENT_SHARE = 0.1  # the same for what may be but the asymmetry of a real loop
 LEAST_POWER = 0.2  # in floors squared, that a cause must close
-CLEARLY = 0.8  # of what others leave: so much closed counts, however small a share of the gap
+CLEARLY = 0.8  # of what others leave: so much closed counts as well, if it is
+_LEFT_ASIDE = 0.01  # of the power of what was set aside, that it may leave of itself
+_CLEAR_SHARE = 0.01  # of the gap's power; less is how a real cause differs from its formula
 ADEQUATE = 1.3  # mean square over the floor that leaves nothing to explain
 NOTICED = 2.0  # mean square over the floor from which what others leave may have a cause
 _FITTED = 6  # effects that are fitted in full after screening
@@ -80,10 +82,17 @@ class Selection:
         return self.bare.score
 
 
-def select(evidence: Evidence, account: Account, *, jobs: int = 1) -> Selection:
+def select(
+    evidence: Evidence,
+    account: Account,
+    aside: Mapping[Tap, float],
+    *,
+    jobs: int = 1,
+) -> Selection:
     """Find the causes of an axis' gap, the model's own parameters being re-tuned beside them.
 
-    ``account`` hears of stages, and of every candidate what it leaves.
+    ``account`` hears of stages, and of every candidate what it leaves. ``aside`` is the power at
+    each tap, in its floors squared, of what was set aside before.
     """
     own = [one for one in candidates(evidence) if not is_own(evidence, one)]
     if not evidence.has(Tap.REF):
@@ -92,7 +101,8 @@ def select(evidence: Evidence, account: Account, *, jobs: int = 1) -> Selection:
     account.begin(bare.score)
     alone = retuned(evidence)
     account.tried((), alone.score, Grade.UNSEEN)
-    best = alone if enters(bare, bare, alone) else bare
+    enters = partial(_enters, bare, aside)
+    best = alone if enters(bare, alone) else bare
     beam, tried = [bare], [alone]
     if alone.score >= NOTICED and closed(bare.score, alone.score) >= _MOSTLY_OWN:
         beam = [bare, alone]
@@ -101,32 +111,36 @@ def select(evidence: Evidence, account: Account, *, jobs: int = 1) -> Selection:
         for begun in beam:
             found += _extended(evidence, begun, own, bare, account, jobs)
         found = _unique(_apart_from_own(evidence, bare, alone, found))
-        if found and enters(bare, best, found[0]):
+        if found and enters(best, found[0]):
             found = _unique([*found, *_reformulated(evidence, found[0], own, account, jobs)])
         tried += found
         if not found:
             break
-        if enters(bare, best, found[0]):
+        if enters(best, found[0]):
             best = found[0]
         elif level > 0 or _is_little(bare, best):
             break  # two causes may still do what one alone does not do better than a re-tuning
         beam = [one for one in found[: _BEAM[level]] if one.score < _ALSO * found[0].score]
         if best.score < NOTICED or closed(bare.score, best.score) < _WORTH_GOING_ON[level]:
             break
-    simplest = _simplified(evidence, bare, best)
+    simplest = _simplified(evidence, enters, best)
     return Selection(bare, alone, simplest, tuple(sorted(tried, key=lambda one: one.score)))
 
 
-def enters(bare: Explanation, before: Explanation, after: Explanation) -> bool:
+def _enters(
+    bare: Explanation, aside: Mapping[Tap, float], before: Explanation, after: Explanation
+) -> bool:
     """Tell whether what lowers the gap of any tap from ``before`` to ``after`` is a cause.
 
-    It closes its share of the gap of the ``bare`` model, or clearly most of what was left.
+    It closes its share of the gap of the ``bare`` model, or clearly most of what was left; and
+    more than what is set ``aside`` may leave of itself.
     """
     least = LEAST_SHARE
     if _BENT_LOOP.issubset(cause.id for cause in after.causes):
         least = _BENT_SHARE
     return any(
         _closes(bare.by_tap[tap], before.by_tap[tap], left, least)
+        and before.by_tap[tap] - left >= _LEFT_ASIDE * aside.get(tap, 0.0)
         for tap, left in after.by_tap.items()
     )
 
@@ -134,7 +148,7 @@ def enters(bare: Explanation, before: Explanation, after: Explanation) -> bool:
 def _closes(raw: float, before: float, after: float, least: float) -> bool:
     closing = before - after
     share = closing >= max(least * (raw - 1.0), LEAST_POWER)
-    clear = before >= NOTICED and closing >= CLEARLY * (before - 1.0)
+    clear = before >= NOTICED and closing >= max(CLEARLY * (before - 1.0), _CLEAR_SHARE * raw)
     return share or clear
 
 
@@ -361,7 +375,9 @@ def _merit(one: Explanation) -> float:
     return one.score * float(np.prod(handicap))
 
 
-def _simplified(evidence: Evidence, bare: Explanation, best: Explanation) -> Explanation:
+def _simplified(
+    evidence: Evidence, enters: Callable[[Explanation, Explanation], bool], best: Explanation
+) -> Explanation:
     """Take out, one after the other, causes without which the others do as well."""
     while len(best.causes) > 1:
         without = [
@@ -369,7 +385,7 @@ def _simplified(evidence: Evidence, bare: Explanation, best: Explanation) -> Exp
             for cause in best.causes
         ]
         least = min(without, key=lambda one: one.score)
-        if enters(bare, least, best):
+        if enters(least, best):
             break
         best = least
     return best

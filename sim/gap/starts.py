@@ -12,6 +12,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.gap.baseline import OWN
+from rotemina.sim.gap.bends import bent_ends
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import Fit
 from rotemina.sim.gap.lines import strongest_frequency, strongest_periods
@@ -212,7 +213,7 @@ def _centres(_evidence: Evidence, _fitted: Fit, attached: Attached) -> Iterator[
             }
 
 
-def _margins(evidence: Evidence, _fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
+def _margins(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
     """Give ends beyond which an amplifier does not go: a little of the way that is asked for."""
     facts = attached.facts
     seen = [one.real[Tap.U] for one in evidence.observations if Tap.U in one.real]
@@ -224,6 +225,20 @@ def _margins(evidence: Evidence, _fitted: Fit, attached: Attached) -> Iterator[d
             low_margin=ends[0] - facts.input_low,
             high_margin=facts.input_high - ends[1],
         )
+        if facts.kind == "piezo" and "softness" in attached.values:
+            # An end that these voltages do not come near may as well lie beyond the range.
+            bend = bent_ends(*_voltages(evidence, fitted), ends)
+            for one in (
+                bend,
+                bend.without_low(facts.input_low),
+                bend.without_high(facts.input_high),
+            ):
+                yield _clipped(
+                    attached,
+                    low_margin=one.low - facts.input_low,
+                    high_margin=facts.input_high - one.high,
+                    softness=one.softness,
+                )
     if facts.kind == "force":  # whose commands ask for no voltage
         if not seen:
             yield {}
@@ -236,6 +251,17 @@ def _margins(evidence: Evidence, _fitted: Fit, attached: Attached) -> Iterator[d
         yield _clipped(attached, low_margin=low + beyond, high_margin=high + beyond)
         yield _clipped(attached, low_margin=low - beyond, high_margin=high + beyond)
         yield _clipped(attached, low_margin=low + beyond, high_margin=high - beyond)
+
+
+def _voltages(evidence: Evidence, fitted: Fit) -> tuple[FloatArray, FloatArray]:
+    """Return the voltages (n,) that the model gives and those that were measured, V."""
+    answers = evidence.response(fitted.effects)
+    both = [
+        (answer[Tap.U], observation.real[Tap.U])
+        for observation, answer in zip(evidence.observations, answers, strict=True)
+        if Tap.U in observation.real
+    ]
+    return np.concatenate([one for one, _ in both]), np.concatenate([one for _, one in both])
 
 
 def _couplings(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
