@@ -1,20 +1,19 @@
 """Diagnoses in a process of their own: their work never holds the interpreter of the window.
 
-The process is this program's own, so what goes between the two is pickled.
+What goes between the two is pickled, through pipes that nobody else has.
 """
 
-import multiprocessing
-import os
-import signal
+import copyreg
+import pickle
+import subprocess
+import sys
 import threading
-import traceback
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from multiprocessing.connection import Connection
-from multiprocessing.context import SpawnProcess
-from multiprocessing.reduction import ForkingPickler
+from queue import Empty, SimpleQueue
 from types import MappingProxyType
+from typing import IO
 
 from rotemina.plugins.gap.answer import Answer
 from rotemina.sim.errors import InputError
@@ -22,17 +21,9 @@ from rotemina.sim.gap.progress import Listener, Progress
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
 
+_WORKER = ("-m", "rotemina.plugins.gap.diagnosis_worker")
 _LOOKS_S = 0.05  # between two questions whether an answer is still wanted
-_NICE = 5  # the window and what steers the machine go first
 _PATIENCE_S = 2.0  # before a process that does not end its work is ended itself
-
-
-def _frozen(mapping: dict[object, object]) -> MappingProxyType[object, object]:
-    return MappingProxyType(mapping)  # itself it has no name by which another process could call it
-
-
-# Records and robots hold some.
-ForkingPickler.register(MappingProxyType, lambda proxy: (_frozen, (dict(proxy),)))
 
 
 class DiagnosisError(RuntimeError):
@@ -40,34 +31,37 @@ class DiagnosisError(RuntimeError):
 
 
 @dataclass(frozen=True, slots=True)
-class _Request:
+class Request:
+    """Records to be diagnosed, and what they are called."""
+
+    number: int
     robot: Robot
     names: tuple[str, ...]
     records: tuple[Record, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class _Failure:
+class Unwanted:
+    """Says that no answer to a request is wanted any more."""
+
+    number: int
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
     """Why there is no answer: what is wrong with the request, or a fault with its traceback."""
 
     reason: str
     by_input: bool
 
 
-class _Unwanted:
-    """Says that no answer is wanted any more."""
-
-
-class _UnwantedError(Exception):
-    pass
-
-
 class DiagnosisProcess:
     """A process that diagnoses records; it starts with the first request and stays for others."""
 
     def __init__(self) -> None:
-        self._process: SpawnProcess | None = None
-        self._connection: Connection | None = None
+        self._process: subprocess.Popen[bytes] | None = None
+        self._told: SimpleQueue[object] = SimpleQueue()
+        self._number = 0
 
     def answer(
         self,
@@ -88,116 +82,102 @@ class DiagnosisProcess:
         DiagnosisError
             If the program is at fault.
         """
-        connection = self._ready()
-        latest = Progress("reading", None, None, 0.0)
+        self._number += 1
         try:
-            connection.send(_Request(robot, tuple(names), tuple(records)))
-            while True:
-                listener(latest)
-                if not connection.poll(_LOOKS_S):
-                    continue
-                told = connection.recv()
-                if isinstance(told, Progress):
-                    latest = told
-                    continue
-                if isinstance(told, Answer):
-                    return replace(told, records=tuple(records))
-                raise (InputError if told.by_input else DiagnosisError)(told.reason)
+            self._send(Request(self._number, robot, tuple(names), tuple(records)))
+            told = self._reply(listener)
         except (EOFError, OSError):
-            status = self.close()
             raise InputError(
-                f"the process of the diagnosis has ended (status {status}) before it answered; "
-                "is there memory enough? Diagnose again, with fewer or shorter records"
+                f"the process of the diagnosis has ended (status {self.close()}) before it "
+                "answered; is there memory enough? Diagnose again, with fewer or shorter records"
             ) from None
-        except (InputError, DiagnosisError):
-            raise
         except BaseException:
-            self._interrupt(connection)
+            self._interrupt()
             raise
+        if isinstance(told, Answer):
+            return replace(told, records=tuple(records))
+        raise (InputError if told.by_input else DiagnosisError)(told.reason)
 
     def close(self) -> int | None:
         """End the process, if there is one, and return its status."""
-        process, connection = self._process, self._connection
-        self._process = self._connection = None
-        if process is None or connection is None:
+        process, self._process = self._process, None
+        if process is None:
             return None
-        connection.close()
-        process.join(_PATIENCE_S)
-        if process.is_alive():
+        assert process.stdin is not None
+        assert process.stdout is not None
+        with suppress(OSError):  # of what was not written yet
+            process.stdin.close()
+        try:
+            status = process.wait(_PATIENCE_S)
+        except subprocess.TimeoutExpired:
             process.kill()
-            process.join()
-        status = process.exitcode
-        process.close()
+            status = process.wait()
         return status
 
-    def _ready(self) -> Connection:
-        if self._process is not None and not self._process.is_alive():
-            self.close()
-        if self._connection is None:
-            # A new interpreter on every system: a copy of this one would hold its window's locks.
-            context = multiprocessing.get_context("spawn")
-            self._connection, other = context.Pipe()
-            self._process = context.Process(
-                target=_serve, args=(other,), name="diagnosis", daemon=True
-            )
-            self._process.start()
-            other.close()
-        return self._connection
+    def _reply(self, listener: Listener) -> Answer | Failure:
+        latest = Progress("reading", None, None, 0.0)
+        while True:
+            listener(latest)
+            try:
+                told = self._told.get(timeout=_LOOKS_S)
+            except Empty:
+                continue
+            if isinstance(told, Progress):
+                latest = told
+            elif isinstance(told, Answer | Failure):
+                return told
+            else:
+                raise EOFError
 
-    def _interrupt(self, connection: Connection) -> None:
+    def _send(self, message: object) -> None:
+        if self._process is not None and self._process.poll() is not None:
+            self.close()
+        if self._process is None:
+            self._told = SimpleQueue()
+            self._process = process = subprocess.Popen(
+                [sys.executable, *_WORKER], stdin=subprocess.PIPE, stdout=subprocess.PIPE
+            )
+            threading.Thread(
+                target=_read_on, args=(process.stdout, self._told), name="diagnosis", daemon=True
+            ).start()
+        assert self._process.stdin is not None
+        write(message, self._process.stdin)
+
+    def _interrupt(self) -> None:
         """Let the work end at its next step, or the process if that does not come soon."""
-        try:
-            connection.send(_Unwanted())
-            while connection.poll(_PATIENCE_S):
-                if not isinstance(connection.recv(), Progress):
-                    return
-        except (EOFError, OSError):
-            pass
+        with suppress(OSError, Empty):
+            self._send(Unwanted(self._number))
+            while isinstance(self._told.get(timeout=_PATIENCE_S), Progress):
+                pass
+            return
         if self._process is not None:
             self._process.kill()
         self.close()
 
 
-def _serve(connection: Connection) -> None:
-    """Answer requests until the other side is gone."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the window's, which ends this one
-    if hasattr(os, "nice"):
-        os.nice(_NICE)
-    with suppress(EOFError, OSError):
+def write(message: object, stream: IO[bytes]) -> None:
+    """Write a message down, and send it."""
+    pickler = pickle.Pickler(stream)
+    pickler.dispatch_table = copyreg.dispatch_table | {MappingProxyType: _thawed}
+    pickler.dump(message)
+    stream.flush()
+
+
+def _thawed(proxy: MappingProxyType[object, object]) -> tuple[object, tuple[object]]:
+    return _frozen, (dict(proxy),)
+
+
+def _frozen(mapping: dict[object, object]) -> MappingProxyType[object, object]:
+    return MappingProxyType(mapping)  # itself it has no name by which another process could call it
+
+
+def _read_on(stream: IO[bytes], told: "SimpleQueue[object]") -> None:
+    """Hand on what the process tells; None once it tells nothing any more."""
+    with stream:
         while True:
-            request = connection.recv()
-            if isinstance(request, _Request):  # one may be told too late that it is unwanted
-                connection.send(_reply(request, connection))
-
-
-def _reply(request: _Request, connection: Connection) -> Answer | _Failure:
-    latest: Progress | None = None
-    guard = threading.Lock()  # steps come from any thread
-
-    def listen(progress: Progress) -> None:
-        nonlocal latest
-        with guard:
-            if connection.poll():
-                connection.recv()
-                raise _UnwantedError
-            if progress is not latest:  # which comes again before every simulation
-                latest = progress
-                connection.send(progress)
-
-    try:
-        from rotemina.sim.gap import method  # takes its time to import
-
-        # One core stays free for the machine and the window.
-        jobs = max((os.cpu_count() or 1) - 1, 1)
-        diagnosis = method.diagnose(request.robot, request.records, jobs=jobs, listener=listen)
-        listen(Progress("drawing", None, None, 1.0))
-        answer = Answer.of(diagnosis, request.names, request.records)
-        return replace(answer, records=())  # which the other side has
-    except _UnwantedError:
-        return _Failure("stopped", by_input=True)
-    except InputError as error:
-        return _Failure(str(error), by_input=True)
-    except (EOFError, OSError):
-        raise
-    except Exception:
-        return _Failure(traceback.format_exc(), by_input=False)
+            try:
+                message = pickle.load(stream)  # noqa: S301 (from our own process alone)
+            except (EOFError, OSError, pickle.UnpicklingError):
+                told.put(None)
+                return
+            told.put(message)

@@ -1,10 +1,11 @@
 """The process of a diagnosis, started for real: its answer, refusals, stop and death."""
 
-import multiprocessing
+import subprocess
 
 import numpy as np
 import pytest
 
+from rotemina.plugins.gap import diagnosis_process
 from rotemina.plugins.gap.diagnosis_process import DiagnosisError, DiagnosisProcess
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap.document import as_json
@@ -20,11 +21,24 @@ class EnoughError(Exception):
 
 
 @pytest.fixture
-def process():
+def started(monkeypatch):
+    """Every process that was started; none is left in the end."""
+    made, popen = [], subprocess.Popen
+
+    def note(*given, **options):
+        made.append(popen(*given, **options))
+        return made[-1]
+
+    monkeypatch.setattr(subprocess, "Popen", note)
+    yield made
+    assert all(one.poll() is not None for one in made)
+
+
+@pytest.fixture
+def process(started):
     made = DiagnosisProcess()
     yield made
     made.close()
-    assert not multiprocessing.active_children()
 
 
 @pytest.fixture(scope="module")
@@ -44,11 +58,10 @@ def test_it_answers_what_the_diagnosis_itself_does(process, record):
     assert any(one.ranking is not None for one in steps)
 
 
-def test_one_process_answers_again_and_again(process, healthy):
-    process.answer(ROBOT, ["one"], [healthy], lambda _: None)
-    first = multiprocessing.active_children()
-    process.answer(ROBOT, ["two"], [healthy], lambda _: None)
-    assert multiprocessing.active_children() == first
+def test_one_process_answers_again_and_again(process, started, healthy):
+    for name in ("one", "two"):
+        assert process.answer(ROBOT, [name], [healthy], lambda _: None).names == (name,)
+    assert len(started) == 1
 
 
 def test_what_cannot_be_diagnosed_is_refused_in_the_same_words(process, healthy):
@@ -61,23 +74,23 @@ def test_what_cannot_be_diagnosed_is_refused_in_the_same_words(process, healthy)
     assert process.answer(ROBOT, ["one"], [healthy], lambda _: None).diagnosis.causes == ()
 
 
-def test_what_the_listener_raises_ends_the_work_and_the_process_stays(process, record, healthy):
+def test_what_the_listener_raises_ends_the_work_and_the_process_stays(
+    process, started, record, healthy
+):
     def until_fitting(progress):
         if progress.stage == "fitting":
             raise EnoughError
 
     with pytest.raises(EnoughError):
         process.answer(ROBOT, ["one"], [record], until_fitting)
-    first = multiprocessing.active_children()
     assert process.answer(ROBOT, ["one"], [healthy], lambda _: None).diagnosis.causes == ()
-    assert multiprocessing.active_children() == first
+    assert len(started) == 1
 
 
-def test_a_process_that_dies_is_told_and_another_takes_its_place(process, record, healthy):
+def test_a_process_that_dies_is_told_and_another_takes_its_place(process, started, record, healthy):
     def kill(progress):
         if progress.stage == "fitting":
-            for child in multiprocessing.active_children():
-                child.kill()
+            started[-1].kill()
 
     with pytest.raises(InputError, match=r"has ended \(status -9\).*Diagnose again"):
         process.answer(ROBOT, ["one"], [record], kill)
@@ -87,3 +100,26 @@ def test_a_process_that_dies_is_told_and_another_takes_its_place(process, record
 def test_a_fault_of_the_program_brings_its_traceback(process, healthy):
     with pytest.raises(DiagnosisError, match=r"Traceback[\s\S]*AttributeError"):
         process.answer(None, ["one"], [healthy], lambda _: None)
+
+
+def test_a_process_that_does_not_heed_a_stop_is_ended(process, started, record, monkeypatch):
+    monkeypatch.setattr(diagnosis_process, "_PATIENCE_S", 0.0)
+
+    def until_fitting(progress):
+        if progress.stage == "fitting":
+            raise EnoughError
+
+    with pytest.raises(EnoughError):
+        process.answer(ROBOT, ["one"], [record], until_fitting)
+    assert started[0].wait(20.0) is not None
+
+
+def test_the_process_ends_with_whoever_started_it(process, started, record):
+    def leave(progress):
+        if progress.stage == "fitting":
+            started[-1].stdin.close()
+            raise EnoughError
+
+    with pytest.raises((EnoughError, ValueError)):
+        process.answer(ROBOT, ["one"], [record], leave)
+    assert started[-1].wait(20.0) == 0
