@@ -31,7 +31,7 @@ from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
 MOST_CAUSES = 3
-LEAST_SHARE = 0.04  # of the gap's power, that a cause must close
+LEAST_SHARE = 0.03  # of the gap's power, that a cause must close
 _NARROW = {
     "bouc_wen": 1.3
 }  # times a score, of what hardly holds beyond the swings it was fitted to

@@ -43,7 +43,12 @@ def told_of(
     causes: list[Cause] = []
     if explained:
         causes = [_cause(examination, number, rng) for number in range(len(best.causes))]
-        causes += [_disturbance(examination, one) for one in examination.disturbances]
+        named = {one.effect for one in causes}
+        causes += [
+            _disturbance(examination, one)
+            for one in examination.disturbances
+            if one.effect not in named  # what was set aside may leave more of the same
+        ]
         causes.sort(key=lambda one: -one.gap_before)
     elif examination.verdict is Verdict.UNKNOWN:
         causes = [_unknown(examination, places, rng)]
