@@ -1,12 +1,12 @@
 """Plots of every axis: over time, loops, spectra; cursors, another run beside, and export."""
 
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from html import escape
 from pathlib import Path
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import (
     QComboBox,
     QFileDialog,
@@ -25,7 +25,7 @@ from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.controls import plain_tip
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
-from rotemina.app.shell.workbench import Level, Run, Workbench
+from rotemina.app.shell.workbench import FRAME_MS, Level, Run, Workbench
 from rotemina.drivers.clock import Clock
 from rotemina.plugins.plots.axis_plot import AxisPlot, Picture
 from rotemina.plugins.plots.cursor_text import Shown, across_text
@@ -35,6 +35,7 @@ from rotemina.plugins.plots.view_plot import ViewPlot
 from rotemina.sim.records.writing import write_record
 
 SPANS_S = (2, 5, 10, 30, 60)
+_PARTS = 3  # of the plots that are drawn at a time
 SPECTRUM_S = 0.25  # a spectrum is computed no oftener
 LEGEND = (
     (marked("plots", "command"), "command"),
@@ -84,19 +85,43 @@ class PlotsPanel(Panel):
         column.addLayout(self._header())
         column.addWidget(self._legend)
         column.addWidget(self.area_of_plots, 1)
-        workbench.shown.connect(lambda _: self.refresh())
+        self._waiting: list[Sequence[AxisPlot]] = []  # to be drawn as the others are already
+        self._next = QTimer(self, singleShot=True, interval=FRAME_MS // _PARTS)
+        self._next.timeout.connect(self._draw_next)
+        workbench.shown.connect(lambda _: self._refresh_by_parts())
         workbench.replaying.changed.connect(self._begin_anew)
         workbench.theme_changed.connect(self._use_theme)
         workbench.run_changed.connect(self._take_run)
 
     def refresh(self) -> None:
         """Draw the newest samples, unless paused or out of sight; recording goes on."""
+        if self._is_due():
+            self._draw(self._newest())
+
+    def _refresh_by_parts(self) -> None:
+        """Do so with a few plots at a time, between which the window can do something else."""
+        if self._is_due() and not self._waiting:
+            self._take(self._newest())
+            plots = list(self.plots.values())
+            self._waiting = [plots[at::_PARTS] for at in range(min(_PARTS, len(plots)))]
+            self._draw_next()
+
+    def _draw_next(self) -> None:
+        if self._waiting and self._picture is not None:
+            for plot in self._waiting.pop(0):
+                plot.draw(self._picture)
+        if self._waiting:
+            self._next.start()
+        else:
+            self._after_drawing()
+
+    def _is_due(self) -> bool:
         if self.pause.isChecked() or not self.isVisible():
-            return
-        spectral = self._shown() is Shown.SPECTRUM
-        if spectral and self._clock() - self._drawn_s < SPECTRUM_S:
-            return
-        self._draw(self.workbench.source.history.tail(float(self.span.currentData())))
+            return False
+        return self._shown() is not Shown.SPECTRUM or self._clock() - self._drawn_s >= SPECTRUM_S
+
+    def _newest(self) -> LiveWindow:
+        return self.workbench.source.history.tail(float(self.span.currentData()))
 
     def align(self) -> None:
         """Move the other run in time to where its commands are those that are shown."""
@@ -237,14 +262,21 @@ class PlotsPanel(Panel):
             return picture.window
         return latest(self._whole(), float(self.span.currentData()))
 
-    def _draw(self, window: LiveWindow) -> None:
+    def _take(self, window: LiveWindow) -> Picture:
         self._drawn_s = self._clock()
         span_s = float(self.span.currentData())
-        picture = Picture(window, span_s, self._shown(), self.other, self._shift_s)
-        self._picture = picture
+        self._picture = Picture(window, span_s, self._shown(), self.other, self._shift_s)
+        return self._picture
+
+    def _draw(self, window: LiveWindow) -> None:
+        picture = self._take(window)
+        self._waiting.clear()
         for plot in self.plots.values():
             plot.draw(picture)
-        if self._read_view is picture.shown:
+        self._after_drawing()
+
+    def _after_drawing(self) -> None:
+        if self._picture is not None and self._read_view is self._picture.shown:
             self._read_cursors()
 
     def _draw_again(self) -> None:

@@ -5,6 +5,7 @@ import pytest
 
 from rotemina.app.shell.plot import SignalPlot
 from rotemina.app.shell.theme import DARK
+from rotemina.plugins.plots.axis_plot import AxisPlot
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Tap
 
@@ -115,3 +116,23 @@ def test_the_scale_follows_only_when_it_must(qtbot):
     assert plot.viewRange()[1][1] > 3.0
     plot.follow(0.0, 0.1, 0.0)
     assert plot.viewRange()[1][1] < 0.2
+
+
+def test_new_samples_reach_all_plots_a_few_at_a_time(qtbot, window, panel, monkeypatch):
+    qtbot.waitUntil(lambda: not panel._waiting, timeout=LONG_MS)
+    window.workbench.shown.disconnect()  # nothing but what is asked for here
+    order = []
+    monkeypatch.setattr(AxisPlot, "draw", lambda plot, picture: order.append((plot, picture)))
+    panel._refresh_by_parts()
+    assert len(order) == 2
+    panel._refresh_by_parts()  # which comes too early: the others go on first
+    assert len(order) == 2
+    qtbot.waitUntil(lambda: len(order) == 6, timeout=LONG_MS)
+    assert {plot for plot, _ in order} == set(panel.plots.values())
+    assert len({id(picture) for _, picture in order}) == 1
+    panel._refresh_by_parts()
+    assert len(order) == 8
+    panel.refresh()  # by hand: all at once, and what waited is done with
+    assert len(order) == 14
+    qtbot.wait(50)
+    assert len(order) == 14
