@@ -20,6 +20,7 @@ from rotemina.sim.robot.model import AxisEffect
 _TWINS = {
     "gain_error": ("sensor_gain",),
     "static_nonlinearity": ("sensor_nonlinearity",),
+    "sensor_nonlinearity": ("static_nonlinearity",),
     "amplifier_lag": ("sensor_lag",),
     "delay": ("sensor_lag",),
     "leadscrew_error": ("encoder_interpolation",),
@@ -30,6 +31,8 @@ _LITTLE = 0.1  # of the gap's power, below which a cause must be surer
 _DOUBTED_OF_LITTLE = 0.9
 _BESIDE_A_WANDER = 0.3  # of the gap's power, that a cause closes at least
 _LIKELIER = 0.6  # probability from which a rival takes a cause's place
+_TURNS = 2  # in which rivals may take a cause's place: one may be simpler beside another
+_AS_GOOD = 1.03  # times a score
 _NEAR = 4.0  # times the best score, up to which a re-tuning alone is a rival
 
 Ranking = Mapping[Key, tuple[Rival, ...]]
@@ -51,8 +54,10 @@ def contested(
     floors squared, of what was set aside: a cause beside it closes a share of the whole.
     """
     ranked = _ranked(evidence, selection, best)
-    likelier = _likelier(ranked)
-    if likelier is not None:
+    for _ in range(_TURNS):
+        likelier = _likelier(ranked)
+        if likelier is None:
+            break
         best = attributed(evidence, selection.bare, likelier)
         ranked = _ranked(evidence, selection, best)
     doubted = [
@@ -140,11 +145,26 @@ def _ranked(
     evidence: Evidence, selection: Selection, best: Explanation
 ) -> dict[Key, tuple[Rival, ...]]:
     """Return the rivals of each cause of an explanation."""
-    tried = _with_twins(evidence, best, _with_retuned(evidence, selection, best))
-    return {
-        key: rivals(evidence, best, without_own(evidence, best, tried, key), key, selection.raw)
-        for key in best.ids
-    }
+    tried = _with_retuned(evidence, selection, best)
+    twins = _twins_of(evidence, best, tried)
+    ranked = {}
+    for key in best.ids:
+        # Each by itself: of what was tried, only the best few are fitted again.
+        others = without_own(evidence, best, tried, key) + without_own(evidence, best, twins, key)
+        ranked[key] = rivals(evidence, best, _one_of_each(others), key, selection.raw)
+    return ranked
+
+
+def _one_of_each(found: Sequence[Explanation]) -> list[Explanation]:
+    """Return the best explanation by each set of effects: the simplest of what is as good."""
+    least: dict[object, float] = {}
+    for one in found:
+        least[one.ids] = min(one.score, least.get(one.ids, one.score))
+    kept: dict[object, Explanation] = {}
+    for one in sorted(found, key=lambda one: (len(one.fit.free), one.score)):
+        if one.score <= _AS_GOOD * least[one.ids]:
+            kept.setdefault(one.ids, one)
+    return list(kept.values())
 
 
 def _with_retuned(
@@ -158,21 +178,23 @@ def _with_retuned(
     return (*others, replace(named, causes=named.causes[:1]))
 
 
-def _with_twins(
+def _twins_of(
     evidence: Evidence, best: Explanation, tried: Sequence[Explanation]
 ) -> tuple[Explanation, ...]:
-    """Add what does much the same as a cause, if it was not tried.
+    """Return explanations by what does much the same as a cause, if it was not tried as simply.
 
     The sensor, where no reference was recorded; another axis that moved alike, for a gain.
     """
-    more = list(tried)
+    more = []
     for cause in best.causes:
         own = is_own(evidence, cause)
         others = [one for one in best.causes if one is not cause and not is_own(evidence, one)]
         for asked in _twins(evidence, cause):
-            if any((asked.id, asked.from_axis) in one.ids for one in tried) and not own:
-                continue
-            more.append(explain(evidence, [*others, asked]))
+            wanted = sorted((one.id, one.from_axis) for one in (*others, asked))
+            if own or not any(
+                list(one.ids) == wanted and len(one.fit.free) <= len(best.fit.free) for one in tried
+            ):
+                more.append(explain(evidence, [*others, asked]))
     return tuple(more)
 
 
@@ -180,7 +202,7 @@ def _twins(evidence: Evidence, cause: AxisEffect) -> list[AxisEffect]:
     found = []
     if not evidence.has(Tap.REF):
         for twin in _TWINS.get(cause.id, ()):
-            found.append(AxisEffect(axis=evidence.axis, id=twin, parameters=_alike(cause, twin)))
+            found.append(_alike(cause, twin))
     if cause.id == GAIN:
         for axis, k in alike_axes(evidence).items():
             numbers = {"k": k * cause.parameters["error"]}
@@ -192,7 +214,10 @@ def _twins(evidence: Evidence, cause: AxisEffect) -> list[AxisEffect]:
     return found
 
 
-def _alike(cause: AxisEffect, twin: str) -> dict[str, float]:
-    """Return the numbers of a cause that its twin has too."""
-    names = {parameter.name for parameter in effect_named(twin).formulations[0].parameters}
-    return {name: value for name, value in cause.parameters.items() if name in names}
+def _alike(cause: AxisEffect, twin: str) -> AxisEffect:
+    """Return the twin of a cause, in the form of the same name and with the numbers of both."""
+    forms = effect_named(twin).formulations
+    form = next((one for one in forms if one.name == cause.formulation), forms[0])
+    names = {parameter.name for parameter in form.parameters}
+    numbers = {name: value for name, value in cause.parameters.items() if name in names}
+    return replace(cause, id=twin, formulation=form.name, parameters=numbers)

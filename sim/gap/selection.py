@@ -41,7 +41,7 @@ _BENT_SHARE = 0.1  # the same for what may be but the asymmetry of a real loop
 LEAST_POWER = 0.2  # in floors squared, that a cause must close
 CLEARLY = 0.8  # of what others leave: so much closed counts as well, if it is
 _LEFT_ASIDE = 0.01  # of the power of what was set aside, that it may leave of itself
-_CLEAR_SHARE = 0.01  # of the gap's power; less is how a real cause differs from its formula
+_CLEAR_SHARE = 0.01  # of the gap's power, beside other causes: how these differ from formulas
 ADEQUATE = 1.3  # mean square over the floor that leaves nothing to explain
 NOTICED = 2.0  # mean square over the floor from which what others leave may have a cause
 _FITTED = 6  # effects that are fitted in full after screening
@@ -138,18 +138,19 @@ def _enters(
     least = LEAST_SHARE
     if _BENT_LOOP.issubset(cause.id for cause in after.causes):
         least = _BENT_SHARE
+    clear = _CLEAR_SHARE if before.causes else 0.0
     return any(
-        _closes(bare.by_tap[tap], before.by_tap[tap], left, least)
+        _closes(bare.by_tap[tap], before.by_tap[tap], left, least, clear)
         and before.by_tap[tap] - left >= _LEFT_ASIDE * aside.get(tap, 0.0)
         for tap, left in after.by_tap.items()
     )
 
 
-def _closes(raw: float, before: float, after: float, least: float) -> bool:
+def _closes(raw: float, before: float, after: float, least: float, clear: float) -> bool:
     closing = before - after
-    share = closing >= max(least * (raw - 1.0), LEAST_POWER)
-    clear = before >= NOTICED and closing >= max(CLEARLY * (before - 1.0), _CLEAR_SHARE * raw)
-    return share or clear
+    if closing >= max(least * (raw - 1.0), LEAST_POWER):
+        return True
+    return before >= NOTICED and closing >= max(CLEARLY * (before - 1.0), clear * raw)
 
 
 def _is_little(bare: Explanation, begun: Explanation) -> bool:

@@ -30,6 +30,8 @@ _DEFLECTIONS = (0.3, 2.0)  # presets
 _CENTRES = (-0.45, 0.0)  # of the range, from mid-range
 _HARDER = (1.0, 6.0)  # presets
 _BEYOND = (0.04, 0.15)  # of that way, which a saturated amplifier does not go
+_SOFT_ENDS = (0.0, 0.1)  # of the way that was seen, that a soft end lies beyond it
+_RARELY = 0.002  # of the rows
 _LATE = ("delay", "amplifier_lag", "sensor_lag")
 _PPM = 1e-6
 _SKEWS = 40  # from 1 ppm on
@@ -244,6 +246,14 @@ def _margins(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[di
             yield {}
         return
     gain = facts.gain if facts.kind == "piezo" else 1.0
+    went = _way(evidence) / gain
+    for beyond in _SOFT_ENDS if "softness" in attached.values else (0.0,):
+        further = beyond * float(np.ptp(went))
+        yield _clipped(
+            attached,
+            low_margin=went[0] - further - facts.input_low,
+            high_margin=facts.input_high - went[1] - further,
+        )
     least, most = (end / gain for end in evidence.reach)
     low, high = least - facts.input_low, facts.input_high - most
     for share in _BEYOND:
@@ -251,6 +261,18 @@ def _margins(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[di
         yield _clipped(attached, low_margin=low + beyond, high_margin=high + beyond)
         yield _clipped(attached, low_margin=low - beyond, high_margin=high + beyond)
         yield _clipped(attached, low_margin=low + beyond, high_margin=high - beyond)
+
+
+def _way(evidence: Evidence) -> FloatArray:
+    """Return where (2,) the axis was at least and at most, m or rad, but for outliers."""
+    seen = [
+        next(signal for tap, signal in one.real.items() if tap is not Tap.U)
+        for one in evidence.observations
+        if set(one.real) - {Tap.U}
+    ]
+    if not seen:
+        return np.asarray(evidence.reach)
+    return np.asarray(np.quantile(np.concatenate(seen), (_RARELY, 1.0 - _RARELY)))
 
 
 def _voltages(evidence: Evidence, fitted: Fit) -> tuple[FloatArray, FloatArray]:
