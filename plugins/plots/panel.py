@@ -25,7 +25,7 @@ from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.controls import plain_tip
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
-from rotemina.app.shell.workbench import FRAME_MS, Level, Run, Workbench
+from rotemina.app.shell.workbench import Level, Run, Workbench
 from rotemina.drivers.clock import Clock
 from rotemina.plugins.plots.axis_plot import AxisPlot, Picture
 from rotemina.plugins.plots.cursor_text import Shown, across_text
@@ -86,7 +86,7 @@ class PlotsPanel(Panel):
         column.addWidget(self._legend)
         column.addWidget(self.area_of_plots, 1)
         self._waiting: list[Sequence[AxisPlot]] = []  # to be drawn as the others are already
-        self._next = QTimer(self, singleShot=True, interval=FRAME_MS // _PARTS)
+        self._next = QTimer(self, singleShot=True, interval=0)
         self._next.timeout.connect(self._draw_next)
         workbench.shown.connect(lambda _: self._refresh_by_parts())
         workbench.replaying.changed.connect(self._begin_anew)
