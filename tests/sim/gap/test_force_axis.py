@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from rotemina.sim.effects.errors import EffectError
+from rotemina.sim.gap.attribution import attributed
 from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.fit import fit
 from rotemina.sim.gap.method import diagnose
-from rotemina.sim.gap.models import explain
+from rotemina.sim.gap.models import explain, explanation, untouched
 from rotemina.sim.gap.richness import is_poor
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
@@ -65,6 +67,26 @@ def test_a_wrong_mass_alone_is_a_gain_and_no_friction_beside_it(share):
     (cause,) = found.causes
     assert cause.effect == "gain_error"
     assert 1.0 / (1.0 + cause.parameters[0].value) == pytest.approx(share, rel=0.02)
+
+
+def test_a_part_of_the_mass_on_a_spring_is_no_gain_beside_it():
+    part = AxisEffect(
+        axis="q",
+        id="flexible_mode",
+        formulation="appendage",
+        parameters={"frequency": 18.0, "damping_ratio": 0.02, "mass_ratio": 0.4},
+    )
+    rigid = replaced(mass=AXIS.mass / 1.4, force_offset=AXIS.force_offset / 1.4)
+    machine = replace(rigid, effects=(part,))
+    seen = Evidence.of(ROBOT, "q", [moved(machine, swings())])
+    gain = AxisEffect(axis="q", id="gain_error", parameters={"error": 0.35})
+    damping = AxisEffect(
+        axis="q", id="friction", formulation="viscous", parameters={"viscous": 0.0}
+    )
+    explained = explanation(seen, 1, fit(seen, [part, gain, damping]))
+    assert explained.fit.cost < 1.2
+    assert explained.fit.effects[1].parameters["error"] == pytest.approx(0.4, rel=0.05)
+    assert attributed(seen, untouched(seen), explained).ids == (("flexible_mode", None),)
 
 
 def test_friction_takes_the_place_of_damping():

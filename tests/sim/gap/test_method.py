@@ -77,6 +77,29 @@ def test_a_single_effect_is_named_and_closes_the_gap(truth):
             assert told.value == pytest.approx(truth.parameters[told.name], rel=0.05)
 
 
+def test_without_a_reference_a_gain_may_be_the_sensors():
+    truth = AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.04})
+    seen = [
+        Record.from_signals(
+            one.time_s,
+            {("zn", tap): one.signal("zn", tap) for tap in (Tap.CMD, Tap.MEAS)},
+            one.units,
+        )
+        for one in records([truth], "zn")
+    ]
+    (cause,) = diagnose(ROBOT, seen).causes
+    assert cause.effect == "gain_error"
+    assert "sensor_gain" in cause.ambiguous_with
+
+
+def test_an_amplifier_that_ends_far_inside_the_way_is_found():
+    ends = {"low_margin": 20.0, "high_margin": 55.0, "softness": 0.12}
+    truth = AxisEffect(axis="zn", id="saturation", formulation="soft", parameters=ends)
+    found = diagnose(ROBOT, records([truth], "zn"))
+    assert named(found) == {("zn", "saturation", None)}
+    assert found.causes[0].closed > 0.98
+
+
 @pytest.mark.slow
 def test_an_effect_that_reaches_another_axis_is_found_on_both():
     truth = [

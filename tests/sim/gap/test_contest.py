@@ -1,0 +1,45 @@
+"""What stands in a cause's place: in which form, and of what was tried alike the simplest."""
+
+from types import SimpleNamespace
+
+from rotemina.sim.gap.contest import _alike, _of_its_kind, _one_of_each
+from rotemina.sim.robot.model import AxisEffect
+
+
+def explained(score, free, *ids):
+    return SimpleNamespace(ids=ids, score=score, fit=SimpleNamespace(free=range(free)))
+
+
+def test_of_what_was_tried_alike_the_simplest_stays_that_is_as_good():
+    first, simpler = explained(1.00, 9, "creep"), explained(1.02, 6, "creep")
+    bad, other = explained(3.0, 2, "creep"), explained(5.0, 3, "delay")
+    assert _one_of_each([first, simpler, bad, other]) == [other, simpler]
+
+
+def test_a_twin_has_the_form_of_its_cause_and_its_numbers():
+    cause = AxisEffect(
+        axis="x",
+        id="static_nonlinearity",
+        formulation="series",
+        parameters={"begin": 0.2, "end": 0.9, "sine_1": 1e-4, "sine_2": 0.0, "sine_3": 0.0},
+    )
+    twin = _alike(cause, "sensor_nonlinearity")
+    assert (twin.id, twin.formulation) == ("sensor_nonlinearity", "series")
+    assert twin.parameters == cause.parameters
+    gain = AxisEffect(axis="x", id="gain_error", parameters={"error": 0.02})
+    assert _alike(gain, "sensor_gain").parameters == {"error": 0.02}
+
+
+def test_what_does_the_same_at_the_sensor_is_one_kind():
+    ranked = [
+        SimpleNamespace(effect=name, from_axis=None, probability=share)
+        for name, share in (
+            ("encoder_interpolation", 0.5),
+            ("microstep_error", 0.4),
+            ("friction", 0.1),
+        )
+    ]
+    for name in ("encoder_interpolation", "microstep_error", "leadscrew_error"):
+        assert abs(_of_its_kind(ranked, (name, None)) - 0.9) < 1e-12
+    assert abs(_of_its_kind(ranked, ("friction", None)) - 0.1) < 1e-12
+    assert _of_its_kind(ranked, ("friction", "y")) == 0.0
