@@ -30,9 +30,11 @@ from rotemina.sim.gap.wander import wander
 from rotemina.sim.robot.model import AxisEffect
 
 _GAP = 1.5  # mean square over the floor from which there is something to explain
-_TAILS = 0.1  # of a noisy sensor's power, that outliers have beyond the tails of its noise
+_TAILS = 0.08  # of the gap's power, that outliers have beyond the tails of what else is set aside
+_WITH_TAILS = {"sensor_noise", "sensor_quantization", "vibration"}
 _STILL_OUT = 0.5  # of their power, that outliers keep beside an explanation
 _MUCH_BETTER = 0.7  # of a score: what else would correct the model is taken along
+_NO_STEPS = 0.03  # of the power of steps: nothing explains their own error
 _NOT_NOISE = 0.6  # of a raised floor's power: a fit that leaves less shows that it was no noise
 
 _LOOKS = 3  # for disturbances, beside what the one before explains
@@ -142,19 +144,28 @@ def _looked_again(whole: Evidence, first: _Found, account: Account, jobs: int) -
 def _without_false_noise(whole: Evidence, first: _Found, account: Account, jobs: int) -> _Found:
     """Return what is found with the declared floor, where what seemed noise can be explained.
 
-    What a quick motion leaves from row to row, as an encoder's own error does, looks like noise.
+    What a quick motion leaves from row to row, as an encoder's own error does, looks like noise;
+    an axis that stands at either end of its way, like one that is read in coarse steps.
     """
     evidence, aside, selection, best = first
-    raised = [one for one in aside if one.effect == "sensor_noise"]
-    if not raised or (selection.tried and best.fit.cost >= _NOT_NOISE):
+    if selection.tried and best.fit.cost >= _NOT_NOISE:
         return first
+    steps = bool(selection.tried) and best.fit.cost < _NO_STEPS
+    doubted = {"sensor_noise", "sensor_quantization"} if steps else {"sensor_noise"}
+    raised = {one.effect for one in aside} & doubted
+    if not raised:
+        return first
+    if steps and "sensor_quantization" in raised:
+        raised.add("sensor_outliers")  # whose rows come back with those that steps left out
     declared = evidence.with_observations(
         [
-            replace(own, floor=was.floor)
+            replace(
+                own, floor=was.floor, kept=was.kept if "sensor_outliers" in raised else own.kept
+            )
             for own, was in zip(evidence.observations, whole.observations, strict=True)
         ]
     )
-    others = tuple(one for one in aside if one.effect != "sensor_noise")
+    others = tuple(one for one in aside if one.effect not in raised)
     second = declared, others, *_explained(whole, declared, others, account, jobs)
     if not selection.tried and second[3].score > _NOT_NOISE * second[2].raw:
         return first  # nothing but noise explains it
@@ -264,10 +275,10 @@ def _counting(
         for tap, mean in best.by_tap.items()
     }
     counting = []
-    noisy = any(one.effect == "sensor_noise" for one in found)
+    others = any(one.effect in _WITH_TAILS for one in found)
     for one in by_effect(found):
         left = by_tap[one.tap] - 1.0
-        least = _TAILS if noisy and one.effect == "sensor_outliers" else LEAST_SHARE
+        least = _TAILS if others and one.effect == "sensor_outliers" else LEAST_SHARE
         share = one.power >= least * (raw[one.tap] - 1.0)
         if one.power >= LEAST_POWER and (share or one.power >= CLEARLY * left):
             counting.append(one)

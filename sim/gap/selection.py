@@ -39,9 +39,8 @@ _SENSORS_OWN = {"sensor_gain"}  # what a gain of the axis does as well: a rival,
 _BENT_LOOP = {"hysteresis", "static_nonlinearity"}
 _BENT_SHARE = 0.1  # the same for what may be but the asymmetry of a real loop
 LEAST_POWER = 0.2  # in floors squared, that a cause must close
-CLEARLY = 0.8  # of what others leave: so much closed counts as well, if it is
+CLEARLY = 0.8  # of what is left: so much closed counts as well
 _LEFT_ASIDE = 0.01  # of the power of what was set aside, that it may leave of itself
-_CLEAR_SHARE = 0.01  # of the gap's power, beside other causes: how these differ from formulas
 ADEQUATE = 1.3  # mean square over the floor that leaves nothing to explain
 NOTICED = 2.0  # mean square over the floor from which what others leave may have a cause
 _FITTED = 6  # effects that are fitted in full after screening
@@ -132,25 +131,25 @@ def _enters(
 ) -> bool:
     """Tell whether what lowers the gap of any tap from ``before`` to ``after`` is a cause.
 
-    It closes its share of the gap of the ``bare`` model, or clearly most of what was left; and
-    more than what is set ``aside`` may leave of itself.
+    It closes its share of the gap of the ``bare`` model, or by itself clearly most of what a
+    re-tuning left; and more than what is set ``aside`` may leave of itself.
     """
     least = LEAST_SHARE
     if _BENT_LOOP.issubset(cause.id for cause in after.causes):
         least = _BENT_SHARE
-    clear = _CLEAR_SHARE if before.causes else 0.0
     return any(
-        _closes(bare.by_tap[tap], before.by_tap[tap], left, least, clear)
+        _closes(bare.by_tap[tap], before.by_tap[tap], left, least, alone=not before.causes)
         and before.by_tap[tap] - left >= _LEFT_ASIDE * aside.get(tap, 0.0)
         for tap, left in after.by_tap.items()
     )
 
 
-def _closes(raw: float, before: float, after: float, least: float, clear: float) -> bool:
+def _closes(raw: float, before: float, after: float, least: float, *, alone: bool) -> bool:
     closing = before - after
     if closing >= max(least * (raw - 1.0), LEAST_POWER):
         return True
-    return before >= NOTICED and closing >= max(CLEARLY * (before - 1.0), clear * raw)
+    # Beside other causes, that is how these differ from their formulas.
+    return alone and before >= NOTICED and closing >= CLEARLY * (before - 1.0)
 
 
 def _is_little(bare: Explanation, begun: Explanation) -> bool:

@@ -18,9 +18,9 @@ def left(meas, *causes):
     ("before", "after", "counts"),
     [
         (left(2000.0), left(60.0, LAG), True),
-        (left(60.0, LAG), left(10.0, LAG, LAG), True),  # a fortieth of the gap, clearly most
-        (left(60.0, LAG), left(35.0, LAG, LAG), False),  # of 60, that is too little
-        (left(15.0, LAG), left(1.0, LAG, LAG), False),  # how a machine differs from a formula
+        (left(70.0, LAG), left(6.0, LAG, LAG), True),  # 3 % of the gap
+        (left(50.0, LAG), left(1.0, LAG, LAG), False),  # how a machine differs from a formula
+        (left(50.0), left(30.0, LAG), False),
         (left(15.0), left(1.0, LAG), True),  # what no re-tuning does
         (left(1.5), left(1.0, LAG), False),
     ],
