@@ -8,19 +8,26 @@ import pickle
 import subprocess
 import sys
 import threading
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from io import BytesIO
 from queue import Empty, SimpleQueue
 from types import MappingProxyType
 from typing import IO
 
+from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.gap.answer import Answer
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap.progress import Listener, Progress
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
 
+_ENDED = marked(
+    "gap",
+    "the process of the diagnosis has ended (status {status}) before it answered; is there memory "
+    "enough? Diagnose again, with fewer or shorter records",
+)
 _WORKER = ("-m", "rotemina.plugins.gap.diagnosis_worker")
 _LOOKS_S = 0.05  # between two questions whether an answer is still wanted
 _PATIENCE_S = 2.0  # before a process that does not end its work is ended itself
@@ -49,10 +56,10 @@ class Unwanted:
 
 @dataclass(frozen=True, slots=True)
 class Failure:
-    """Why there is no answer: what is wrong with the request, or a fault with its traceback."""
+    """Why there is no answer; with a traceback where that is a fault of the program."""
 
     reason: str
-    by_input: bool
+    trace: str = ""
 
 
 class DiagnosisProcess:
@@ -84,19 +91,23 @@ class DiagnosisProcess:
         """
         self._number += 1
         try:
-            self._send(Request(self._number, robot, tuple(names), tuple(records)))
+            request = Request(self._number, robot, tuple(names), tuple(records))
+            stream = self._started().stdin
+            assert stream is not None
+            write(request, stream)
             told = self._reply(listener)
         except (EOFError, OSError):
-            raise InputError(
-                f"the process of the diagnosis has ended (status {self.close()}) before it "
-                "answered; is there memory enough? Diagnose again, with fewer or shorter records"
-            ) from None
+            raise InputError(translate("gap", _ENDED).format(status=self.close())) from None
         except BaseException:
             self._interrupt()
             raise
         if isinstance(told, Answer):
             return replace(told, records=tuple(records))
-        raise (InputError if told.by_input else DiagnosisError)(told.reason)
+        if not told.trace:
+            raise InputError(told.reason)
+        error = DiagnosisError(told.reason)
+        error.add_note(told.trace)  # for the log
+        raise error
 
     def close(self) -> int | None:
         """End the process, if there is one, and return its status."""
@@ -129,38 +140,52 @@ class DiagnosisProcess:
             else:
                 raise EOFError
 
-    def _send(self, message: object) -> None:
+    def _started(self) -> subprocess.Popen[bytes]:
+        """Return the process; another one where there is none, or none any more."""
         if self._process is not None and self._process.poll() is not None:
             self.close()
         if self._process is None:
             self._told = SimpleQueue()
-            self._process = process = subprocess.Popen(
+            self._process = subprocess.Popen(
                 [sys.executable, *_WORKER], stdin=subprocess.PIPE, stdout=subprocess.PIPE
             )
             threading.Thread(
-                target=_read_on, args=(process.stdout, self._told), name="diagnosis", daemon=True
+                target=_read_on,
+                args=(self._process.stdout, self._told),
+                name="diagnosis",
+                daemon=True,
             ).start()
-        assert self._process.stdin is not None
-        write(message, self._process.stdin)
+        return self._process
 
     def _interrupt(self) -> None:
         """Let the work end at its next step, or the process if that does not come soon."""
-        with suppress(OSError, Empty):
-            self._send(Unwanted(self._number))
+        process = self._process
+        if process is None or process.stdin is None:
+            return
+        with suppress(OSError, ValueError, Empty):  # it has gone, its input is closed, or it works
+            write(Unwanted(self._number), process.stdin)
             while isinstance(self._told.get(timeout=_PATIENCE_S), Progress):
                 pass
             return
-        if self._process is not None:
-            self._process.kill()
+        process.kill()
         self.close()
 
 
 def write(message: object, stream: IO[bytes]) -> None:
-    """Write a message down, and send it."""
-    pickler = pickle.Pickler(stream)
+    """Write a message down, and send it whole: nothing of what cannot be written."""
+    written = BytesIO()
+    pickler = pickle.Pickler(written)
     pickler.dispatch_table = copyreg.dispatch_table | {MappingProxyType: _thawed}
     pickler.dump(message)
+    stream.write(written.getbuffer())
     stream.flush()
+
+
+def read(stream: IO[bytes]) -> Iterator[object]:
+    """Give the messages that come, until no more do; from our own processes alone."""
+    with suppress(EOFError, OSError, pickle.UnpicklingError):
+        while True:
+            yield pickle.load(stream)  # noqa: S301 (our own)
 
 
 def _thawed(proxy: MappingProxyType[object, object]) -> tuple[object, tuple[object]]:
@@ -173,11 +198,9 @@ def _frozen(mapping: dict[object, object]) -> MappingProxyType[object, object]:
 
 def _read_on(stream: IO[bytes], told: "SimpleQueue[object]") -> None:
     """Hand on what the process tells; None once it tells nothing any more."""
-    with stream:
-        while True:
-            try:
-                message = pickle.load(stream)  # noqa: S301 (from our own process alone)
-            except (EOFError, OSError, pickle.UnpicklingError):
-                told.put(None)
-                return
-            told.put(message)
+    try:
+        with stream:
+            for message in read(stream):
+                told.put(message)
+    finally:
+        told.put(None)

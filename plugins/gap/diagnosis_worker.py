@@ -4,17 +4,17 @@ It ends when that is closed. What it tells goes through its output, which nothin
 """
 
 import os
-import pickle
 import signal
 import sys
 import threading
 import traceback
+from contextlib import suppress
 from dataclasses import replace
 from queue import SimpleQueue
 from typing import IO
 
 from rotemina.plugins.gap.answer import Answer
-from rotemina.plugins.gap.diagnosis_process import Failure, Request, Unwanted, write
+from rotemina.plugins.gap.diagnosis_process import Failure, Request, Unwanted, read, write
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap.progress import Progress
 
@@ -34,17 +34,15 @@ class _Requests:
         threading.Thread(target=self._read, args=(stream,), daemon=True).start()
 
     def _read(self, stream: IO[bytes]) -> None:
-        while True:
-            try:
-                message = pickle.load(stream)  # noqa: S301 (from the program that started this)
-            except (EOFError, OSError, pickle.UnpicklingError):
-                self.unwanted = sys.maxsize  # nobody is there any more
-                self.waiting.put(None)
-                return
-            if isinstance(message, Unwanted):
-                self.unwanted = message.number
-            else:
-                self.waiting.put(message)
+        try:
+            for message in read(stream):
+                if isinstance(message, Unwanted):
+                    self.unwanted = message.number
+                elif isinstance(message, Request):
+                    self.waiting.put(message)
+        finally:
+            self.unwanted = sys.maxsize  # nobody is there any more
+            self.waiting.put(None)
 
 
 def _reply(request: Request, requests: _Requests, out: IO[bytes]) -> Answer | Failure:
@@ -70,11 +68,11 @@ def _reply(request: Request, requests: _Requests, out: IO[bytes]) -> Answer | Fa
         answer = Answer.of(diagnosis, request.names, request.records)
         return replace(answer, records=())  # which the other side has
     except _UnwantedError:
-        return Failure("stopped", by_input=True)
+        return Failure("stopped")
     except InputError as error:
-        return Failure(str(error), by_input=True)
-    except Exception:
-        return Failure(traceback.format_exc(), by_input=False)
+        return Failure(str(error))
+    except Exception as error:  # whatever it is, the window says it
+        return Failure(f"{type(error).__name__}: {error}", traceback.format_exc())
 
 
 def main() -> int:
@@ -85,8 +83,9 @@ def main() -> int:
     out = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what a library prints goes elsewhere
     requests = _Requests(sys.stdin.buffer)
-    while (request := requests.waiting.get()) is not None:
-        write(_reply(request, requests, out), out)
+    with suppress(BrokenPipeError):  # whoever asked has gone
+        while (request := requests.waiting.get()) is not None:
+            write(_reply(request, requests, out), out)
     return 0
 
 

@@ -155,7 +155,7 @@ def _without_false_noise(whole: Evidence, first: _Found, account: Account, jobs:
     raised = {one.effect for one in aside} & doubted
     if not raised:
         return first
-    if steps and "sensor_quantization" in raised:
+    if "sensor_quantization" in raised:
         raised.add("sensor_outliers")  # whose rows come back with those that steps left out
     declared = evidence.with_observations(
         [

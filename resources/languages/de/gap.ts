@@ -1323,6 +1323,10 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <source>axis {axis}</source>
         <translation>Achse {axis}</translation>
     </message>
+    <message>
+        <source>the process of the diagnosis has ended (status {status}) before it answered; is there memory enough? Diagnose again, with fewer or shorter records</source>
+        <translation>der Prozess der Diagnose endete (Status {status}), bevor er antwortete; reicht der Speicher? Noch einmal diagnostizieren, mit weniger oder kürzeren Aufzeichnungen</translation>
+    </message>
 </context>
 <context>
     <name>panels</name>

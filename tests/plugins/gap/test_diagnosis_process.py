@@ -1,12 +1,21 @@
 """The process of a diagnosis, started for real: its answer, refusals, stop and death."""
 
 import subprocess
+import sys
+from pickle import PicklingError
 
 import numpy as np
 import pytest
 
 from rotemina.plugins.gap import diagnosis_process
-from rotemina.plugins.gap.diagnosis_process import DiagnosisError, DiagnosisProcess
+from rotemina.plugins.gap.diagnosis_process import (
+    DiagnosisError,
+    DiagnosisProcess,
+    Failure,
+    Request,
+    read,
+    write,
+)
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap.document import as_json
 from rotemina.sim.gap.method import diagnose
@@ -98,8 +107,15 @@ def test_a_process_that_dies_is_told_and_another_takes_its_place(process, starte
 
 
 def test_a_fault_of_the_program_brings_its_traceback(process, healthy):
-    with pytest.raises(DiagnosisError, match=r"Traceback[\s\S]*AttributeError"):
+    with pytest.raises(DiagnosisError, match=r"^AttributeError: ") as fault:
         process.answer(None, ["one"], [healthy], lambda _: None)
+    assert "Traceback" in fault.value.__notes__[0]  # in the log, not in the notice
+
+
+def test_what_cannot_be_sent_leaves_the_process_as_it_was(process, started, healthy):
+    with pytest.raises((TypeError, AttributeError, PicklingError)):
+        process.answer(lambda: None, ["one"], [healthy], lambda _: None)
+    assert process.answer(ROBOT, ["one"], [healthy], lambda _: None).diagnosis.causes == ()
 
 
 def test_a_process_that_does_not_heed_a_stop_is_ended(process, started, record, monkeypatch):
@@ -114,12 +130,13 @@ def test_a_process_that_does_not_heed_a_stop_is_ended(process, started, record, 
     assert started[0].wait(20.0) is not None
 
 
-def test_the_process_ends_with_whoever_started_it(process, started, record):
-    def leave(progress):
-        if progress.stage == "fitting":
-            started[-1].stdin.close()
-            raise EnoughError
-
-    with pytest.raises((EnoughError, ValueError)):
-        process.answer(ROBOT, ["one"], [record], leave)
-    assert started[-1].wait(20.0) == 0
+def test_the_process_ends_with_whoever_started_it(record):
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+    with subprocess.Popen([sys.executable, *diagnosis_process._WORKER], **pipes) as worker:
+        write(Request(1, ROBOT, ("one",), (record,)), worker.stdin)
+        stages = (message.stage for message in read(worker.stdout))
+        assert "fitting" in stages  # it is at work
+        worker.stdin.close()
+        *_, last = read(worker.stdout)
+        assert worker.wait(20.0) == 0
+    assert last == Failure("stopped")
