@@ -7,13 +7,14 @@ jumps taken back, vibration becomes a nuisance of each record, and noise raises 
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.effects.facts import Facts
+from rotemina.sim.gap.cells import are_cells, floor_beyond
 from rotemina.sim.gap.coarseness import coarse_step
-from rotemina.sim.gap.crossings import at_crossings
 from rotemina.sim.gap.evidence import Evidence, Observation, Signals
 from rotemina.sim.gap.excursions import excursions
 from rotemina.sim.gap.jumps import jumps as jumps_in
@@ -46,18 +47,23 @@ class Disturbance:
 
 
 def set_aside(
-    evidence: Evidence, explained: Sequence[AxisEffect] = (), *, jumps: bool = True
+    evidence: Evidence,
+    explained: Sequence[AxisEffect] = (),
+    *,
+    jumps: bool = True,
+    cells: bool = True,
 ) -> tuple[Evidence, tuple[Disturbance, ...]]:
     """Return evidence without what commands do not cause, and what that was.
 
     It is looked for beside a model with the effects that are ``explained``; sudden ``jumps`` may
-    be left where they are.
+    be left where they are, and coarse steps be noise instead of ``cells``.
     """
     robot = evidence.robot
     if explained:
         evidence = evidence.with_model(replace(robot, effects=(*robot.effects, *explained)))
     found: list[Disturbance] = []
-    steps = (_without_jumps, _without_tones, _without_excursions, _with_true_floors)
+    floors = partial(_with_true_floors, cells=cells)
+    steps = (_without_jumps, _without_tones, _without_excursions, floors)
     for step in steps if jumps else steps[1:]:
         evidence, own = step(evidence)
         found += own
@@ -216,7 +222,9 @@ def _shared(by_record: Sequence[Sequence[float]]) -> list[list[float]]:
     return shared
 
 
-def _with_true_floors(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
+def _with_true_floors(
+    evidence: Evidence, *, cells: bool
+) -> tuple[Evidence, list[Disturbance]]:
     """Raise the floor of a sensor that is coarser or noisier than declared."""
     gaps, answers = evidence.gaps(), evidence.response()
     steps, levels, rows = [], [], []
@@ -238,7 +246,8 @@ def _with_true_floors(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
         note = f"The sensor reads in steps of {step:.3g}."
         # At rest an error of up to half a step stays as it is, which no mean over errors tells.
         raised = _raised(evidence, float(np.sqrt(1.0 + 3.0 * power)))
-        return at_crossings(evidence, raised, answers, step), [
+        seen = _by_cells(evidence, raised, answers, step) if cells else raised
+        return seen, [
             Disturbance("sensor_quantization", Tap.MEAS, power, note)
         ]
     if level > _MORE_NOISE:
@@ -247,6 +256,21 @@ def _with_true_floors(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
             Disturbance("sensor_noise", Tap.MEAS, level**2 - 1.0, note)
         ]
     return evidence, []
+
+
+def _by_cells(
+    fine: Evidence, raised: Evidence, answers: Sequence[Signals], step: float
+) -> Evidence:
+    """Return evidence with steps as cells, and a raised floor where a record tells of few edges."""
+    observations = []
+    for own, coarse, answer in zip(fine.observations, raised.observations, answers, strict=True):
+        floor = own.floor.get(Tap.MEAS)
+        if floor is None or not are_cells(own.real[Tap.MEAS], answer[Tap.MEAS], step, floor):
+            observations.append(coarse)
+        else:
+            over = {**own.floor, Tap.MEAS: floor_beyond(floor, step)}
+            observations.append(replace(own, floor=over, cell={Tap.MEAS: step}))
+    return fine.with_observations(observations)
 
 
 def _coarse(

@@ -11,6 +11,7 @@ import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
 from rotemina.sim.gap.blocks import block_numbers
+from rotemina.sim.gap.cells import beyond
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.floors import floors
 from rotemina.sim.gap.history import other_starts, start
@@ -42,7 +43,8 @@ class Observation:
 
     ``real`` (n,) per tap, SI; ``floor`` rms per tap of what no model can explain; ``kept`` (n,)
     per tap tells which rows a fit may trust, all where a tap is missing; ``nuisance`` (n, m) are
-    signals that are this record's own, in whatever amount, beside its offset.
+    signals that are this record's own, in whatever amount, beside its offset. Of a tap that reads
+    in coarse steps ``cell`` is their width, SI: there, only what lies beyond a cell is a gap.
     """
 
     record: Record
@@ -50,6 +52,7 @@ class Observation:
     floor: Mapping[Tap, float]
     kept: Mapping[Tap, BoolArray] = field(default_factory=dict)
     nuisance: FloatArray | None = None
+    cell: Mapping[Tap, float] = field(default_factory=dict)
 
     @property
     def taps(self) -> tuple[Tap, ...]:
@@ -127,6 +130,11 @@ class Evidence:
         return float(np.sqrt(np.mean(np.square(floors))))
 
     @property
+    def in_cells(self) -> bool:
+        """Whether coarse readings of any record count by their cells."""
+        return any(observation.cell for observation in self.observations)
+
+    @property
     def reach(self) -> tuple[float, float]:
         """The least and the greatest command, m or rad."""
         commands = [o.record.signal(self.axis, Tap.CMD) for o in self.observations]
@@ -156,7 +164,11 @@ class Evidence:
                 apart = [real - answer[tap], *(other[tap] - answer[tap] for other in others)]
                 floor = observation.floor[tap]
                 gap, *memory = (self._without_nuisance(number, tap, x / floor) for x in apart)
-                left.append(_beside(memory, gap))
+                gap = _beside(memory, gap)
+                if tap in observation.cell:
+                    half = 0.5 * observation.cell[tap] / floor
+                    gap = beyond(gap, half, observation.kept.get(tap))
+                left.append(gap)
         return np.concatenate(left)
 
     def _without_nuisance(self, number: int, tap: Tap, gap: FloatArray) -> FloatArray:

@@ -22,10 +22,11 @@ from rotemina.sim.gap.selection import (
     LEAST_POWER,
     LEAST_SHARE,
     NOTICED,
+    STEPS,
     Selection,
     select,
 )
-from rotemina.sim.gap.verdict import decide
+from rotemina.sim.gap.verdict import closed, decide
 from rotemina.sim.gap.wander import wander
 from rotemina.sim.robot.model import AxisEffect
 
@@ -35,6 +36,7 @@ _WITH_TAILS = {"sensor_noise", "sensor_quantization", "vibration"}
 _STILL_OUT = 0.5  # of their power, that outliers keep beside an explanation
 _MUCH_BETTER = 0.7  # of a score: what else would correct the model is taken along
 _NO_STEPS = 0.03  # of the power of steps: nothing explains their own error
+_BEYOND_STEPS = 0.8  # of what is beyond cells, that an explanation closes
 _NOT_NOISE = 0.6  # of a raised floor's power: a fit that leaves less shows that it was no noise
 
 _LOOKS = 3  # for disturbances, beside what the one before explains
@@ -83,6 +85,9 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
         whole, (evidence, aside, selection, best), account, jobs
     )
     evidence, aside, selection, best = _without_false_jumps(
+        whole, (evidence, aside, selection, best), account, jobs
+    )
+    evidence, aside, selection, best = _without_false_cells(
         whole, (evidence, aside, selection, best), account, jobs
     )
     aside = tuple(one for one in aside if not _was_explained(whole, evidence, best, one))
@@ -150,7 +155,7 @@ def _without_false_noise(whole: Evidence, first: _Found, account: Account, jobs:
     evidence, aside, selection, best = first
     if selection.tried and best.fit.cost >= _NOT_NOISE:
         return first
-    steps = bool(selection.tried) and best.fit.cost < _NO_STEPS
+    steps = bool(selection.tried) and best.fit.cost < _NO_STEPS and not evidence.in_cells
     doubted = {"sensor_noise", "sensor_quantization"} if steps else {"sensor_noise"}
     raised = {one.effect for one in aside} & doubted
     if not raised:
@@ -160,7 +165,10 @@ def _without_false_noise(whole: Evidence, first: _Found, account: Account, jobs:
     declared = evidence.with_observations(
         [
             replace(
-                own, floor=was.floor, kept=was.kept if "sensor_outliers" in raised else own.kept
+                own,
+                floor=was.floor,
+                cell=was.cell,
+                kept=was.kept if "sensor_outliers" in raised else own.kept,
             )
             for own, was in zip(evidence.observations, whole.observations, strict=True)
         ]
@@ -183,6 +191,18 @@ def _without_false_jumps(whole: Evidence, first: _Found, account: Account, jobs:
     evidence, others = set_aside(whole, jumps=False)
     second = evidence, others, *_explained(whole, evidence, others, account, jobs)
     return second if second[3].score < _MUCH_BETTER * best.score else first
+
+
+def _without_false_cells(whole: Evidence, first: _Found, account: Account, jobs: int) -> _Found:
+    """Return what is found with steps that are but noise, where nothing explains what is beyond.
+
+    Steps need not be even, and a sensor may wander between them.
+    """
+    evidence, _, selection, best = first
+    if not evidence.in_cells or closed(selection.raw, best.score) >= _BEYOND_STEPS:
+        return first
+    evidence, aside = set_aside(whole, cells=False)
+    return evidence, aside, *_explained(whole, evidence, aside, account, jobs)
 
 
 def _more(found: Sequence[Disturbance], before: Sequence[Disturbance]) -> bool:
@@ -248,9 +268,11 @@ def _explained(
     bare = untouched(evidence)
     if max(bare.by_tap.values()) < _GAP:
         return Selection(bare, bare, bare, ()), bare
+    # What readings leave beyond their steps is nothing that these leave of themselves.
+    leaving = [one for one in aside if not (evidence.in_cells and one.effect == STEPS)]
     power = {
         tap: power * (whole.floor(tap) / evidence.floor(tap)) ** 2
-        for tap, power in power_by_tap(whole, aside).items()
+        for tap, power in power_by_tap(whole, leaving).items()
     }
     selection = select(evidence, account, power, jobs=jobs)
     return selection, attributed(evidence, selection.bare, selection.best)

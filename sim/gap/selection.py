@@ -36,6 +36,7 @@ _NARROW = {
     "bouc_wen": 1.3
 }  # times a score, of what hardly holds beyond the swings it was fitted to
 _SENSORS_OWN = {"sensor_gain"}  # what a gain of the axis does as well: a rival, no cause beside it
+STEPS = "sensor_quantization"  # rounded as well, an answer may be off by two halves of a cell
 _BENT_LOOP = {"hysteresis", "static_nonlinearity"}
 _BENT_SHARE = 0.1  # the same for what may be but the asymmetry of a real loop
 LEAST_POWER = 0.2  # in floors squared, that a cause must close
@@ -96,6 +97,8 @@ def select(
     own = [one for one in candidates(evidence) if not is_own(evidence, one)]
     if not evidence.has(Tap.REF):
         own = [one for one in own if one.id not in _SENSORS_OWN]
+    if evidence.in_cells:
+        own = [one for one in own if one.id != STEPS]
     bare = untouched(evidence)
     account.begin(bare.score)
     alone = retuned(evidence)

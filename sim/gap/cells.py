@@ -1,0 +1,62 @@
+"""What a coarse reading says exactly: within which step the axis was.
+
+Whatever answer lies inside is as good as any other; outside, it is off by what it lies beyond the
+nearer edge (bounded errors: Milanese and Vicino, Automatica 27 (1991) 997-1009).
+"""
+
+import numpy as np
+
+from rotemina.sim.arrays import BoolArray, FloatArray
+
+_ONE = 0.1  # of a step, by which a change may differ from it
+_SLOW = 0.5  # of a step, that the axis goes from row to row at most
+_COARSE = 6.0  # floors of a step that is a cell: noise hardly reaches from edge to edge
+_LEAST_EDGES = 20  # in a record, from which its steps are cells
+_OFFSET_STEPS = 12
+_OFFSET_FOUND = 1e-6  # of half a cell
+
+# Noise σ takes a reading over an edge at a distance of t with P(n > t), and leaves t beyond it:
+# (2/step) ∫ t² P(n > t) dt = 2 E[max(n, 0)³] / (3 step), with E[max(n, 0)³] = √(2/π) σ³.
+_OVER_AN_EDGE = 2.0 / 3.0 * np.sqrt(2.0 / np.pi)
+
+
+def are_cells(reading: FloatArray, expected: FloatArray, step: float, floor: float) -> bool:
+    """Tell whether a reading (n,) tells of edges between steps often enough to be one of cells.
+
+    ``expected`` (n,) is what is read without such steps, ``floor`` the rms of what is read finer.
+    """
+    change = np.diff(reading, prepend=reading[0])
+    pace = np.diff(expected, prepend=expected[0])
+    one = np.abs(np.abs(change) - step) < _ONE * step
+    edges = one & (np.abs(pace) < _SLOW * step)
+    return step >= _COARSE * floor and int(edges.sum()) >= _LEAST_EDGES
+
+
+def floor_beyond(floor: float, step: float) -> float:
+    """Return the rms by which a true answer lies beyond the cells of readings with noise."""
+    return floor * float(np.sqrt(_OVER_AN_EDGE * floor / step))
+
+
+def beyond(gap: FloatArray, half: float, kept: BoolArray | None) -> FloatArray:
+    """Return how far (n,) a gap lies beyond half a cell to either side, its offset being free.
+
+    0 in rows that are not ``kept``. The offset is the one that leaves least, by Newton's steps on
+    what is quadratic in parts.
+    """
+    own = gap if kept is None else gap[kept]
+    left = _outside(own, half)
+    for _ in range(_OFFSET_STEPS):
+        offset = float(left.sum()) / max(int(np.count_nonzero(left)), 1)
+        own = own - offset
+        left = _outside(own, half)
+        if abs(offset) < _OFFSET_FOUND * half:
+            break
+    if kept is None:
+        return left
+    whole = np.zeros(len(gap))
+    whole[kept] = left
+    return whole
+
+
+def _outside(gap: FloatArray, half: float) -> FloatArray:
+    return np.asarray(gap - np.clip(gap, -half, half))
