@@ -6,16 +6,20 @@ motion session, the trajectory and the comparison in hand, and the signals that 
 change. A panel that cannot be loaded is named and left out; the window opens without it.
 """
 
+import time
+from collections.abc import Callable
 from enum import StrEnum
 from typing import ClassVar
 
 from PySide6.QtWidgets import QWidget
 
+from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.workbench import Workbench
 from rotemina.sim.plugin_points import API_VERSIONS
 
 API_VERSION = API_VERSIONS["rotemina.panels"]
 STALE_S = 0.5  # data older than this is shown as old
+HIDDEN_S = 0.2  # between two looks of a panel that is out of sight
 
 
 class Area(StrEnum):
@@ -59,6 +63,22 @@ class Panel(QWidget):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
         self.workbench = workbench
+        self._followed_s = float("-inf")
+
+    def follow(self, look: Callable[[SessionState], object]) -> None:
+        """Call ``look`` with the machine's state once a frame, less often while out of sight.
+
+        Actions of menus that depend on it stay right that way.
+        """
+
+        def heard(state: SessionState) -> None:
+            now_s = time.monotonic()
+            hidden = not self.isVisible() and self.window().isVisible()
+            if not hidden or now_s - self._followed_s >= HIDDEN_S:
+                self._followed_s = now_s
+                look(state)
+
+        self.workbench.refreshed.connect(heard)
 
     @property
     def main_window(self) -> QWidget:

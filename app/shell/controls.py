@@ -10,6 +10,7 @@ from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
 
 _WHY_NOT = "whyNot"
+_TOLD = "_told_why_not"
 
 
 def plain_tip(*lines: str) -> str:
@@ -25,13 +26,16 @@ def native_keys(shortcut: str) -> str:
 def allow(widget: QWidget, why_not: str | None, tip: str) -> None:
     """Enable a control, or disable it with a tooltip that says why it cannot act."""
     widget.setEnabled(why_not is None)
+    told = why_not, tip
+    if getattr(widget, _TOLD, None) == told:
+        return  # panels ask for every control in every frame
+    setattr(widget, _TOLD, told)
     text = plain_tip(
         tip,
         translate("shell", "Not now: {why_not}").format(why_not=spoken(why_not)) if why_not else "",
     )
-    if widget.toolTip() != text:
-        widget.setToolTip(text)
-        widget.setProperty(_WHY_NOT, why_not or "")
+    widget.setToolTip(text)
+    widget.setProperty(_WHY_NOT, why_not or "")
 
 
 def why_not(widget: QWidget) -> str | None:

@@ -271,7 +271,7 @@ class CalibrationPanel(Panel):
         self.procedure.fit.clicked.connect(self._ask_records)
         self.result.stored.connect(self.store)
         self.stored.switched.connect(self.switch)
-        self.workbench.refreshed.connect(self._refresh)
+        self.follow(self._refresh)
         self.workbench.theme_changed.connect(self._use_theme)
         self.workbench.closing.connect(self._close_run)
 

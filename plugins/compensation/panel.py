@@ -346,7 +346,7 @@ class CompensationPanel(Panel):
         self.tabs.currentChanged.connect(self.views.setCurrentIndex)
         self._happened.connect(self.acting.heard)
         self._unsubscribe = self.workbench.session.subscribe(self._happened.emit)
-        self.workbench.refreshed.connect(self._refresh)
+        self.follow(self._refresh)
         self.workbench.theme_changed.connect(self._use_theme)
         self.workbench.run_changed.connect(self._come_forward)
         self.workbench.closing.connect(self._close)

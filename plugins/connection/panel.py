@@ -59,7 +59,7 @@ class ConnectionPanel(Panel):
         outer.addWidget(scroll)
         bar = scroll.verticalScrollBar().sizeHint().width()
         self.setMinimumWidth(max(content.minimumSizeHint().width() + bar, 300))
-        workbench.refreshed.connect(self._refresh)
+        self.follow(self._refresh)
         self._refresh(workbench.session.snapshot())
 
     def _refresh(self, state: SessionState) -> None:

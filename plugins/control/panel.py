@@ -68,7 +68,7 @@ class ControlPanel(Panel):
         outer.addWidget(self.tabs)
         outer.addWidget(self.pages)
         workbench.shown.connect(self._show)
-        workbench.refreshed.connect(self._refresh)
+        self.follow(self._refresh)
 
     def _pages(self) -> tuple[tuple[str, QWidget], ...]:
         return (

@@ -161,7 +161,7 @@ class EffectsPanel(Panel):
         self.live.changed.connect(self._show_standing)
         self.live.refused.connect(lambda text: self.workbench.notify(Level.ERROR, text, about=self))
         self.live.replaced.connect(self._adopt)
-        self.workbench.refreshed.connect(self._refresh)
+        self.follow(self._refresh)
         self.workbench.theme_changed.connect(lambda _: self._show())
 
     # --- what the operator does -------------------------------------------------------------------

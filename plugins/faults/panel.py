@@ -56,7 +56,7 @@ class FaultsPanel(Panel):
         self._happened.connect(self._note)
         self.injection.told.connect(self._note_injection)
         workbench.refused.connect(lambda text: self.history.add(now(), Kind.REFUSED, text))
-        workbench.refreshed.connect(self._refresh)
+        self.follow(self._refresh)
         workbench.theme_changed.connect(self.table.use_theme)
         workbench.closing.connect(self._unsubscribe)
         self._refresh(workbench.session.snapshot())

@@ -65,7 +65,7 @@ class InputsPanel(Panel):
             QTimer.singleShot(0, self, lambda: workbench.notify(Level.WARNING, wrong, about=self))
         self._make_parts()
         self._lay_out()
-        workbench.refreshed.connect(self._refresh)
+        self.follow(self._refresh)
         workbench.theme_changed.connect(self._use_theme)
         workbench.closing.connect(self.leave)
         self.refresh()

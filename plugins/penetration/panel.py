@@ -105,7 +105,7 @@ class PenetrationPanel(Panel):
         self.form.load.clicked.connect(lambda _: self._ask_load())
         self.form.save.clicked.connect(lambda _: self._ask_save())
         self._keep.timeout.connect(self._keep_parameters)
-        self.workbench.refreshed.connect(self._refresh)
+        self.follow(self._refresh)
         self.workbench.theme_changed.connect(self.preview.set_theme)
         self.workbench.closing.connect(self._close)
 

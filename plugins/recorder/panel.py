@@ -63,7 +63,7 @@ class RecorderPanel(Panel):
         self.left.recovered.connect(self.look)
         self.recordings.looked_for.connect(self.look)
         workbench.replaying.changed.connect(self._bring_up)
-        workbench.refreshed.connect(lambda _: self.recording.refresh())
+        self.follow(lambda _: self.recording.refresh())
         workbench.closing.connect(lambda: self._background.wait(_CLOSING_S))
         self.look()
 

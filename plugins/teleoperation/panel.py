@@ -62,7 +62,7 @@ class TeleoperationPanel(Panel):
         outer.addWidget(scroll, 1)
         bar = scroll.verticalScrollBar().sizeHint().width()
         self.setMinimumWidth(max(content.minimumSizeHint().width() + bar, 300))
-        workbench.refreshed.connect(self._refresh)
+        self.follow(self._refresh)
 
     def _refresh(self, machine: SessionState) -> None:
         operation = self._operation

@@ -79,7 +79,7 @@ class TrajectoryPanel(Panel):
         self.table.itemChanged.connect(self._bound_typed)
         self._lay_out()
         workbench.plan_changed.connect(self._show_plan)
-        workbench.refreshed.connect(self._refresh)
+        self.follow(self._refresh)
 
     def _lay_out(self) -> None:
         buttons = QHBoxLayout()

@@ -9,6 +9,7 @@ import numpy as np
 from rotemina.sim.arrays import BoolArray, FloatArray
 
 _ONE = 0.1  # of a step, by which a change may differ from it
+_ROUNDED = 3.6  # floors, by which it may differ where they come from rounding: √12
 _SLOW = 0.5  # of a step, that the axis goes from row to row at most
 _COARSE = 6.0  # floors of a step that is a cell: noise hardly reaches from edge to edge
 _LEAST_EDGES = 20  # in a record, from which its steps are cells
@@ -20,16 +21,21 @@ _OFFSET_FOUND = 1e-6  # of half a cell
 _OVER_AN_EDGE = 2.0 / 3.0 * np.sqrt(2.0 / np.pi)
 
 
-def are_cells(reading: FloatArray, expected: FloatArray, step: float, floor: float) -> bool:
-    """Tell whether a reading (n,) tells of edges between steps often enough to be one of cells.
+def cell_of(
+    reading: FloatArray, expected: FloatArray, step: float, floor: float
+) -> float | None:
+    """Return the width of the cells in which a reading (n,) tells where an axis is.
 
-    ``expected`` (n,) is what is read without such steps, ``floor`` the rms of what is read finer.
+    ``step`` is roughly that of the reading, ``expected`` (n,) what is read without it, ``floor``
+    the rms of what is read finer. None where a record goes over too few edges to tell.
     """
-    change = np.diff(reading, prepend=reading[0])
-    pace = np.diff(expected, prepend=expected[0])
-    one = np.abs(np.abs(change) - step) < _ONE * step
-    edges = one & (np.abs(pace) < _SLOW * step)
-    return step >= _COARSE * floor and int(edges.sum()) >= _LEAST_EDGES
+    change = np.abs(np.diff(reading, prepend=reading[0]))
+    pace = np.abs(np.diff(expected, prepend=expected[0]))
+    off = min(max(_ONE * step, _ROUNDED * floor), 0.5 * step)
+    edges = (np.abs(change - step) < off) & (pace < _SLOW * step)
+    if step < _COARSE * floor or int(edges.sum()) < _LEAST_EDGES:
+        return None
+    return float(change[edges].mean())
 
 
 def floor_beyond(floor: float, step: float) -> float:

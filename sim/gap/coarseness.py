@@ -8,9 +8,11 @@ _LEAST_STEP = 1.8  # declared resolutions, or floors, of a step that is a coarse
 _MOST_BINS = 1 << 19
 _BINS_A_STEP = 8
 _COHERENT = 0.5  # from which readings stand on a grid; independent ones come to 1/√n
+_ALL = 0.62  # the same where all readings do, rounded to a third of the step
 _PADDED = 4  # so that no grid falls between two lines
 _NEARLY = 0.9
 _SLACK = 0.15
+_NEAR = 0.02  # relative difference of steps that are one
 _FEWER = 0.7  # times as many different readings as expected, that a coarser sensor gives at most
 
 
@@ -22,6 +24,25 @@ def coarse_step(reading: FloatArray, expected: FloatArray, finest: float) -> flo
     """
     if len(np.unique(reading)) > _FEWER * len(np.unique(expected)):
         return None  # noise fills in what lies between
+    return _grid(reading, expected, finest, _COHERENT)
+
+
+def stands_on(reading: FloatArray, expected: FloatArray, finest: float, step: float) -> bool:
+    """Tell whether a reading (n,) stands on a grid of a known step, and the expected one does not.
+
+    However seldom it comes twice to the same place: an axis under way is read everywhere. One
+    that is itself moved in steps stands on them at rest alone, which no grid of a sensor does.
+    """
+    return _grid(reading, expected, finest, _ALL, step) is not None
+
+
+def _grid(
+    reading: FloatArray,
+    expected: FloatArray,
+    finest: float,
+    coherent: float,
+    near: float | None = None,
+) -> float | None:
     finest *= _LEAST_STEP
     width = max(finest / _BINS_A_STEP, np.ptp(reading) / _MOST_BINS)
     if np.ptp(reading) < 3.0 * finest or width > finest / 3.0:
@@ -32,10 +53,12 @@ def coarse_step(reading: FloatArray, expected: FloatArray, finest: float) -> flo
     rates = np.fft.rfftfreq(_PADDED * bins, width)
     # A hold of a whole record would stand on any grid.
     within = (rates > 3.0 / np.ptp(reading)) & (rates < 1.0 / finest)
+    if near is not None:
+        within &= np.abs(rates * near - 1.0) < _NEAR
     excess = np.where(within, own - other, 0.0)
     # A grid is one of its halves and thirds, too: the widest counts.
     best = int(np.argmax(excess > _NEARLY * excess.max()))
-    if own[best] < _COHERENT or excess[best] < _COHERENT - _SLACK:
+    if own[best] < coherent or excess[best] < _COHERENT - _SLACK:
         return None
     return float(1.0 / rates[best])
 

@@ -13,8 +13,8 @@ import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.effects.facts import Facts
-from rotemina.sim.gap.cells import are_cells, floor_beyond
-from rotemina.sim.gap.coarseness import coarse_step
+from rotemina.sim.gap.cells import cell_of, floor_beyond
+from rotemina.sim.gap.coarseness import coarse_step, stands_on
 from rotemina.sim.gap.evidence import Evidence, Observation, Signals
 from rotemina.sim.gap.excursions import excursions
 from rotemina.sim.gap.jumps import jumps as jumps_in
@@ -227,29 +227,26 @@ def _with_true_floors(
 ) -> tuple[Evidence, list[Disturbance]]:
     """Raise the floor of a sensor that is coarser or noisier than declared."""
     gaps, answers = evidence.gaps(), evidence.response()
-    steps, levels, rows = [], [], []
+    readings, levels, rows = [], [], []
     for observation, gap, answer in zip(evidence.observations, gaps, answers, strict=True):
         if Tap.MEAS not in gap:
             continue
         kept = _kept(observation, Tap.MEAS)
-        steps.append(_coarse(evidence, observation, answer, kept))
+        readings.append(_as_expected(evidence, observation, answer, kept))
         levels.append(noise_level(_sensor_gap(observation, gap)[kept]))
         rows.append(int(kept.sum()))
     if not levels:
         return evidence, []
     floor = evidence.floor(Tap.MEAS)
-    coarse = [step for step in steps if step is not None]
+    step = _coarse(readings)
     level = float(np.sqrt(np.average(np.square(levels), weights=rows)))
-    if len(coarse) > len(steps) / 2:
-        step = float(np.median(coarse))
+    if step is not None:
         power = (step / floor) ** 2 / 12.0
         note = f"The sensor reads in steps of {step:.3g}."
         # At rest an error of up to half a step stays as it is, which no mean over errors tells.
         raised = _raised(evidence, float(np.sqrt(1.0 + 3.0 * power)))
         seen = _by_cells(evidence, raised, answers, step) if cells else raised
-        return seen, [
-            Disturbance("sensor_quantization", Tap.MEAS, power, note)
-        ]
+        return seen, [Disturbance("sensor_quantization", Tap.MEAS, power, note)]
     if level > _MORE_NOISE:
         note = f"The sensor is {level:.3g} times as noisy as declared."
         return _raised(evidence, level), [
@@ -264,18 +261,20 @@ def _by_cells(
     """Return evidence with steps as cells, and a raised floor where a record tells of few edges."""
     observations = []
     for own, coarse, answer in zip(fine.observations, raised.observations, answers, strict=True):
-        floor = own.floor.get(Tap.MEAS)
-        if floor is None or not are_cells(own.real[Tap.MEAS], answer[Tap.MEAS], step, floor):
-            observations.append(coarse)
-        else:
-            over = {**own.floor, Tap.MEAS: floor_beyond(floor, step)}
-            observations.append(replace(own, floor=over, cell={Tap.MEAS: step}))
+        floor, cell = own.floor.get(Tap.MEAS), None
+        if floor is not None:
+            cell = cell_of(own.real[Tap.MEAS], answer[Tap.MEAS], step, floor)
+        if floor is not None and cell is not None:
+            over = {**own.floor, Tap.MEAS: floor_beyond(floor, cell)}
+            coarse = replace(own, floor=over, cell={Tap.MEAS: cell})
+        observations.append(coarse)
     return fine.with_observations(observations)
 
 
-def _coarse(
+def _as_expected(
     evidence: Evidence, observation: Observation, answer: Signals, kept: BoolArray
-) -> float | None:
+) -> tuple[FloatArray, FloatArray, float]:
+    """Return what was read (n,), what a sensor as declared might read, and its finest step."""
     sensor = evidence.robot.axes[evidence.axis].sensor
     reading = observation.real[Tap.MEAS][kept]
     expected = _noisy(answer[Tap.MEAS][kept], 0.0 if sensor is None else sensor.noise_rms)
@@ -283,7 +282,21 @@ def _coarse(
     if sensor is not None and sensor.resolution:
         finest = max(finest, sensor.resolution)
         expected = np.rint(expected / sensor.resolution) * sensor.resolution
-    return coarse_step(reading, expected, finest)
+    return reading, expected, finest
+
+
+def _coarse(readings: Sequence[tuple[FloatArray, FloatArray, float]]) -> float | None:
+    """Return the step in which a sensor reads in most records; None if it is as fine as declared.
+
+    One record that tells it by coming to the same places is enough, where all stand on it.
+    """
+    told = [step for one in readings if (step := coarse_step(*one)) is not None]
+    if not told:
+        return None
+    step = float(np.median(told))
+    if len(told) > len(readings) / 2 or all(stands_on(*one, step) for one in readings):
+        return step
+    return None
 
 
 def _noisy(reading: FloatArray, noise_rms: float) -> FloatArray:
