@@ -19,7 +19,7 @@ from rotemina.sim.gap.evidence import Evidence, Observation, Signals
 from rotemina.sim.gap.excursions import excursions
 from rotemina.sim.gap.jumps import jumps as jumps_in
 from rotemina.sim.gap.tones import tone_signals, tones
-from rotemina.sim.gap.whiteness import noise_level
+from rotemina.sim.gap.whiteness import common_level, noise_level
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import AxisEffect, StepperAxis
 
@@ -29,6 +29,7 @@ _AROUND_A_JUMP_S = 0.08
 _JUMPING = 0.6  # of the gap's power in all records, that lost steps must close
 _SHAKEN = 0.1  # of its range, that another axis' going through all of its own may shake an axis
 _REST_ROWS = 100
+_SURE = 5  # spikes of a sensor, from which others are some whatever the command did
 _SAME_TONE = 0.02  # relative difference of frequencies that are one
 
 
@@ -137,25 +138,18 @@ def _taken_back(observation: Observation, found: Sequence[tuple[int, float]]) ->
 
 
 def _without_excursions(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
-    observations, power, count = [], 0.0, 0
-    for observation, gaps in zip(evidence.observations, evidence.gaps(), strict=True):
-        if Tap.MEAS in gaps:
-            gap = _sensor_gap(observation, gaps)
-            floor = observation.floor[Tap.MEAS]
-            change = _commanded_change(evidence, observation.record) / floor
-            reading = observation.real[Tap.MEAS] / floor
-            compared = Tap.REF in observation.real
-            time_s = observation.record.time_s
-            found = excursions(time_s, gap, reading, change, compared=compared)
-            kept = _kept(observation, Tap.MEAS)
-            found &= kept
-            if found.any():
-                around = float(np.median(gap))
-                power += float(np.sum((gap[found] - around) ** 2))
-                count += int(np.sum(np.diff(found.astype(np.int8), prepend=0) == 1))
-                masks = {**observation.kept, Tap.MEAS: kept & ~found}
-                observation = replace(observation, kept=masks)
-        observations.append(observation)
+    gaps = evidence.gaps()
+    found = _excursions(evidence, gaps, sure=False)
+    if sum(_runs_of(one) for one in found.values()) >= _SURE:
+        found = _excursions(evidence, gaps, sure=True)
+    observations, power, count = list(evidence.observations), 0.0, 0
+    for number, rows in found.items():
+        observation, gap = observations[number], _sensor_gap(observations[number], gaps[number])
+        around = float(np.median(gap))
+        power += float(np.sum((gap[rows] - around) ** 2))
+        count += _runs_of(rows)
+        masks = {**observation.kept, Tap.MEAS: _kept(observation, Tap.MEAS) & ~rows}
+        observations[number] = replace(observation, kept=masks)
     if not count:
         return evidence, []
     note = f"{count} spikes or dropouts of the sensor were left out."
@@ -165,8 +159,34 @@ def _without_excursions(evidence: Evidence) -> tuple[Evidence, list[Disturbance]
     ]
 
 
+def _excursions(
+    evidence: Evidence, gaps: Sequence[Signals], *, sure: bool
+) -> dict[int, BoolArray]:
+    """Return which rows (n,) of which records are outliers of the sensor."""
+    found: dict[int, BoolArray] = {}
+    for number, (observation, gap) in enumerate(zip(evidence.observations, gaps, strict=True)):
+        if Tap.MEAS in gap:
+            floor = observation.floor[Tap.MEAS]
+            rows = excursions(
+                observation.record.time_s,
+                _sensor_gap(observation, gap),
+                observation.real[Tap.MEAS] / floor,
+                _commanded_change(evidence, observation.record) / floor,
+                sure=sure or Tap.REF in observation.real,
+            )
+            found[number] = rows & _kept(observation, Tap.MEAS)
+    return {number: rows for number, rows in found.items() if rows.any()}
+
+
+def _runs_of(rows: BoolArray) -> int:
+    return int(np.sum(np.diff(rows.astype(np.int8), prepend=0) == 1))
+
+
 def _commanded_change(evidence: Evidence, record: Record) -> FloatArray:
-    """Return how far (n,) commands went in a row: the axis' own, and others' as they shake it."""
+    """Return how far (n,) commands went in a row beyond going on as in the one before.
+
+    The axis' own, and others' as they shake it.
+    """
     change = np.zeros(len(record.time_s))
     span = Facts.of(evidence.robot.axes[evidence.axis]).span
     for axis in record.axes:
@@ -174,7 +194,8 @@ def _commanded_change(evidence: Evidence, record: Record) -> FloatArray:
             command = record.signal(axis, Tap.CMD)
             share = 1.0 if axis == evidence.axis else _SHAKEN
             size = share * span / Facts.of(evidence.robot.axes[axis]).span
-            change = np.maximum(change, size * np.abs(np.diff(command, prepend=command[0])))
+            apart = np.diff(command, n=2, prepend=command[:1].repeat(2))
+            change = np.maximum(change, size * np.abs(apart))
     return change
 
 
@@ -227,19 +248,18 @@ def _with_true_floors(
 ) -> tuple[Evidence, list[Disturbance]]:
     """Raise the floor of a sensor that is coarser or noisier than declared."""
     gaps, answers = evidence.gaps(), evidence.response()
-    readings, levels, rows = [], [], []
+    readings, levels = [], []
     for observation, gap, answer in zip(evidence.observations, gaps, answers, strict=True):
         if Tap.MEAS not in gap:
             continue
         kept = _kept(observation, Tap.MEAS)
         readings.append(_as_expected(evidence, observation, answer, kept))
         levels.append(noise_level(_sensor_gap(observation, gap)[kept]))
-        rows.append(int(kept.sum()))
     if not levels:
         return evidence, []
     floor = evidence.floor(Tap.MEAS)
     step = _coarse(readings)
-    level = float(np.sqrt(np.average(np.square(levels), weights=rows)))
+    level = common_level(levels)
     if step is not None:
         power = (step / floor) ** 2 / 12.0
         note = f"The sensor reads in steps of {step:.3g}."

@@ -28,21 +28,22 @@ def excursions(
     reading: FloatArray,
     change: FloatArray,
     *,
-    compared: bool = False,
+    sure: bool = False,
 ) -> BoolArray:
     """Return which rows (n,) are outliers of a gap over its floor.
 
     They stand out from their neighbours, come and go abruptly, and no ``change`` (n,) of commands
     from row to row, in floors, came shortly before; or the ``reading`` (n,), in floors, stands
     still while the axis moves on. Where more than a twentieth would be outliers, none is one.
-    Where the gap is that to a reference (``compared``), which rings as well, a single row that
-    stands out is an outlier whatever the command did.
+    Where it is ``sure`` that no motion comes and goes like that, as the gap is that to a reference,
+    which rings as well, or the sensor does so at rest, a single row that stands out is an outlier
+    whatever the command did.
     """
-    found = _away(time_s, gap, change, compared) | _held(gap, reading)
+    found = _away(time_s, gap, change, sure) | _held(gap, reading)
     return found if found.mean() <= _MOST else np.zeros(len(gap), dtype=np.bool_)
 
 
-def _away(time_s: FloatArray, gap: FloatArray, change: FloatArray, compared: bool) -> BoolArray:
+def _away(time_s: FloatArray, gap: FloatArray, change: FloatArray, sure: bool) -> BoolArray:
     out = np.zeros(len(gap), dtype=np.bool_)
     for window in _WINDOWS:
         if window < len(gap):
@@ -54,7 +55,7 @@ def _away(time_s: FloatArray, gap: FloatArray, change: FloatArray, compared: boo
         size = float(np.abs(own - (before + after) / 2.0).max())
         abrupt = min(abs(own[0] - before), abs(own[-1] - after)) > _ABRUPT * size
         back = abs(after - before) < _BACK * size
-        alone = compared and end - begin == 1 and abs(after - before) < _NOTHING_ELSE * size
+        alone = sure and end - begin == 1 and abs(after - before) < _NOTHING_ELSE * size
         if abrupt and back and (alone or stepped[begin] < _NEAR_A_STEP * size):
             found[begin:end] = True
     return found
@@ -73,8 +74,9 @@ def _held(gap: FloatArray, reading: FloatArray) -> BoolArray:
         own, after = gap[begin:end], gap[end]
         size = float(np.abs(own - after).max())
         if abs(after - gap[begin - 1]) < _BACK * size:
-            found[begin:end] = True
-            leaps += abs(own[-1] - after) > _ABRUPT * size
+            # The axis may have rested first, as the model does.
+            found[begin + int(np.argmax(np.abs(own - after) > _FAR)) : end] = True
+            leaps += abs(own[-1] - after) > _BACK * size
             total += 1
     return found if leaps > _LEAPING * total else np.zeros(len(gap), dtype=np.bool_)
 

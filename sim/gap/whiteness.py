@@ -1,5 +1,7 @@
 """How much of a gap is noise: the level of its spectrum where nothing else is."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from scipy.signal import welch
 
@@ -21,6 +23,16 @@ def noise_level(gap: FloatArray) -> float:
     """
     pieces = np.array_split(gap, min(_PIECES, max(len(gap) // _LEAST_ROWS, 1)))
     return float(np.sqrt(min(_level(piece) for piece in pieces)))
+
+
+def common_level(levels: Sequence[float]) -> float:
+    """Return the noise level of most of some records, of two the lower; 0 where none tells.
+
+    A sensor's noise is the same in all of them. What quick motion leaves from row to row may look
+    like more.
+    """
+    told = sorted(level for level in levels if level > 0.0)
+    return told[(len(told) - 1) // 2] if told else 0.0
 
 
 def _level(gap: FloatArray) -> float:

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from rotemina.sim.gap.coarseness import coarse_step
+from rotemina.sim.gap.cells import beyond
+from rotemina.sim.gap.coarseness import coarse_step, stands_on
 from rotemina.sim.gap.disturbances import Disturbance, power_by_tap, set_aside
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.excursions import excursions
@@ -11,7 +12,7 @@ from rotemina.sim.gap.jumps import jumps
 from rotemina.sim.gap.models import mean_squares
 from rotemina.sim.gap.tones import tones
 from rotemina.sim.gap.wander import wander, wandering
-from rotemina.sim.gap.whiteness import noise_level
+from rotemina.sim.gap.whiteness import common_level, noise_level
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -172,10 +173,10 @@ def test_in_lively_motion_a_lone_row_beside_a_reference_is_a_spike():
     gap[[500, 4000]] += 60.0
     reading = 5.0 * np.arange(len(TIME_S)) + gap
     assert not excursions(TIME_S, gap, reading, lively).any()  # the axis itself may ring
-    found = excursions(TIME_S, gap, reading, lively, compared=True)
+    found = excursions(TIME_S, gap, reading, lively, sure=True)
     assert np.flatnonzero(found).tolist() == [500, 4000]
     gap[2000:2006] += 60.0 * np.exp(-np.arange(6) / 2.0)  # a sensor that comes late
-    found = excursions(TIME_S, gap, reading, lively, compared=True)
+    found = excursions(TIME_S, gap, reading, lively, sure=True)
     assert np.flatnonzero(found).tolist() == [500, 4000]
 
 
@@ -262,26 +263,85 @@ def test_what_shakes_the_axis_counts_at_its_sensor_in_floors_of_the_sensor():
     assert found == {Tap.REF: 100.0, Tap.MEAS: pytest.approx(5.0 + 100.0 * share)}
 
 
-def test_a_coarse_reading_tells_finely_where_its_steps_were_passed():
+def _read_in_steps(*effects):
     coarse = AxisEffect(axis="zn", id="sensor_quantization", parameters={"step": 5e-7})
-    bent = AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.01})
     wave = 2.0 / np.pi * np.arcsin(np.sin(2.0 * np.pi * 0.25 * TIME_S))
     command = Record.from_signals(
         TIME_S, {("zn", Tap.CMD): (32.5 + 6.5 * wave) * 1e-6}, {"zn": "m"}
     )
-
-    def set_aside_of(*effects):
-        record = simulate(ROBOT, effects, command, np.random.default_rng(0))
-        return set_aside(Evidence.of(ROBOT, "zn", [record]))
-
-    even, found = set_aside_of(coarse)
+    record = simulate(ROBOT, [coarse, *effects], command, np.random.default_rng(0))
+    seen, found = set_aside(Evidence.of(ROBOT, "zn", [record]))
     assert "sensor_quantization" in {one.effect for one in found}
-    assert even.floor(Tap.MEAS) < 5e-7 / np.sqrt(12.0) / 4.0
-    assert mean_squares(even, even.residual())[Tap.MEAS] < 1.3
-    clean, _ = set_aside_of(coarse, bent)
-    left = mean_squares(clean, clean.residual())[Tap.MEAS]
-    # 1 % of a triangle of 6.5 µm, whose rms is 1/√3 of it, at the edges that were passed slowly.
-    assert np.sqrt(left) * clean.floor(Tap.MEAS) == pytest.approx(6.5e-8 / np.sqrt(3), rel=0.25)
+    assert seen.observations[0].cell[Tap.MEAS] == pytest.approx(5e-7, rel=0.01)
+    return seen
+
+
+def test_what_lies_within_the_steps_of_a_coarse_reading_is_no_gap():
+    even = _read_in_steps()
+    assert 0.1 < mean_squares(even, even.residual())[Tap.MEAS] < 1.3
+
+
+def test_what_lies_beyond_the_steps_of_a_coarse_reading_is_a_gap():
+    bent = AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.01})
+    seen = _read_in_steps(bent)
+    # The triangle of 6.5 µm reaches 65 nm beyond an edge, in that share of the rows of a step:
+    # ∫ d³ / (3 step) over its even spread, to 1 % of 6.5 µm, is d³ / (12 step).
+    expected = 6.5e-8**3 / (12.0 * 5e-7)
+    left = mean_squares(seen, seen.residual())[Tap.MEAS] * seen.floor(Tap.MEAS) ** 2
+    assert left == pytest.approx(expected, rel=0.35)
+    assert mean_squares(seen, seen.residual([bent]))[Tap.MEAS] < 1.3
+
+
+def test_a_gap_beyond_cells_is_found_whatever_the_offset():
+    gap = np.linspace(-3.0, 5.0, 4001)
+    left = beyond(gap, 1.0, None)
+    # What leaves least is as far beyond on either side: the middle is taken off.
+    assert left.min() == pytest.approx(-3.0, abs=0.01)
+    assert left.max() == pytest.approx(3.0, abs=0.01)
+    assert np.abs(beyond(0.9 * np.sin(TIME_S) + 70.0, 1.0, None)).max() < 1e-3
+    kept = np.ones(len(gap), dtype=bool)
+    kept[-500:] = False
+    some = beyond(gap, 1.0, kept)
+    assert not some[~kept].any()
+    assert some[kept].max() == pytest.approx(-some[kept].min(), abs=0.01)
+
+
+def test_a_sensor_that_is_noisy_in_one_record_alone_is_not():
+    assert common_level([1.0, 3.6, 0.9]) == 1.0
+    assert common_level([0.0, 2.0, 2.1]) == 2.0  # a wander tells nothing of noise
+    assert common_level([0.0]) == 0.0
+
+
+def test_steps_of_a_drive_are_none_of_the_sensor():
+    path = 1000.0 * np.sin(2 * np.pi * 0.2 * TIME_S)
+    quick = 30000.0 * np.sin(2 * np.pi * 3.0 * TIME_S)
+    assert stands_on(8.0 * np.rint(quick / 8.0), np.rint(quick + NOISE), 1.0, 8.0)
+    moved = 8.0 * np.rint(path / 8.0)
+    lagging = np.convolve(moved, np.ones(40) / 40.0, mode="same")  # it rests on them for a while
+    assert not stands_on(np.rint(lagging), np.rint(path + NOISE), 1.0, 8.0)
+
+
+def test_spikes_at_rest_prove_those_in_lively_motion():
+    lively = Record.from_signals(
+        TIME_S,
+        {("zn", Tap.CMD): (32.5 + 8.0 * np.sign(np.sin(2 * np.pi * 40.0 * TIME_S))) * 1e-6},
+        {"zn": "m"},
+    )
+    calm = Record.from_signals(TIME_S, {("zn", Tap.CMD): np.full(len(TIME_S), 32.5e-6)}, {"zn": "m"})
+    rng = np.random.default_rng(0)
+
+    def spiked(record, rows):
+        seen = simulate(ROBOT, [], record, rng)
+        reading = seen.signal("zn", Tap.MEAS).copy()
+        reading[rows] += 4e-6
+        signals = {("zn", Tap.CMD): seen.signal("zn", Tap.CMD), ("zn", Tap.MEAS): reading}
+        return Record.from_signals(seen.time_s, signals, {"zn": "m"}, dict(seen.metadata))
+
+    rows = np.arange(200, 5800, 700)
+    alone, _ = set_aside(Evidence.of(ROBOT, "zn", [spiked(lively, rows)]))
+    both, _ = set_aside(Evidence.of(ROBOT, "zn", [spiked(lively, rows), spiked(calm, rows)]))
+    assert Tap.MEAS not in alone.observations[0].kept or alone.observations[0].kept[Tap.MEAS].all()
+    assert not both.observations[0].kept[Tap.MEAS][rows].any()
 
 
 def _flicker():
