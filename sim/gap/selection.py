@@ -12,12 +12,11 @@ from joblib import Parallel, delayed
 from rotemina.sim.gap.baseline import RESONANCE, is_own
 from rotemina.sim.gap.candidates import candidates, is_slow, scouts, siblings
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.fit import Fit, finished, sketched
+from rotemina.sim.gap.fit import Fit, finished, fit, sketched
 from rotemina.sim.gap.models import (
     MOST_STEPS,
     Explanation,
     beside,
-    explain,
     explanation,
     untouched,
 )
@@ -383,12 +382,16 @@ def _simplified(
 ) -> Explanation:
     """Take out, one after the other, causes without which the others do as well."""
     while len(best.causes) > 1:
-        without = [
-            explain(evidence, [one for one in best.causes if one is not cause])
-            for cause in best.causes
-        ]
+        without = [_without(evidence, best, cause) for cause in best.causes]
         least = min(without, key=lambda one: one.score)
         if enters(least, best):
             break
         best = least
     return best
+
+
+def _without(evidence: Evidence, best: Explanation, cause: AxisEffect) -> Explanation:
+    """Return an explanation fitted on without one of its causes, from where the others are."""
+    others = [one for one in best.causes if one is not cause]
+    fitted = fit(evidence, beside(evidence, others, best), most_steps=MOST_STEPS)
+    return explanation(evidence, len(others), fitted)
