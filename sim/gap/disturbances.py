@@ -183,10 +183,7 @@ def _runs_of(rows: BoolArray) -> int:
 
 
 def _commanded_change(evidence: Evidence, record: Record) -> FloatArray:
-    """Return how far (n,) commands went in a row beyond going on as in the one before.
-
-    The axis' own, and others' as they shake it.
-    """
+    """Return how far (n,) commands went in a row: the axis' own, and others' as they shake it."""
     change = np.zeros(len(record.time_s))
     span = Facts.of(evidence.robot.axes[evidence.axis]).span
     for axis in record.axes:
@@ -194,8 +191,7 @@ def _commanded_change(evidence: Evidence, record: Record) -> FloatArray:
             command = record.signal(axis, Tap.CMD)
             share = 1.0 if axis == evidence.axis else _SHAKEN
             size = share * span / Facts.of(evidence.robot.axes[axis]).span
-            apart = np.diff(command, n=2, prepend=command[:1].repeat(2))
-            change = np.maximum(change, size * np.abs(apart))
+            change = np.maximum(change, size * np.abs(np.diff(command, prepend=command[0])))
     return change
 
 

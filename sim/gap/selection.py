@@ -55,6 +55,8 @@ _WORTH_A_TRY = 0.8  # the same beside other causes, where each step takes longer
 _PROMISING = 0.3  # of what a quick form leaves, that a slow one leaves at first sight
 _MOSTLY_OWN = 0.9  # of the gap, that re-tuning closes for causes to be looked for beside it
 _ONE_MODE = 0.03  # relative difference of frequencies that are one mode's
+_MUCH_ALONE = 0.3  # of the gap, that a cause closes alone for others to do as well
+_AS_WELL = 1.1  # times its score
 _SKETCHED = 3  # steps after which attempts are compared
 _BEHIND = 3.0  # times the cost of the best, from which an attempt is given up
 _LEAST_PROMISE = 0.5  # of the score: a best candidate that leaves more is no clear cause
@@ -113,7 +115,8 @@ def select(
             found += _extended(evidence, begun, own, bare, account, jobs)
         found = _unique(_apart_from_own(evidence, bare, alone, found))
         if found and enters(best, found[0]):
-            found = _unique([*found, *_reformulated(evidence, found[0], own, account, jobs)])
+            others = _in_other_words(evidence, bare, found[0], own, tried, account, jobs)
+            found = _unique([*found, *others])
         tried += found
         if not found:
             break
@@ -248,25 +251,42 @@ def _quick(slow: AxisEffect, found: Sequence[Explanation]) -> float:
     return min(costs, default=0.0)
 
 
-def _reformulated(
+def _in_other_words(
     evidence: Evidence,
+    bare: Explanation,
     begun: Explanation,
     own: Sequence[AxisEffect],
+    tried: Sequence[Explanation],
     account: Account,
     jobs: int,
 ) -> list[Explanation]:
-    """Return a set of causes that leaves a gap with other formulations of its members.
+    """Return a set of causes that leaves a gap with other formulations, or twins, of its members.
 
     The one that did best alone need not do so beside the others.
     """
     if begun.score < NOTICED or len(begun.causes) < 2:
         return []
     attempts = [
-        [sibling if one is cause else one for one in begun.causes]
+        [other if one is cause else one for one in begun.causes]
         for cause in begun.causes
-        for sibling in siblings([cause], own)
+        for other in (*siblings([cause], own), *_twins(cause, bare, begun, tried))
     ]
     return _fitted(evidence, attempts, account, jobs, begun) if attempts else []
+
+
+def _twins(
+    cause: AxisEffect, bare: Explanation, begun: Explanation, tried: Sequence[Explanation]
+) -> list[AxisEffect]:
+    """Return effects that alone did about as well as a cause that alone did much."""
+    alone = {one.ids[0]: one for one in reversed(tried) if len(one.causes) == 1}
+    own = alone.get((cause.id, cause.from_axis))
+    if own is None or closed(bare.score, own.score) < _MUCH_ALONE:
+        return []
+    return [
+        one.causes[0]
+        for key, one in alone.items()
+        if key not in begun.ids and one.score < _AS_WELL * own.score
+    ]
 
 
 def _screened(
