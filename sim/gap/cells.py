@@ -21,9 +21,7 @@ _OFFSET_FOUND = 1e-6  # of half a cell
 _OVER_AN_EDGE = 2.0 / 3.0 * np.sqrt(2.0 / np.pi)
 
 
-def cell_of(
-    reading: FloatArray, expected: FloatArray, step: float, floor: float
-) -> float | None:
+def cell_of(reading: FloatArray, expected: FloatArray, step: float, floor: float) -> float | None:
     """Return the width of the cells in which a reading (n,) tells where an axis is.
 
     ``step`` is roughly that of the reading, ``expected`` (n,) what is read without it, ``floor``

@@ -159,9 +159,7 @@ def _without_excursions(evidence: Evidence) -> tuple[Evidence, list[Disturbance]
     ]
 
 
-def _excursions(
-    evidence: Evidence, gaps: Sequence[Signals], *, sure: bool
-) -> dict[int, BoolArray]:
+def _excursions(evidence: Evidence, gaps: Sequence[Signals], *, sure: bool) -> dict[int, BoolArray]:
     """Return which rows (n,) of which records are outliers of the sensor."""
     found: dict[int, BoolArray] = {}
     for number, (observation, gap) in enumerate(zip(evidence.observations, gaps, strict=True)):
@@ -239,9 +237,7 @@ def _shared(by_record: Sequence[Sequence[float]]) -> list[list[float]]:
     return shared
 
 
-def _with_true_floors(
-    evidence: Evidence, *, cells: bool
-) -> tuple[Evidence, list[Disturbance]]:
+def _with_true_floors(evidence: Evidence, *, cells: bool) -> tuple[Evidence, list[Disturbance]]:
     """Raise the floor of a sensor that is coarser or noisier than declared."""
     gaps, answers = evidence.gaps(), evidence.response()
     readings, levels = [], []

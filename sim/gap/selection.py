@@ -95,11 +95,7 @@ def select(
     ``account`` hears of stages, and of every candidate what it leaves. ``aside`` is the power at
     each tap, in its floors squared, of what was set aside before.
     """
-    own = [one for one in candidates(evidence) if not is_own(evidence, one)]
-    if not evidence.has(Tap.REF):
-        own = [one for one in own if one.id not in _SENSORS_OWN]
-    if evidence.in_cells:
-        own = [one for one in own if one.id != STEPS]
+    own = _candidates(evidence)
     bare = untouched(evidence)
     account.begin(bare.score)
     alone = retuned(evidence)
@@ -129,6 +125,15 @@ def select(
             break
     simplest = _simplified(evidence, enters, best)
     return Selection(bare, alone, simplest, tuple(sorted(tried, key=lambda one: one.score)))
+
+
+def _candidates(evidence: Evidence) -> list[AxisEffect]:
+    """Return what may be a cause beside the model's own parameters."""
+    apart = set() if evidence.has(Tap.REF) else set(_SENSORS_OWN)
+    if evidence.in_cells:
+        apart.add(STEPS)
+    found = [one for one in candidates(evidence) if not is_own(evidence, one)]
+    return [one for one in found if one.id not in apart]
 
 
 def _enters(

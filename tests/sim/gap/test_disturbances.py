@@ -327,7 +327,8 @@ def test_spikes_at_rest_prove_those_in_lively_motion():
         {("zn", Tap.CMD): (32.5 + 8.0 * np.sign(np.sin(2 * np.pi * 40.0 * TIME_S))) * 1e-6},
         {"zn": "m"},
     )
-    calm = Record.from_signals(TIME_S, {("zn", Tap.CMD): np.full(len(TIME_S), 32.5e-6)}, {"zn": "m"})
+    held = np.full(len(TIME_S), 32.5e-6)
+    calm = Record.from_signals(TIME_S, {("zn", Tap.CMD): held}, {"zn": "m"})
     rng = np.random.default_rng(0)
 
     def spiked(record, rows):
