@@ -1,18 +1,16 @@
 """Which effects explain the gap of an axis: forward selection on data that no fit has seen."""
 
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TypeVar
 
 import numpy as np
-from joblib import Parallel, delayed
 
+from rotemina.sim.gap.attempts import fitted, looked_at
 from rotemina.sim.gap.baseline import RESONANCE, is_own
 from rotemina.sim.gap.candidates import candidates, is_slow, scouts, siblings
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.fit import Fit, finished, fit, sketched
+from rotemina.sim.gap.fit import fit
 from rotemina.sim.gap.models import (
     MOST_STEPS,
     Explanation,
@@ -22,7 +20,7 @@ from rotemina.sim.gap.models import (
 )
 from rotemina.sim.gap.progress import Account
 from rotemina.sim.gap.retuning import retuned
-from rotemina.sim.gap.screening import Screened, screen
+from rotemina.sim.gap.screening import Screened
 from rotemina.sim.gap.standing import Grade
 from rotemina.sim.gap.starts import from_stop
 from rotemina.sim.gap.verdict import closed
@@ -57,11 +55,7 @@ _MOSTLY_OWN = 0.9  # of the gap, that re-tuning closes for causes to be looked f
 _ONE_MODE = 0.03  # relative difference of frequencies that are one mode's
 _MUCH_ALONE = 0.3  # of the gap, that a cause closes alone for others to do as well
 _AS_WELL = 1.1  # times its score
-_SKETCHED = 3  # steps after which attempts are compared
-_BEHIND = 3.0  # times the cost of the best, from which an attempt is given up
 _LEAST_PROMISE = 0.5  # of the score: a best candidate that leaves more is no clear cause
-
-_Result = TypeVar("_Result")
 
 
 @dataclass(frozen=True, eq=False)
@@ -215,20 +209,20 @@ def _extended(
     account.tell("screening", None)
     first = scouts(evidence, free)
     slow = any(is_slow(evidence, cause) for cause in begun.causes)
-    screened = _screened(evidence, begun, first, account, jobs, briefly=little or slow)
-    if little and min(one.cost for one in screened) > _LEAST_PROMISE * begun.score:
+    looks = looked_at(evidence, begun, first, account, jobs, briefly=little or slow)
+    if little and min(one.cost for one in looks) > _LEAST_PROMISE * begun.score:
         return []
     most = _FITTED_LATER if begun.causes else _FITTED
     if slow:
         most = _FITTED_SLOWLY
-    chosen = _chosen(screened, most)
+    chosen = _chosen(looks, most)
     account.tell("fitting", chosen[0].id)
-    found = _fitted(evidence, [[*begun.causes, one] for one in chosen], account, jobs, begun)
+    found = fitted(evidence, [[*begun.causes, one] for one in chosen], account, jobs, begun)
     if min(one.fit.cost for one in found) < ADEQUATE:
         return found  # other formulations, which take long, could not do better
     others = [_informed(one, found) for one in siblings(chosen, free) if one not in first]
     if others:
-        slower = _screened(evidence, begun, others, account, jobs, briefly=True)
+        slower = looked_at(evidence, begun, others, account, jobs, briefly=True)
         least = min(one.fit.cost for one in found)
         worth = _WORTH_A_TRY if begun.causes else _WORTH_A_FIRST_TRY
         slower = [
@@ -237,7 +231,7 @@ def _extended(
             if one.cost < max(worth * least, _PROMISING * _quick(one.effect, found))
         ]
         attempts = [[*begun.causes, one.effect] for one in slower]
-        found += _fitted(evidence, attempts, account, jobs, begun) if attempts else []
+        found += fitted(evidence, attempts, account, jobs, begun) if attempts else []
     return found
 
 
@@ -276,7 +270,7 @@ def _in_other_words(
         for cause in begun.causes
         for other in (*siblings([cause], own), *_twins(cause, bare, begun, tried))
     ]
-    return _fitted(evidence, attempts, account, jobs, begun) if attempts else []
+    return fitted(evidence, attempts, account, jobs, begun) if attempts else []
 
 
 def _twins(
@@ -294,87 +288,12 @@ def _twins(
     ]
 
 
-def _screened(
-    evidence: Evidence,
-    begun: Explanation,
-    some: Sequence[AxisEffect],
-    account: Account,
-    jobs: int,
-    *,
-    briefly: bool,
-) -> list[Screened]:
-    def told(number: int, one: Screened) -> None:
-        account.tried([*begun.causes, some[number]], one.cost, Grade.LOOK)
-
-    return _each(
-        [partial(screen, evidence, begun.fit, one, briefly=briefly) for one in some], jobs, told
-    )
-
-
-def _fitted(
-    evidence: Evidence,
-    attempts: Sequence[Sequence[AxisEffect]],
-    account: Account,
-    jobs: int,
-    begun: Explanation,
-) -> list[Explanation]:
-    """Fit sets of causes; those that are far behind after a few steps are given up.
-
-    The model's own parameters begin where they are beside what was ``begun`` with.
-    """
-    number = len(attempts[0])
-
-    def told(_: int, one: Fit) -> None:
-        account.tried(one.effects[:number], one.cost, Grade.FIT)
-
-    sketches = _each(
-        [
-            partial(sketched, evidence, beside(evidence, causes, begun), most_steps=_SKETCHED)
-            for causes in attempts
-        ],
-        jobs,
-        told,
-    )
-    least = min(one.cost for one in sketches)
-    ahead = [one for one in sketches if one.cost <= _BEHIND * least]
-    done = _each(
-        [partial(finished, evidence, one, most_steps=MOST_STEPS - _SKETCHED) for one in ahead],
-        jobs,
-        told,
-    )
-    behind = [one for one in sketches if one.cost > _BEHIND * least]
-    found = []
-    for one in (*done, *behind):
-        found.append(explanation(evidence, number, one))
-        account.tried(found[-1].causes, found[-1].score, Grade.UNSEEN)
-    return found
-
-
-def _each(
-    tasks: Sequence[Callable[[], _Result]], jobs: int, told: Callable[[int, _Result], None]
-) -> list[_Result]:
-    """Return the results of tasks in their order; ``told`` hears of each as soon as it is there."""
-    done: dict[int, _Result] = {}
-    results = Parallel(n_jobs=jobs, prefer="threads", return_as="generator_unordered")(
-        delayed(_numbered)(number, task) for number, task in enumerate(tasks)
-    )
-    with closing(results):  # also where a listener has heard enough
-        for number, result in results:
-            done[number] = result
-            told(number, result)
-    return [done[number] for number in range(len(tasks))]
-
-
-def _numbered(number: int, task: Callable[[], _Result]) -> tuple[int, _Result]:
-    return number, task()
-
-
-def _chosen(screened: Sequence[Screened], most: int) -> list[AxisEffect]:
+def _chosen(looks: Sequence[Screened], most: int) -> list[AxisEffect]:
     """Return the best few effects, each by its two best formulations."""
     chosen: list[AxisEffect] = []
     taken: dict[tuple[str, str | None], int] = {}
-    least = min(one.cost for one in screened)
-    for one in sorted(screened, key=lambda one: one.cost):
+    least = min(one.cost for one in looks)
+    for one in sorted(looks, key=lambda one: one.cost):
         key = one.effect.id, one.effect.from_axis
         if key not in taken and len(taken) == most:
             continue
@@ -418,5 +337,5 @@ def _simplified(
 def _without(evidence: Evidence, best: Explanation, cause: AxisEffect) -> Explanation:
     """Return an explanation fitted on without one of its causes, from where the others are."""
     others = [one for one in best.causes if one is not cause]
-    fitted = fit(evidence, beside(evidence, others, best), most_steps=MOST_STEPS)
-    return explanation(evidence, len(others), fitted)
+    again = fit(evidence, beside(evidence, others, best), most_steps=MOST_STEPS)
+    return explanation(evidence, len(others), again)
