@@ -167,19 +167,21 @@ def _is_little(bare: Explanation, begun: Explanation) -> bool:
 def _apart_from_own(
     evidence: Evidence, bare: Explanation, alone: Explanation, found: Sequence[Explanation]
 ) -> list[Explanation]:
-    """Return explanations but those whose further mode is the axis' own, re-tuned.
+    """Return explanations but those whose further mode is the axis' own.
 
-    Two modes at one frequency follow whatever the ring of a single one looks like: where that one
-    ``alone`` explains most of the gap, it is the simpler reason.
+    Two modes at one frequency follow whatever the ring of a single one looks like, an instant
+    later for one. That of a re-tuning ``alone`` is the simpler reason where it explains most.
     """
+    apart = [one for one in found if not _is_own_mode(evidence, one, one)]
     if closed(bare.score, alone.score) < _MOSTLY_OWN:
-        return list(found)
-    return [one for one in found if not _is_own_mode(evidence, alone, one)]
+        return apart
+    return [one for one in apart if not _is_own_mode(evidence, alone, one)]
 
 
-def _is_own_mode(evidence: Evidence, alone: Explanation, one: Explanation) -> bool:
+def _is_own_mode(evidence: Evidence, tuned: Explanation, one: Explanation) -> bool:
+    """Tell whether a further mode of an explanation is at the resonance as another has it."""
     inertia = evidence.robot.axes[evidence.axis].inertia
-    off = [own.parameters["frequency_error"] for own in alone.fit.effects if own.id == RESONANCE]
+    off = [own.parameters["frequency_error"] for own in tuned.fit.effects if own.id == RESONANCE]
     if inertia is None or not off:
         return False
     rings_hz = np.sqrt(inertia.stiffness / inertia.mass) / (2.0 * np.pi) * (1.0 + off[0])
