@@ -7,9 +7,17 @@ import numpy as np
 
 from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.attribution import attributed, without_own
-from rotemina.sim.gap.baseline import GAIN, OWN, is_own
+from rotemina.sim.gap.baseline import GAIN, OWN, RESONANCE, is_own
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.models import Explanation, explain, mean_squares
+from rotemina.sim.gap.fit import fit
+from rotemina.sim.gap.models import (
+    MOST_STEPS,
+    Explanation,
+    beside,
+    explain,
+    explanation,
+    mean_squares,
+)
 from rotemina.sim.gap.richness import alike_axes
 from rotemina.sim.gap.rivals import Key, Rival, rivals
 from rotemina.sim.gap.selection import LEAST_POWER, Selection
@@ -33,6 +41,7 @@ _BESIDE_A_WANDER = 0.3  # of the gap's power, that a cause closes at least
 _LIKELIER = 0.6  # probability from which a rival takes a cause's place
 _TURNS = 2  # in which rivals may take a cause's place: one may be simpler beside another
 _AS_GOOD = 1.03  # times a score
+_LOAD_ABOVE = 1.8  # times an axis' resonance, from where that of a mass on it is looked for
 _NEAR = 4.0  # times the best score, up to which a re-tuning alone is a rival
 
 Ranking = Mapping[Key, tuple[Rival, ...]]
@@ -194,7 +203,11 @@ def _twins_of(
             if own or not any(
                 list(one.ids) == wanted and len(one.fit.free) <= len(best.fit.free) for one in tried
             ):
-                more.append(explain(evidence, [*others, asked]))
+                effects = beside(evidence, [*others, asked])
+                if own:  # in whose place it stands
+                    effects = [one for one in effects if one.id != cause.id]
+                fitted = fit(evidence, effects, most_steps=MOST_STEPS)
+                more.append(explanation(evidence, len(others) + 1, fitted))
     return tuple(more)
 
 
@@ -211,7 +224,27 @@ def _twins(evidence: Evidence, cause: AxisEffect) -> list[AxisEffect]:
                     axis=evidence.axis, id="cross_coupling", from_axis=axis, parameters=numbers
                 )
             )
+    if cause.id == RESONANCE:
+        found += _loads(evidence, cause)
     return found
+
+
+def _loads(evidence: Evidence, cause: AxisEffect) -> list[AxisEffect]:
+    """Return a mass on a spring that makes an axis ring as much slower as a re-tuned resonance is.
+
+    Well below its own resonance it moves along, as if it were part of the axis: μ times the mass
+    more makes the frequency 1/√(1 + μ) of what it was.
+    """
+    inertia, off = evidence.robot.axes[evidence.axis].inertia, cause.parameters["frequency_error"]
+    if inertia is None or off >= 0.0:
+        return []
+    rings_hz = float(np.sqrt(inertia.stiffness / inertia.mass)) / (2.0 * np.pi)
+    numbers = {"frequency": _LOAD_ABOVE * rings_hz, "mass_ratio": (1.0 + off) ** -2 - 1.0}
+    return [
+        AxisEffect(
+            axis=evidence.axis, id="flexible_mode", formulation="appendage", parameters=numbers
+        )
+    ]
 
 
 def _alike(cause: AxisEffect, twin: str) -> AxisEffect:
