@@ -232,14 +232,17 @@ def _twins(evidence: Evidence, cause: AxisEffect) -> list[AxisEffect]:
 def _loads(evidence: Evidence, cause: AxisEffect) -> list[AxisEffect]:
     """Return a mass on a spring that makes an axis ring as much slower as a re-tuned resonance is.
 
-    Well below its own resonance it moves along, as if it were part of the axis: μ times the mass
-    more makes the frequency 1/√(1 + μ) of what it was.
+    With μ of the axis' mass, at ν times its resonance, both ring at r of that where
+    1 - r² = μ r² / (1 - r²/ν²) (the dynamic vibration absorber: Den Hartog, Mechanical Vibrations,
+    1956, ch. 3).
     """
     inertia, off = evidence.robot.axes[evidence.axis].inertia, cause.parameters["frequency_error"]
     if inertia is None or off >= 0.0:
         return []
     rings_hz = float(np.sqrt(inertia.stiffness / inertia.mass)) / (2.0 * np.pi)
-    numbers = {"frequency": _LOAD_ABOVE * rings_hz, "mass_ratio": (1.0 + off) ** -2 - 1.0}
+    slower = (1.0 + off) ** 2
+    share = (1.0 / slower - 1.0) * (1.0 - slower / _LOAD_ABOVE**2)
+    numbers = {"frequency": _LOAD_ABOVE * rings_hz, "mass_ratio": share}
     return [
         AxisEffect(
             axis=evidence.axis, id="flexible_mode", formulation="appendage", parameters=numbers

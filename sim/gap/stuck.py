@@ -16,6 +16,7 @@ _RUN_ROWS = 20  # equal readings in a row that count as standing still
 _MOVED = 0.02  # of its span, that the command moves meanwhile
 _MOVED_FLOORS = 20.0  # and noise floors
 _MOVED_STEPS = 1.5  # and steps in which the reading moves at all
+_ANSWERS_S = 0.05
 _STUCK = 0.2  # of a record, for which a reading that stands still is a fault
 _SATURATED = 0.05  # the same for one that returns to the same end again and again
 _NEAR = 0.1  # of the record's span, from where a saturating reading comes and whereto it goes
@@ -115,7 +116,10 @@ def _standing(robot: Robot, record: Record, axis: str) -> _Runs:
     begin, end = np.append(0, edges), np.append(edges, len(reading))
     long = end - begin >= _RUN_ROWS
     begin, end = begin[long], end[long]
-    way = np.array([np.ptp(command[a:b]) for a, b in zip(begin, end, strict=True)])
+    # The last command of a hold may be the next one's, to which the axis has yet to answer.
+    late = round(_ANSWERS_S / float(np.median(np.diff(record.time_s))))
+    last = np.maximum(end - late, begin + 1)
+    way = np.array([np.ptp(command[a:b]) for a, b in zip(begin, last, strict=True)])
     runs = _Runs(begin, end, reading[begin], way, np.abs(command[end - 1] - command[begin]))
     return runs.where((way >= least) & (least > 0.0))
 

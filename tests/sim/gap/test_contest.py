@@ -2,7 +2,12 @@
 
 from types import SimpleNamespace
 
-from rotemina.sim.gap.contest import _alike, _of_its_kind, _one_of_each
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+
+from rotemina.sim.gap.contest import _alike, _loads, _of_its_kind, _one_of_each
+from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 
 
@@ -43,3 +48,22 @@ def test_what_does_the_same_at_the_sensor_is_one_kind():
         assert abs(_of_its_kind(ranked, (name, None)) - 0.9) < 1e-12
     assert abs(_of_its_kind(ranked, ("friction", None)) - 0.1) < 1e-12
     assert _of_its_kind(ranked, ("friction", "y")) == 0.0
+
+
+@pytest.mark.parametrize("off", [-0.03, -0.18])
+def test_a_load_that_rings_as_slow_as_a_retuned_resonance(off):
+    robot = load_robot("rotemina")
+    evidence = SimpleNamespace(robot=robot, axis="x")
+    cause = AxisEffect(axis="x", id="resonance_mismatch", parameters={"frequency_error": off})
+    (load,) = _loads(evidence, cause)
+    own = robot.axes["x"].inertia
+    mass = own.mass * load.parameters["mass_ratio"]
+    spring = mass * (2.0 * np.pi * load.parameters["frequency"]) ** 2
+    stiff = np.array([[own.stiffness + spring, -spring], [-spring, spring]])
+    slowest = np.sqrt(eigh(stiff, np.diag([own.mass, mass]), eigvals_only=True)[0])
+    assert slowest == pytest.approx((1.0 + off) * np.sqrt(own.stiffness / own.mass), rel=1e-9)
+
+
+def test_no_load_makes_an_axis_ring_faster():
+    cause = AxisEffect(axis="x", id="resonance_mismatch", parameters={"frequency_error": 0.1})
+    assert _loads(SimpleNamespace(robot=load_robot("rotemina"), axis="x"), cause) == []

@@ -266,3 +266,25 @@ def test_progress_never_falls_and_what_a_listener_raises_ends_it():
 def test_records_of_nothing_measured_are_refused():
     with pytest.raises(GapError, match="no measured channel"):
         diagnose(ROBOT, [commands("sines", "x")])
+
+
+def test_behind_a_coarse_sensor_another_cause_is_found():
+    coarse = AxisEffect(axis="zn", id="sensor_quantization", parameters={"step": 6e-7})
+    ends = AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.01})
+    seen = [
+        Record.from_signals(
+            one.time_s,
+            {("zn", tap): one.signal("zn", tap) for tap in (Tap.CMD, Tap.MEAS)},
+            one.units,
+        )
+        for one in records([coarse, ends], "zn")
+    ]
+    found = diagnose(ROBOT, seen)
+    assert found.verdict is Verdict.EXPLAINED
+    assert named(found) == {("zn", "sensor_quantization", None), ("zn", "gain_error", None)}
+
+
+def test_a_coarse_sensor_at_rest_is_not_stuck():
+    coarse = AxisEffect(axis="zn", id="sensor_quantization", parameters={"step": 2e-6})
+    found = diagnose(ROBOT, records([coarse], "zn"))  # stairs among them: rest, and then a leap
+    assert named(found) == {("zn", "sensor_quantization", None)}

@@ -4,8 +4,10 @@ from types import SimpleNamespace
 
 import pytest
 
-from rotemina.sim.gap.selection import _enters
+from rotemina.sim.gap.selection import _enters, _is_own_mode, _twins
 from rotemina.sim.records.record import Tap
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import AxisEffect
 
 LAG = SimpleNamespace(id="amplifier_lag")
 
@@ -33,3 +35,27 @@ def test_what_was_set_aside_may_leave_something_of_itself():
     before, after = left(60.0), left(20.0, LAG)
     assert _enters(left(60.0), {Tap.MEAS: 1000.0}, before, after)
     assert not _enters(left(60.0), {Tap.MEAS: 10_000.0}, before, after)
+
+
+def alone(name, score, formulation=None):
+    cause = AxisEffect(axis="thx", id=name, formulation=formulation)
+    return SimpleNamespace(ids=((name, None),), causes=(cause,), score=score)
+
+
+def test_what_alone_did_as_well_takes_a_causes_place_beside_others():
+    lag, late, drift = alone("amplifier_lag", 300.0), alone("delay", 320.0), alone("creep", 500.0)
+    bare = SimpleNamespace(score=1000.0)
+    pair = SimpleNamespace(ids=(("amplifier_lag", None), ("cross_coupling", "thy")))
+    found = _twins(lag.causes[0], bare, pair, [lag, late, drift])
+    assert [one.id for one in found] == ["delay"]
+    weak = SimpleNamespace(score=310.0)  # of which neither closes much
+    assert _twins(lag.causes[0], weak, pair, [lag, late, drift]) == []
+
+
+@pytest.mark.parametrize(("frequency_hz", "own"), [(302.0, True), (340.0, False)])
+def test_a_mode_at_the_axis_own_resonance_is_no_further_one(frequency_hz, own):
+    mode = AxisEffect(axis="thx", id="flexible_mode", parameters={"frequency": frequency_hz})
+    tuned = AxisEffect(axis="thx", id="resonance_mismatch", parameters={"frequency_error": 0.0})
+    evidence = SimpleNamespace(robot=load_robot("rotemina"), axis="thx")
+    one = SimpleNamespace(causes=(mode,), fit=SimpleNamespace(effects=(mode, tuned)))
+    assert _is_own_mode(evidence, one, one) is own
