@@ -6,9 +6,9 @@ motion session, the trajectory and the comparison in hand, and the signals that 
 change. A panel that cannot be loaded is named and left out; the window opens without it.
 """
 
-import time
 from collections.abc import Callable
 from enum import StrEnum
+from time import monotonic
 from typing import ClassVar
 
 from PySide6.QtWidgets import QWidget
@@ -72,7 +72,7 @@ class Panel(QWidget):
         """
 
         def heard(state: SessionState) -> None:
-            now_s = time.monotonic()
+            now_s = monotonic()
             hidden = not self.isVisible() and self.window().isVisible()
             if not hidden or now_s - self._followed_s >= HIDDEN_S:
                 self._followed_s = now_s

@@ -1,0 +1,54 @@
+"""How a panel follows the machine: in every frame while it is seen, now and then while it is not."""
+
+import pytest
+from PySide6.QtWidgets import QTabWidget
+
+from rotemina.app import panel as panels
+from rotemina.app.panel import HIDDEN_S, Panel
+from rotemina.app.plugin_kit.panel_bench import panel_bench
+
+
+class Looking(Panel):
+    title = "Looking"
+
+    def __init__(self, workbench):
+        super().__init__(workbench)
+        self.looks = 0
+        self.follow(self.look)
+
+    def look(self, state):
+        assert state.measured
+        self.looks += 1
+
+
+@pytest.fixture
+def at_s(monkeypatch):
+    now = [100.0]
+    monkeypatch.setattr(panels, "monotonic", lambda: now[0])
+    return now
+
+
+def looks_of(bench, at_s, passing_s, frames=4):
+    """Return how often the panel looks in some frames, which come at an interval."""
+    before = bench.panel.looks
+    for _ in range(frames):
+        at_s[0] += passing_s
+        bench.workbench.refreshed.emit(bench.workbench.session.snapshot())
+    return bench.panel.looks - before
+
+
+def test_a_panel_out_of_sight_looks_less_often(at_s):
+    with panel_bench(Looking) as bench:
+        assert looks_of(bench, at_s, 0.01) == 4  # no window: whoever made it asks it to
+        tabs = QTabWidget()
+        tabs.addTab(bench.panel, "one")
+        tabs.addTab(Panel(bench.workbench), "other")
+        tabs.show()
+        assert looks_of(bench, at_s, 0.01) == 4
+        tabs.setCurrentIndex(1)
+        assert looks_of(bench, at_s, 0.01) == 0
+        assert looks_of(bench, at_s, 1.01 * HIDDEN_S) == 4
+        tabs.setCurrentIndex(0)
+        assert looks_of(bench, at_s, 0.01) == 4
+        bench.panel.setParent(None)
+        tabs.close()
