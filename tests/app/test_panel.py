@@ -1,4 +1,4 @@
-"""How a panel follows the machine: in every frame while it is seen, now and then while it is not."""
+"""How a panel follows the machine: in every frame while it is seen, else now and then."""
 
 import pytest
 from PySide6.QtWidgets import QTabWidget
