@@ -18,6 +18,7 @@ _TIED = 1.5  # times a score, within which another is as good
 _NEARLY = 0.02  # of the gap's power, within which another closes nearly as much
 _SURE = 3.0  # standard errors from which a difference counts in full
 _SAME = 0.15  # of the likeliest one's probability, from which a rival is not ruled out
+_INEXACT = 2.0  # mean square over the floor, from which a formula is not quite right
 _SIMPLER = 6.0  # times likelier, on a tie, for each parameter less
 _MOST_MORE = 2  # parameters that count so
 _ANOTHER_MACHINE = 0.02  # times as likely, with an own parameter of the model at its bound
@@ -82,13 +83,21 @@ def rivals(
 
 
 def not_ruled_out(ranked: Sequence[Rival], cause: Key) -> tuple[str, ...]:
-    """Return the effects that the data cannot tell from a cause."""
+    """Return the effects that the data cannot tell from a cause.
+
+    One that closes most is among them where the cause leaves something: that it takes more
+    parameters speaks against it, but rules nothing out while no formula is quite right.
+    """
     likeliest = max(one.probability for one in ranked)
     names = [
         one.effect
         for one in ranked
         if one.effect != cause[0] and one.probability >= _SAME * likeliest
     ]
+    own = next((one for one in ranked if (one.effect, one.from_axis) == cause), None)
+    closest = min(ranked, key=lambda one: one.explanation.score)
+    if own is not None and own.explanation.score >= _INEXACT and closest.effect != cause[0]:
+        names.append(closest.effect)
     names += [other for own, other, tells in _IMITATED if own == cause and tells(ranked)]
     return tuple(dict.fromkeys(names))
 

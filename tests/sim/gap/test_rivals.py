@@ -11,7 +11,7 @@ from rotemina.sim.robot.model import AxisEffect
 def ranked(cause, parameters, others=()):
     """A cause of zn, fitted to such parameters, and rivals with their probabilities."""
     fit = SimpleNamespace(effects=(AxisEffect(axis="zn", id=cause, parameters=parameters),))
-    explained = SimpleNamespace(fit=fit)
+    explained = SimpleNamespace(fit=fit, score=1.0)
     left = 1.0 - sum(share for _, share in others)
     return [
         Rival(cause, None, left, explained),
@@ -36,3 +36,17 @@ def test_a_slight_shift_of_the_resonance_may_be_a_small_mass_on_a_spring(error, 
 @pytest.mark.parametrize(("delay", "also"), [(1e-4, ("amplifier_lag",)), (1e-3, ())])
 def test_a_short_delay_may_be_a_lag_of_high_order(delay, also):
     assert not_ruled_out(ranked("delay", {"delay": delay}), ("delay", None)) == also
+
+
+@pytest.mark.parametrize(
+    ("own", "other", "also"),
+    [(5.0, 4.0, ("friction",)), (5.0, 6.0, ()), (1.2, 1.1, ())],
+)
+def test_what_closes_more_with_more_parameters_is_not_ruled_out_while_something_is_left(
+    own, other, also
+):
+    ranked = [
+        Rival("backlash", None, 0.95, SimpleNamespace(score=own)),
+        Rival("friction", None, 0.02, SimpleNamespace(score=other)),
+    ]
+    assert not_ruled_out(ranked, ("backlash", None)) == also
