@@ -24,8 +24,8 @@ _OVER_AN_EDGE = 2.0 / 3.0 * np.sqrt(2.0 / np.pi)
 def cell_of(reading: FloatArray, expected: FloatArray, step: float, floor: float) -> float | None:
     """Return the width of the cells in which a reading (n,) tells where an axis is.
 
-    ``step`` is roughly that of the reading, ``expected`` (n,) what is read without it, ``floor``
-    the rms of what is read finer. None where a record goes over too few edges to tell.
+    All in SI: ``step`` is roughly that of the reading, ``expected`` (n,) what is read without it,
+    ``floor`` the rms of what is read finer. None where a record goes over too few edges to tell.
     """
     change = np.abs(np.diff(reading, prepend=reading[0]))
     pace = np.abs(np.diff(expected, prepend=expected[0]))
@@ -37,15 +37,18 @@ def cell_of(reading: FloatArray, expected: FloatArray, step: float, floor: float
 
 
 def floor_beyond(floor: float, step: float) -> float:
-    """Return the rms by which a true answer lies beyond the cells of readings with noise."""
+    """Return the rms, SI, by which a true answer lies beyond cells of readings with noise.
+
+    ``floor`` is the rms of that noise and ``step`` the width of the cells, SI.
+    """
     return floor * float(np.sqrt(_OVER_AN_EDGE * floor / step))
 
 
 def beyond(gap: FloatArray, half: float, kept: BoolArray | None) -> FloatArray:
-    """Return how far (n,) a gap lies beyond half a cell to either side, its offset being free.
+    """Return how far (n,) a gap (n,) lies beyond ``half`` a cell, whatever its offset.
 
-    0 in rows that are not ``kept``. The offset is the one that leaves least, by Newton's steps on
-    what is quadratic in parts.
+    All in floors; 0 in rows that are not ``kept`` (n,). The offset is the one that leaves least, by
+    Newton's steps on what is quadratic in parts.
     """
     own = gap if kept is None else gap[kept]
     left = _outside(own, half)

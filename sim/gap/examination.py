@@ -1,6 +1,6 @@
 """One axis examined: screened, fitted, selected, judged."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -28,6 +28,7 @@ from rotemina.sim.gap.selection import (
 )
 from rotemina.sim.gap.verdict import closed, decide
 from rotemina.sim.gap.wander import wander
+from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
 _GAP = 1.5  # mean square over the floor from which there is something to explain
@@ -50,12 +51,14 @@ _Found = tuple[Evidence, tuple[Disturbance, ...], Selection, Explanation]
 class Examination:
     """What was found on an axis, before it is put into words.
 
-    ``evidence`` is without what was set aside; ``disturbances`` are what of that counts. The fit
+    ``evidence`` is without what was set aside, and ``declared`` the noise floor of each tap, SI,
+    before that raised it; ``disturbances`` are what of it counts. The fit
     of ``best`` may hold more than its causes: what corrects the model further but is too small, or
     too much like something else, to be named.
     """
 
     evidence: Evidence
+    declared: Mapping[Tap, float]
     disturbances: tuple[Disturbance, ...]
     selection: Selection
     best: Explanation
@@ -117,6 +120,7 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
         best = _fullest(selection, best)
     return Examination(
         evidence,
+        _floors(whole),
         disturbances,
         selection,
         best,
@@ -252,9 +256,12 @@ def _of_modes(evidence: Evidence, modal: Explanation) -> Examination:
     selection = Selection(bare, explain(evidence, ()), modal, (modal,))
     best, ranked = contested(evidence, selection, modal, {}, wanders=False)
     verdict = decide(selection.raw, max(best.score, 1.0), ())
-    return Examination(
-        evidence, (), selection, best, verdict, ranked, probed(evidence, best.held_out)
-    )
+    probe = probed(evidence, best.held_out)
+    return Examination(evidence, _floors(evidence), (), selection, best, verdict, ranked, probe)
+
+
+def _floors(evidence: Evidence) -> dict[Tap, float]:
+    return {part.tap: evidence.floor(part.tap) for part in evidence.parts}
 
 
 def _explained(

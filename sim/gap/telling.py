@@ -104,7 +104,7 @@ def _trust(examination: Examination) -> float:
 
 def _disturbance(examination: Examination, one: Disturbance) -> Cause:
     evidence, best = examination.evidence, examination.best
-    floor = evidence.floor(one.tap)
+    floor = examination.declared[one.tap]  # that its power counts in
     left = best.by_tap[one.tap]
     if one.effect == "sensor_drift":
         left = max(left - one.power, 1.0)

@@ -42,6 +42,18 @@ def records(effects, *axes, seed=0):
     return [simulate(ROBOT, effects, commands(kind, *axes), rng) for kind in kinds]
 
 
+def read_alone(effects, axis):
+    """Return such records with what the axis' own sensor says alone."""
+    return [
+        Record.from_signals(
+            one.time_s,
+            {(axis, tap): one.signal(axis, tap) for tap in (Tap.CMD, Tap.MEAS)},
+            one.units,
+        )
+        for one in records(effects, axis)
+    ]
+
+
 def named(diagnosis):
     return {(cause.axis, cause.effect, cause.from_axis) for cause in diagnosis.causes}
 
@@ -79,14 +91,7 @@ def test_a_single_effect_is_named_and_closes_the_gap(truth):
 
 def test_without_a_reference_a_gain_may_be_the_sensors():
     truth = AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.04})
-    seen = [
-        Record.from_signals(
-            one.time_s,
-            {("zn", tap): one.signal("zn", tap) for tap in (Tap.CMD, Tap.MEAS)},
-            one.units,
-        )
-        for one in records([truth], "zn")
-    ]
+    seen = read_alone([truth], "zn")
     (cause,) = diagnose(ROBOT, seen).causes
     assert cause.effect == "gain_error"
     assert "sensor_gain" in cause.ambiguous_with
@@ -270,18 +275,13 @@ def test_records_of_nothing_measured_are_refused():
 
 def test_behind_a_coarse_sensor_another_cause_is_found():
     coarse = AxisEffect(axis="zn", id="sensor_quantization", parameters={"step": 6e-7})
-    ends = AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.01})
-    seen = [
-        Record.from_signals(
-            one.time_s,
-            {("zn", tap): one.signal("zn", tap) for tap in (Tap.CMD, Tap.MEAS)},
-            one.units,
-        )
-        for one in records([coarse, ends], "zn")
-    ]
+    wrong = AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.01})
+    seen = read_alone([coarse, wrong], "zn")
     found = diagnose(ROBOT, seen)
     assert found.verdict is Verdict.EXPLAINED
     assert named(found) == {("zn", "sensor_quantization", None), ("zn", "gain_error", None)}
+    (steps,) = [one for one in found.causes if one.effect == "sensor_quantization"]
+    assert steps.gap_before == pytest.approx(6e-7 / np.sqrt(12.0), rel=0.1)
 
 
 def test_a_coarse_sensor_at_rest_is_not_stuck():
