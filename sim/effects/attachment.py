@@ -68,6 +68,23 @@ class Attached:
             for p in self.formulation.parameters
         }
 
+    def clipped(self, values: Mapping[str, float]) -> dict[str, float]:
+        """Return values of parameters, SI, those beyond a bound at it.
+
+        Raises
+        ------
+        EffectError
+            If the formulation has no such parameter.
+        """
+        within = {}
+        for name, value in values.items():
+            parameter = self.formulation.parameter(name)
+            if parameter is None:
+                raise EffectError(_no_such(self.formulation, name, value, self.asked.id))
+            low, high = parameter.bounds(self.facts)
+            within[name] = min(max(float(value), low), high)
+        return within
+
     def __str__(self) -> str:
         source = f" from {self.asked.from_axis}" if self.asked.from_axis is not None else ""
         values = "".join(f"; {name} = {value!r}" for name, value in self.values.items())
@@ -159,15 +176,19 @@ def _check_value(
 ) -> None:
     parameter = formulation.parameter(name)
     if parameter is None:
-        known = ", ".join(p.name for p in formulation.parameters)
-        raise EffectError(
-            f"{where}.{name} = {value:g}: formulation {formulation.name!r} has no such parameter; "
-            f"it has {known}"
-        )
+        raise EffectError(_no_such(formulation, name, value, where))
     low, high = parameter.bounds(facts)
     slack = _SLACK * max((abs(end) for end in (low, high) if isfinite(end)), default=0.0)
     if not isfinite(value) or not low - slack <= value <= high + slack:
         raise EffectError(f"{where}.{name} = {_beyond(parameter, value, facts)}")
+
+
+def _no_such(formulation: Formulation, name: str, value: float, where: str) -> str:
+    known = ", ".join(p.name for p in formulation.parameters)
+    return (
+        f"{where}.{name} = {value:g}: formulation {formulation.name!r} has no such parameter; "
+        f"it has {known}"
+    )
 
 
 def _beyond(parameter: Parameter, value: float, facts: Facts) -> str:

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.attribution import attributed, without_own
 from rotemina.sim.gap.baseline import GAIN, OWN, RESONANCE, is_own
@@ -226,7 +227,7 @@ def _twins(evidence: Evidence, cause: AxisEffect) -> list[AxisEffect]:
             )
     if cause.id == RESONANCE:
         found += _loads(evidence, cause)
-    return found
+    return [_within_bounds(evidence, twin) for twin in found]
 
 
 def _loads(evidence: Evidence, cause: AxisEffect) -> list[AxisEffect]:
@@ -248,6 +249,12 @@ def _loads(evidence: Evidence, cause: AxisEffect) -> list[AxisEffect]:
             axis=evidence.axis, id="flexible_mode", formulation="appendage", parameters=numbers
         )
     ]
+
+
+def _within_bounds(evidence: Evidence, twin: AxisEffect) -> AxisEffect:
+    """Return a twin with the nearest numbers that it may have: its bounds may be closer."""
+    bare = Attached.of(evidence.robot, replace(twin, parameters={}))
+    return replace(twin, parameters=bare.clipped(twin.parameters))
 
 
 def _alike(cause: AxisEffect, twin: str) -> AxisEffect:

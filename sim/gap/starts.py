@@ -53,10 +53,10 @@ def starts(evidence: Evidence, fitted: Fit, candidate: AxisEffect) -> tuple[Axis
 
     ``fitted`` is what is there already; the candidate is to explain what it leaves.
     """
-    given = candidate.parameters
+    given, attached = candidate.parameters, Attached.of(evidence.robot, candidate)
     return tuple(
-        replace(candidate, parameters={**given, **values})
-        for values in _starts(evidence, fitted, Attached.of(evidence.robot, candidate))
+        replace(candidate, parameters={**given, **attached.clipped(values)})
+        for values in _starts(evidence, fitted, attached)
     )
 
 
@@ -102,7 +102,7 @@ def _late(
     if late_s > 0.0:
         # Of a time constant, that is late.
         share = 2.0 * attached.values.get("damping_ratio", 0.5) + attached.values.get("ratio", 0.0)
-        yield _clipped(attached, **{name: late_s / share})
+        yield {name: late_s / share}
 
 
 def _periods(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
@@ -111,7 +111,7 @@ def _periods(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[di
     low, high = parameter.bounds(attached.facts)
     yield {"period": attached.values["period"]}
     for seen in strongest_periods(evidence, fitted, (low, high))[:_MOST_PERIODS]:
-        yield {"period": float(np.clip(seen, low, high))}
+        yield {"period": seen}
 
 
 def _quanta(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
@@ -127,7 +127,7 @@ def _quanta(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dic
     within = max(low * gain, min(floors, default=1e-12)), high * gain
     seen = likeliest_grid(evidence, fitted, attached.asked, within, origin, gain)
     if seen is not None:
-        yield _clipped(attached, **seen)
+        yield seen
 
 
 def _tones(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
@@ -135,7 +135,7 @@ def _tones(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict
     assert parameter is not None
     low, high = parameter.bounds(attached.facts)
     seen = strongest_frequency(evidence, fitted.residual, (low, high))
-    yield {"frequency": float(np.clip(seen or attached.values["frequency"], low, high))}
+    yield {"frequency": seen or attached.values["frequency"]}
 
 
 def _modes(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
@@ -146,7 +146,7 @@ def _modes(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict
         yield {"frequency": share * attached.facts.pace_hz}
     seen = strongest_frequency(evidence, fitted.residual, (low, high))
     if seen is not None:
-        yield {"frequency": float(np.clip(seen, low, high))}
+        yield {"frequency": seen}
 
 
 def _places(evidence: Evidence, _fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
@@ -161,7 +161,7 @@ def _places(evidence: Evidence, _fitted: Fit, attached: Attached) -> Iterator[di
         for before in _SOONER:
             sooner = place - float(np.sign(hard)) * before * (most - least)
             for times in _STIFFER:
-                yield _clipped(attached, **{"place": sooner, strength: hard * times})
+                yield {"place": sooner, strength: hard * times}
         return
     for sign in (1.0, -1.0):
         for share in _PLACES:
@@ -191,7 +191,7 @@ def _stretch(evidence: Evidence, attached: Attached) -> dict[str, float]:
     more = _BEYOND[0] * (most - least)
     facts = attached.facts
     shares = ((least - more - facts.low) / facts.span, (most + more - facts.low) / facts.span)
-    return _clipped(attached, begin=shares[0], end=shares[1])
+    return {"begin": shares[0], "end": shares[1]}
 
 
 def _slips(_evidence: Evidence, _fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
@@ -222,11 +222,10 @@ def _margins(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[di
     if seen:
         # What saturates goes no further than it was seen to go.
         ends = min(float(u.min()) for u in seen), max(float(u.max()) for u in seen)
-        yield _clipped(
-            attached,
-            low_margin=ends[0] - facts.input_low,
-            high_margin=facts.input_high - ends[1],
-        )
+        yield {
+            "low_margin": ends[0] - facts.input_low,
+            "high_margin": facts.input_high - ends[1],
+        }
         if facts.kind == "piezo" and "softness" in attached.values:
             # An end that these voltages do not come near may as well lie beyond the range.
             bend = bent_ends(*_voltages(evidence, fitted), ends)
@@ -235,12 +234,11 @@ def _margins(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[di
                 bend.without_low(facts.input_low),
                 bend.without_high(facts.input_high),
             ):
-                yield _clipped(
-                    attached,
-                    low_margin=one.low - facts.input_low,
-                    high_margin=facts.input_high - one.high,
-                    softness=one.softness,
-                )
+                yield {
+                    "low_margin": one.low - facts.input_low,
+                    "high_margin": facts.input_high - one.high,
+                    "softness": one.softness,
+                }
     if facts.kind == "force":  # whose commands ask for no voltage
         if not seen:
             yield {}
@@ -249,18 +247,17 @@ def _margins(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[di
     went = _way(evidence) / gain
     for beyond in _SOFT_ENDS if "softness" in attached.values else (0.0,):
         further = beyond * float(np.ptp(went))
-        yield _clipped(
-            attached,
-            low_margin=went[0] - further - facts.input_low,
-            high_margin=facts.input_high - went[1] - further,
-        )
+        yield {
+            "low_margin": went[0] - further - facts.input_low,
+            "high_margin": facts.input_high - went[1] - further,
+        }
     least, most = (end / gain for end in evidence.reach)
     low, high = least - facts.input_low, facts.input_high - most
     for share in _BEYOND:
         beyond = share * (most - least)
-        yield _clipped(attached, low_margin=low + beyond, high_margin=high + beyond)
-        yield _clipped(attached, low_margin=low - beyond, high_margin=high + beyond)
-        yield _clipped(attached, low_margin=low + beyond, high_margin=high - beyond)
+        yield {"low_margin": low + beyond, "high_margin": high + beyond}
+        yield {"low_margin": low - beyond, "high_margin": high + beyond}
+        yield {"low_margin": low + beyond, "high_margin": high - beyond}
 
 
 def _way(evidence: Evidence) -> FloatArray:
@@ -313,16 +310,6 @@ def _skews(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict
             gap = _centred(real - np.interp(when, time_s, answer[Tap.MEAS]))
             left[number] += float(gap @ gap) / observation.floor[Tap.MEAS] ** 2
     yield {"skew": float(tried[int(np.argmin(left))])}
-
-
-def _clipped(attached: Attached, **values: float) -> dict[str, float]:
-    clipped = {}
-    for name, value in values.items():
-        parameter = attached.formulation.parameter(name)
-        assert parameter is not None
-        low, high = parameter.bounds(attached.facts)
-        clipped[name] = float(np.clip(value, low, high))
-    return clipped
 
 
 def _regressed(evidence: Evidence, fitted: Fit, attached: Attached) -> float:

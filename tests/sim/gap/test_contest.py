@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from rotemina.sim.gap.contest import _alike, _loads, _of_its_kind, _one_of_each
+from rotemina.sim.effects.attachment import Attached
+from rotemina.sim.gap.contest import _alike, _loads, _of_its_kind, _one_of_each, _twins
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 
@@ -33,6 +34,19 @@ def test_a_twin_has_the_form_of_its_cause_and_its_numbers():
     assert twin.parameters == cause.parameters
     gain = AxisEffect(axis="x", id="gain_error", parameters={"error": 0.02})
     assert _alike(gain, "sensor_gain").parameters == {"error": 0.02}
+
+
+def test_a_twin_whose_bounds_are_closer_begins_at_them():
+    robot = load_robot("rotemina")
+    evidence = SimpleNamespace(robot=robot, axis="x", has=lambda tap: False)
+    waves = {"period": 1e-3, "sine": 2e-6, "cosine": -1.4e-5, "sine_2": 0.0, "cosine_2": 0.0}
+    cause = AxisEffect(axis="x", id="leadscrew_error", parameters=waves)
+    Attached.of(robot, cause)
+    (twin,) = _twins(evidence, cause)
+    begun = Attached.of(robot, twin)  # refuses what is beyond
+    assert twin.id == "encoder_interpolation"
+    assert begun.values["cosine"] == -1e-5
+    assert begun.values["sine"] == 2e-6
 
 
 def test_what_does_the_same_at_the_sensor_is_one_kind():
