@@ -20,7 +20,7 @@ from rotemina.sim.gap.models import (
     mean_squares,
 )
 from rotemina.sim.gap.richness import alike_axes
-from rotemina.sim.gap.rivals import Key, Rival, rivals
+from rotemina.sim.gap.rivals import DELAY, Key, Rival, rivals
 from rotemina.sim.gap.selection import LEAST_POWER, Selection
 from rotemina.sim.gap.verdict import closed
 from rotemina.sim.records.record import Tap
@@ -70,16 +70,17 @@ def contested(
             break
         best = attributed(evidence, selection.bare, likelier)
         ranked = _ranked(evidence, selection, best)
-    doubted = [
-        key
-        for key, own in ranked.items()
-        if _of_its_kind(own, key) < _least_sure(evidence, selection, aside, best, key)
-    ]
-    if wanders:
-        doubted += [key for key in best.ids if _bends_to(evidence, best, key)]
-    if doubted and (
-        len(best.causes) > 1 or wanders or max(aside.values(), default=0.0) > selection.raw
-    ):
+    unsure = wanders or max(aside.values(), default=0.0) > selection.raw
+    while len(best.causes) > 1 or (best.causes and unsure):
+        doubted = [
+            key
+            for key, own in ranked.items()
+            if _of_its_kind(own, key) < _least_sure(evidence, selection, aside, best, key)
+        ]
+        if wanders:
+            doubted += [key for key in best.ids if _bends_to(evidence, best, key)]
+        if not doubted:
+            break
         kept = [one for one in best.causes if (one.id, one.from_axis) not in doubted]
         best = _with_only(evidence, selection, kept)
         ranked = _ranked(evidence, selection, best)
@@ -191,19 +192,17 @@ def _with_retuned(
 def _twins_of(
     evidence: Evidence, best: Explanation, tried: Sequence[Explanation]
 ) -> tuple[Explanation, ...]:
-    """Return explanations by what does much the same as a cause, if it was not tried as simply.
+    """Return explanations by what does much the same as a cause, if it was not tried in that form.
 
-    The sensor, where no reference was recorded; another axis that moved alike, for a gain.
+    The sensor, where no reference was recorded; another axis that moved alike, for a gain; a lag
+    of high order, for a delay.
     """
     more = []
     for cause in best.causes:
         own = is_own(evidence, cause)
         others = [one for one in best.causes if one is not cause and not is_own(evidence, one)]
         for asked in _twins(evidence, cause):
-            wanted = sorted((one.id, one.from_axis) for one in (*others, asked))
-            if own or not any(
-                list(one.ids) == wanted and len(one.fit.free) <= len(best.fit.free) for one in tried
-            ):
+            if own or not any(_is_by(one, [*others, asked]) for one in tried):
                 effects = beside(evidence, [*others, asked])
                 if own:  # in whose place it stands
                     effects = [one for one in effects if one.id != cause.id]
@@ -212,11 +211,20 @@ def _twins_of(
     return tuple(more)
 
 
+def _is_by(one: Explanation, causes: Sequence[AxisEffect]) -> bool:
+    """Tell whether an explanation is by such causes, the last of them in the same form."""
+    wanted = sorted((cause.id, cause.from_axis) for cause in causes)
+    forms = {(cause.id, cause.formulation) for cause in one.causes}
+    return sorted(one.ids) == wanted and (causes[-1].id, causes[-1].formulation) in forms
+
+
 def _twins(evidence: Evidence, cause: AxisEffect) -> list[AxisEffect]:
     found = []
     if not evidence.has(Tap.REF):
         for twin in _TWINS.get(cause.id, ()):
-            found.append(_alike(cause, twin))
+            found.append(_alike(cause, twin) if cause.id != DELAY else _as_late(cause, twin))
+    if cause.id == DELAY:
+        found.append(_as_late(cause, "amplifier_lag"))
     if cause.id == GAIN:
         for axis, k in alike_axes(evidence).items():
             numbers = {"k": k * cause.parameters["error"]}
@@ -249,6 +257,12 @@ def _loads(evidence: Evidence, cause: AxisEffect) -> list[AxisEffect]:
             axis=evidence.axis, id="flexible_mode", formulation="appendage", parameters=numbers
         )
     ]
+
+
+def _as_late(cause: AxisEffect, lag: str) -> AxisEffect:
+    """Return the Butterworth filter of the third order that is as late as a delay: 2τ."""
+    numbers = {"time_constant": 0.5 * cause.parameters["delay"]}
+    return replace(cause, id=lag, formulation="third_order", parameters=numbers)
 
 
 def _within_bounds(evidence: Evidence, twin: AxisEffect) -> AxisEffect:

@@ -23,7 +23,7 @@ _SIMPLER = 6.0  # times likelier, on a tie, for each parameter less
 _MOST_MORE = 2  # parameters that count so
 _ANOTHER_MACHINE = 0.02  # times as likely, with an own parameter of the model at its bound
 _SLIGHT = 0.01  # error of a frequency, below which a small mass on a spring may do it
-_SHORT_S = 2e-4  # of a delay, below which an amplifier's lag of some order is as late: 1.6 kHz
+_AS_WELL = 1.1  # times a score
 _SLIGHTLY_DAMPED = 0.1  # the same for damping
 _PRIOR: Mapping[str, float] = {  # others: 1
     "sensor_gain": 0.5,
@@ -121,17 +121,15 @@ def _is_slight(ranked: Sequence[Rival]) -> bool:
     return abs(error) < _SLIGHT and abs(damping) < _SLIGHTLY_DAMPED
 
 
-def _is_short(ranked: Sequence[Rival]) -> bool:
-    """Tell whether a delay is so short that a lag of high order may do it.
-
-    A Butterworth filter of the third order that is as late passes all frequencies up to 2/2πτ.
-    """
-    return _fitted_value(ranked, (DELAY, None), "delay") < _SHORT_S
+def _is_a_lag_as_well(ranked: Sequence[Rival]) -> bool:
+    """Tell whether a lag of some order does as well as a delay: that order needs no parameters."""
+    left = {one.effect: one.explanation.score for one in reversed(ranked)}
+    return left.get("amplifier_lag", np.inf) < _AS_WELL * left[DELAY]
 
 
 _IMITATED: Sequence[tuple[Key, str, Callable[[Sequence[Rival]], bool]]] = (
     ((RESONANCE, None), "flexible_mode", _is_slight),
-    ((DELAY, None), "amplifier_lag", _is_short),
+    ((DELAY, None), "amplifier_lag", _is_a_lag_as_well),
 )
 
 

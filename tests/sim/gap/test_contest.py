@@ -49,6 +49,17 @@ def test_a_twin_whose_bounds_are_closer_begins_at_them():
     assert begun.values["sine"] == 2e-6
 
 
+def test_a_delay_is_a_lag_of_the_third_order_as_well():
+    evidence = SimpleNamespace(robot=load_robot("rotemina"), axis="x", has=lambda tap: True)
+    cause = AxisEffect(axis="x", id="delay", parameters={"delay": 4e-4})
+    (lag,) = _twins(evidence, cause)
+    values = Attached.of(evidence.robot, lag).values
+    late_s = values["time_constant"] * (2.0 * values["damping_ratio"] + values["ratio"])
+    assert (lag.id, late_s) == ("amplifier_lag", pytest.approx(4e-4))
+    evidence.has = lambda tap: False
+    assert [one.id for one in _twins(evidence, cause)] == ["sensor_lag", "amplifier_lag"]
+
+
 def test_what_does_the_same_at_the_sensor_is_one_kind():
     ranked = [
         SimpleNamespace(effect=name, from_axis=None, probability=share)

@@ -108,13 +108,13 @@ def test_the_same_records_give_the_same_test(delay_or_lag):
 def test_where_nothing_is_to_be_split_there_is_no_test(delay_or_lag, verdict):
     assert experiments(ROBOT, replace(delay_or_lag, verdict=verdict)) == ()
     ((key, ranked),) = delay_or_lag.ranked.items()
-    sure = {key: (replace(ranked[0], probability=0.99), replace(ranked[1], probability=0.01))}
+    sure = {key: (replace(ranked[0], probability=1.0),)}
     assert experiments(ROBOT, replace(delay_or_lag, ranked=sure)) == ()
 
 
 def test_where_records_are_poor_the_likeliest_effects_are_rivals(delay_or_lag):
     ((key, ranked),) = delay_or_lag.ranked.items()
-    sure = {key: (replace(ranked[0], probability=0.99), replace(ranked[1], probability=0.01))}
+    sure = {key: (replace(ranked[0], probability=1.0),)}
     poor = replace(delay_or_lag, verdict=Verdict.INSUFFICIENT, ranked=sure)
     (found,) = experiments(ROBOT, poor)
     assert found.splits == ("delay", "amplifier_lag")
