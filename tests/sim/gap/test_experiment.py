@@ -114,7 +114,7 @@ def test_where_nothing_is_to_be_split_there_is_no_test(delay_or_lag, verdict):
 
 def test_where_records_are_poor_the_likeliest_effects_are_rivals(delay_or_lag):
     ((key, ranked),) = delay_or_lag.ranked.items()
-    sure = {key: (replace(ranked[0], probability=1.0),)}
+    sure = {key: (replace(ranked[0], probability=0.99), replace(ranked[1], probability=0.01))}
     poor = replace(delay_or_lag, verdict=Verdict.INSUFFICIENT, ranked=sure)
     (found,) = experiments(ROBOT, poor)
     assert found.splits == ("delay", "amplifier_lag")
