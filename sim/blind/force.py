@@ -3,6 +3,7 @@
 The position hides most of the gap there: sizes are told in what the controller's output shows.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -20,13 +21,14 @@ from rotemina.sim.blind.mechanics import (
     load_force,
     propagator,
 )
-from rotemina.sim.blind.trial import LEAST_FLOORS
+from rotemina.sim.blind.trial import LEAST_FLOORS, LEAST_SHARE
 from rotemina.sim.robot.model import ForceAxis, Robot
 
 EFFECTS = ("friction", "gain_error", "delay", "flexible_mode", "saturation", "vibration")
 _SUBSTEPS = 20
 _PERIOD_S = 1e-3
 _NOISE_M = 5e-8
+_ATTEMPTS = 60
 
 
 class Loop(NamedTuple):
@@ -163,18 +165,36 @@ def draw_force_case(robot: Robot, seed: int) -> ForceCase:
     }
     plain = Loop(np.zeros(ROW))
     noise_v = _difference(axis, plain, plain, training, _NOISE_M)
-    loop: Loop = plain
-    present: list[tuple[str, float]] = []
-    for effect in wanted[number]:
-        for size in (10.0 ** rng.uniform(-1.0, 0.0), 1.0):
-            tried = _with(loop, effect, rng, size)
-            floors = _difference(axis, tried, loop, training, 0.0) / noise_v
-            if floors >= LEAST_FLOORS:
-                loop = tried
-                present.append((effect, floors))
-                break
+    loop, present = plain, tuple[tuple[str, float], ...]()
+    for _ in range(_ATTEMPTS):
+        drawn = _drawn(axis, wanted[number], training, noise_v, rng)
+        if drawn is not None:
+            loop, present = drawn
+            break
     kind = ("healthy", "single", "double")[len(present)]
-    return ForceCase(kind, axis, name, loop, training, held_out, seed, tuple(present))
+    return ForceCase(kind, axis, name, loop, training, held_out, seed, present)
+
+
+def _drawn(
+    axis: ForceAxis,
+    effects: Sequence[str],
+    training: tuple[Commands, ...],
+    noise_v: float,
+    rng: np.random.Generator,
+) -> tuple[Loop, tuple[tuple[str, float], ...]] | None:
+    """Draw sizes of effects; None where one of them would not be there to be found."""
+    plain = Loop(np.zeros(ROW))
+    loops = [plain]
+    for effect in effects:
+        loops.append(_with(loops[-1], effect, rng, 10.0 ** rng.uniform(-1.5, 0.0)))
+    present = []
+    for before, effect, after in zip(loops, effects, loops[1:], strict=False):
+        floors = _difference(axis, after, before, training, 0.0) / noise_v
+        gap = _difference(axis, loops[-1], plain, training, 0.0) / noise_v
+        if floors < LEAST_FLOORS or (floors / gap) ** 2 < LEAST_SHARE:
+            return None
+        present.append((effect, floors))
+    return loops[-1], tuple(present)
 
 
 def _with(loop: Loop, effect: str, rng: np.random.Generator, size: float) -> Loop:
@@ -194,7 +214,7 @@ def _with(loop: Loop, effect: str, rng: np.random.Generator, size: float) -> Loo
         case "delay":
             return loop._replace(late_s=2.5e-3 * size)
         case "flexible_mode":
-            share, hertz = 0.1 + 0.3 * size, rng.uniform(15.0, 45.0)
+            share, hertz = 0.1 + 0.3 * size, np.exp(rng.uniform(np.log(5.0), np.log(45.0)))
             return loop._replace(hung_share=share, hung_hz=hertz)
         case "saturation":
             return loop._replace(ceiling=rng.uniform(2.0, 6.0))

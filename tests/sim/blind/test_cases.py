@@ -120,6 +120,15 @@ def test_an_axis_under_force_is_recorded_in_closed_loop(tmp_path):
     assert record.has("q", Tap.U)
 
 
+def test_each_effect_under_force_has_its_share_of_the_gap():
+    robot = load_robot("emps")
+    cases = [draw_force_case(robot, seed) for seed in (1, 17, 19, 23)]
+    assert {case.kind for case in cases} == {"double"}
+    for case in cases:
+        floors = [floors for _, floors in case.present]
+        assert min(floors) >= max(1.5, 0.2 * max(floors))
+
+
 def test_labels_lie_apart_from_the_records(tmp_path):
     labels = write_cases(tmp_path, 2, 1, ROBOT, effect="gain_error")
     assert json.loads((tmp_path / "labels.json").read_text()) == labels
