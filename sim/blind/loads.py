@@ -89,7 +89,8 @@ def stiffness_nonlinearity(axis: Axis, rng: np.random.Generator) -> Part:
     law = float(rng.integers(3))
     sharp = rng.uniform(1.5, 3.0)
     rest = axis.low + axis.span * rng.choice([0.0, 0.5, rng.uniform(0.3, 0.7)])
-    length = 0.6 * axis.span
+    # Nowhere in the range so near its pole that the tangent is cut off: it would harden no more.
+    length = 1.2 * max(rest - axis.low, axis.low + axis.span - rest)
 
     def act(values: FloatArray, course: Course, size: float) -> FloatArray:
         stiff = size * axis.stiffness * length

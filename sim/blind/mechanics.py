@@ -98,7 +98,7 @@ def load_force(
     if code == CONTACT:
         return _pressed(row, q, v)
     if code == HARDENING:
-        return float(-row[2] * _hardened(row, q))
+        return float(-row[2] * hardened(row, q))
     if code == ELASTOPLASTIC:
         return -_elastoplastic(row, memory, v, step_s)
     # BREATHING: a stiffness that changes by itself with time.
@@ -169,7 +169,7 @@ def _pressed(row: FloatArray, q: float, v: float) -> float:
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _hardened(row: FloatArray, q: float) -> float:
+def hardened(row: FloatArray, q: float) -> float:
     """Extra restoring share about row[3] over the length row[4], by one of three laws row[5]."""
     x = (q - row[3]) / row[4]
     if row[5] == 0.0:

@@ -238,11 +238,15 @@ def _extended(
 
 
 def _informed(slow: AxisEffect, found: Sequence[Explanation]) -> AxisEffect:
-    """Return a contact from where a crude form of it was fitted on; anything else as it is."""
-    for one in found:
-        for own in one.causes:
-            if own.id == slow.id == "contact":
-                return replace(slow, parameters=from_stop(own.parameters))
+    """Return another form of a contact or a spring from where its first form was fitted.
+
+    Anything else is returned as it is.
+    """
+    for own in (cause for one in found for cause in one.causes if cause.id == slow.id):
+        if slow.id == "contact":
+            return replace(slow, parameters=from_stop(own.parameters))
+        if slow.id == "stiffness_nonlinearity":
+            return replace(slow, parameters=own.parameters)
     return slow
 
 

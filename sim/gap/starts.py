@@ -207,6 +207,9 @@ def _slips(_evidence: Evidence, _fitted: Fit, attached: Attached) -> Iterator[di
 
 
 def _centres(_evidence: Evidence, _fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
+    if attached.asked.parameters:  # a simpler form was fitted there
+        yield {}
+        return
     for share in _CENTRES:
         for times in _HARDER:
             yield {

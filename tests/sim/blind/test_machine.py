@@ -8,9 +8,15 @@ import pytest
 from rotemina.sim.blind.actuator import creep, hysteresis, lost_steps
 from rotemina.sim.blind.filters import lagged, mode_poles, smoothly_shifted
 from rotemina.sim.blind.force import Loop, run_loop
-from rotemina.sim.blind.loads import backlash, contact, flexible_mode, friction
+from rotemina.sim.blind.loads import (
+    backlash,
+    contact,
+    flexible_mode,
+    friction,
+    stiffness_nonlinearity,
+)
 from rotemina.sim.blind.machine import Commands, machine_of
-from rotemina.sim.blind.mechanics import ROW
+from rotemina.sim.blind.mechanics import ROW, hardened
 from rotemina.sim.blind.part import Course
 from rotemina.sim.blind.preisach import draw_plane, run_plane
 from rotemina.sim.blind.sensing import encoder_interpolation, sensor_lag
@@ -104,6 +110,17 @@ def test_a_preisach_plane_lags_behind_and_knows_no_rate():
     up, down = out[500], out[901 + 400]
     assert slow[500] == pytest.approx(slow[901 + 400])
     assert down > up + 0.01
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_flexure_hardens_over_its_whole_range(piezo, seed):
+    part = stiffness_nonlinearity(piezo, np.random.default_rng(seed))
+    row = part.act(np.zeros(1), Course(1e-4, 1, 0, 0), 0.3)
+    places = np.linspace(piezo.low, piezo.low + piezo.span, 201)
+    force = np.array([hardened(row, q) for q in places])
+    bends = np.diff(force, 2) * np.sign(places[1:-1] - row[3])
+    assert np.all(np.diff(force) >= 0.0)
+    assert np.all(bends >= -1e-9 * np.ptp(force))
 
 
 @pytest.mark.parametrize("seed", range(6))
