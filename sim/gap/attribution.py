@@ -21,8 +21,8 @@ _BRINGS_ALONG = {  # what a loop, a curve, a stiffening spring, or a mass on a s
     "flexible_mode": (RESONANCE,),
 }
 _BENDS = {  # an axis that sticks, or is loose, rings otherwise: what a re-tuning must close then
-    ("friction", RESONANCE): 0.12,
-    ("backlash", RESONANCE): 0.12,
+    ("friction", RESONANCE): 0.25,
+    ("backlash", RESONANCE): 0.25,
 }
 
 
