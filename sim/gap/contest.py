@@ -39,6 +39,7 @@ _DOUBTED = 0.1  # probability below which one cause of several is none
 _LITTLE = 0.1  # of the gap's power, below which a cause must be surer
 _DOUBTED_OF_LITTLE = 0.9
 _BESIDE_A_WANDER = 0.3  # of the gap's power, that a cause closes at least
+_AS_SLOW = {"thermal_drift": 0.7}  # the same for what is as slow as a wander
 _LIKELIER = 0.6  # probability from which a rival takes a cause's place
 _TURNS = 2  # in which rivals may take a cause's place: one may be simpler beside another
 _AS_GOOD = 1.03  # times a score
@@ -141,7 +142,7 @@ def _bends_to(evidence: Evidence, best: Explanation, key: Key) -> bool:
     """Tell whether a cause closes so little beside a wander that it may only follow that."""
     others = [one for one in best.causes if (one.id, one.from_axis) != key]
     before = float(np.mean(evidence.residual(others) ** 2))
-    return closed(before, best.score) < _BESIDE_A_WANDER
+    return closed(before, best.score) < _AS_SLOW.get(key[0], _BESIDE_A_WANDER)
 
 
 def _with_only(evidence: Evidence, selection: Selection, kept: Sequence[AxisEffect]) -> Explanation:

@@ -15,6 +15,7 @@ from rotemina.sim.gap.cells import beyond
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.floors import floors
 from rotemina.sim.gap.history import other_starts, start
+from rotemina.sim.gap.tolerances import Extent
 from rotemina.sim.plant.finely import respond
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.response import check_axes, run_of
@@ -139,6 +140,11 @@ class Evidence:
         """The least and the greatest command, m or rad."""
         commands = [o.record.signal(self.axis, Tap.CMD) for o in self.observations]
         return min(float(c.min()) for c in commands), max(float(c.max()) for c in commands)
+
+    @property
+    def extent(self) -> Extent:
+        """What the records cover."""
+        return Extent(self.reach, max(o.record.duration_s for o in self.observations))
 
     @property
     def parts(self) -> list[Part]:

@@ -284,7 +284,7 @@ def free_parameters(evidence: Evidence, effects: Sequence[AxisEffect]) -> tuple[
         if attached.formulation.by_spectra or (asked.id in _STEPPED and others > 1):
             continue
         for parameter in attached.formulation.parameters:
-            low, high = tolerance(attached, parameter, evidence.reach)
+            low, high = tolerance(attached, parameter, evidence.extent)
             preset = parameter.preset(attached.facts)
             scale = max(parameter.scale(attached.facts), parameter.spared(attached.facts))
             size = abs(preset) or _SMALL_SHARE * scale

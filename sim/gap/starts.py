@@ -17,6 +17,7 @@ from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import Fit
 from rotemina.sim.gap.lines import strongest_frequency, strongest_periods
 from rotemina.sim.gap.teeth import likeliest_grid
+from rotemina.sim.gap.tolerances import tolerance
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect, PiezoAxis
 
@@ -133,7 +134,7 @@ def _quanta(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dic
 def _tones(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[dict[str, float]]:
     parameter = attached.formulation.parameter("frequency")
     assert parameter is not None
-    low, high = parameter.bounds(attached.facts)
+    low, high = tolerance(attached, parameter, evidence.extent)
     seen = strongest_frequency(evidence, fitted.residual, (low, high))
     yield {"frequency": seen or attached.values["frequency"]}
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.linalg import eigh
 
 from rotemina.sim.effects.attachment import Attached
-from rotemina.sim.gap.contest import _alike, _loads, _of_its_kind, _one_of_each, _twins
+from rotemina.sim.gap.contest import _alike, _bends_to, _loads, _of_its_kind, _one_of_each, _twins
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 
@@ -58,6 +58,17 @@ def test_a_delay_is_a_lag_of_the_third_order_as_well():
     assert (lag.id, late_s) == ("amplifier_lag", pytest.approx(4e-4))
     evidence.has = lambda tap: False
     assert [one.id for one in _twins(evidence, cause)] == ["sensor_lag", "amplifier_lag"]
+
+
+@pytest.mark.parametrize(
+    ("effect", "left", "none"),
+    [("hysteresis", 6.0, False), ("hysteresis", 8.0, True), ("thermal_drift", 6.0, True)],
+)
+def test_what_is_as_slow_as_a_wander_must_close_most_of_it(effect, left, none):
+    evidence = SimpleNamespace(residual=lambda others: np.full(4, np.sqrt(10.0)))
+    cause = AxisEffect(axis="x", id=effect)
+    best = SimpleNamespace(causes=(cause,), score=left)
+    assert _bends_to(evidence, best, (effect, None)) is none
 
 
 def test_what_does_the_same_at_the_sensor_is_one_kind():

@@ -1,0 +1,27 @@
+"""How far a fit may take a parameter, by what its records cover."""
+
+import pytest
+
+from rotemina.sim.effects.attachment import Attached
+from rotemina.sim.gap.tolerances import Extent, tolerance
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import AxisEffect
+
+ROBOT = load_robot("rotemina")
+
+
+@pytest.mark.parametrize(("longest_s", "least_hz"), [(10.0, 0.3), (7.5, 0.4), (600.0, 0.1)])
+def test_what_is_periodic_returns_a_few_times_within_a_record(longest_s, least_hz):
+    attached = Attached.of(ROBOT, AxisEffect(axis="x", id="vibration"))
+    frequency = attached.formulation.parameter("frequency")
+    low, high = tolerance(attached, frequency, Extent((0.0, 0.05), longest_s))
+    assert low == pytest.approx(least_hz)
+    assert high == 2000.0
+
+
+def test_a_contact_lies_beyond_the_first_part_of_the_way():
+    attached = Attached.of(ROBOT, AxisEffect(axis="x", id="contact"))
+    place = attached.formulation.parameter("place")
+    low, high = tolerance(attached, place, Extent((0.01, 0.02), 10.0))
+    assert low == pytest.approx(0.013)
+    assert high == pytest.approx(0.02)
