@@ -17,6 +17,7 @@ from rotemina.sim.trajectory.wording import readable
 from rotemina.sim.units import per_si, units_of
 
 _ALIKE = 0.95  # correlation from which a reading follows its command
+_PROPORTIONAL = 0.995  # the same for a voltage: one that is cut off by far follows less closely
 _PLAUSIBLE = 3.0  # gains between this and its inverse may have other causes
 _FAR = log(10.0)  # factors beyond this are no accident, even when a gain error comes on top
 _NEAR_FAR, _NEAR = log(1.35), log(1.15)  # how closely far factors, and others, must be met
@@ -81,7 +82,8 @@ def _check_readings(robot: Robot, one: Labelled, axis: str) -> Iterator[Caution]
         expected = _expected(described, one.record, tap)
         if expected is None or not one.record.has(axis, tap):
             continue
-        gain = _slow_gain(motion, one.record.signal(axis, tap), expected)
+        alike = _PROPORTIONAL if tap is Tap.U else _ALIKE
+        gain = _slow_gain(motion, one.record.signal(axis, tap), expected, alike)
         if gain is None:
             continue
         if tap is Tap.U:
@@ -111,12 +113,14 @@ def _expected(described: Axis, record: Record, tap: Tap) -> float | None:
     return 1.0 if follows_command(described, record) else None
 
 
-def _slow_gain(motion: SlowMotion, signal: FloatArray, expected: float) -> float | None:
+def _slow_gain(
+    motion: SlowMotion, signal: FloatArray, expected: float, alike: float
+) -> float | None:
     """Return slow signal over expected one, or None where the one does not follow the other."""
     slow, read = motion.command, motion.read(signal)
     size = float(np.std(slow) * np.std(read))
     product = float(np.mean(slow * read))
-    if size == 0.0 or abs(product) < _ALIKE * size:
+    if size == 0.0 or abs(product) < alike * size:
         return None
     return product / float(np.var(slow)) / expected
 

@@ -181,6 +181,14 @@ def test_units_that_are_wrong_are_refused_with_the_factor(axis, tap, factor, wor
     assert refusal(wrong, names=["b.csv"]).startswith("b.csv: ")
 
 
+def test_a_voltage_that_is_cut_off_by_far_is_no_unit_error():
+    record = measured()
+    u = record.signal("zn", Tap.U)
+    middle, most = u.mean(), 0.125 * np.ptp(u)
+    cut = changed(record, {("zn", Tap.U): middle + most * np.tanh((u - middle) / most)})
+    assert check(ROBOT, [cut]) == check(ROBOT, [record])
+
+
 def test_commands_in_wrong_units_are_refused():
     record = measured()
     far = changed(record, {("x", Tap.CMD): 1e3 * record.signal("x", Tap.CMD)})
