@@ -173,7 +173,7 @@ def _one_of_each(found: Sequence[Explanation]) -> list[Explanation]:
     for one in found:
         least[one.ids] = min(one.score, least.get(one.ids, one.score))
     kept: dict[object, Explanation] = {}
-    for one in sorted(found, key=lambda one: (len(one.fit.free), one.score)):
+    for one in sorted(found, key=lambda one: (one.fit.parameters, one.score)):
         if one.score <= _AS_GOOD * least[one.ids]:
             kept.setdefault(one.ids, one)
     return list(kept.values())

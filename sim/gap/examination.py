@@ -36,6 +36,7 @@ _TAILS = 0.08  # of the gap's power, that outliers have beyond the tails of what
 _WITH_TAILS = {"sensor_noise", "sensor_quantization", "vibration"}
 _STILL_OUT = 0.5  # of their power, that outliers keep beside an explanation
 _MUCH_BETTER = 0.7  # of a score: what else would correct the model is taken along
+_WITHOUT_JUMPS = 0.97  # of the gap, closed without them, from which jumps are none
 _NO_STEPS = 0.03  # of the power of steps: nothing explains their own error
 _BEYOND_STEPS = 0.8  # of what is beyond cells, that an explanation closes
 _NOT_NOISE = 0.6  # of a raised floor's power: a fit that leaves less shows that it was no noise
@@ -104,7 +105,7 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
         drift = wander(evidence, best.fit.residual) or drift
         disturbances = _counting(whole, evidence, best, aside, drift)
     power = sum(one.power for one in disturbances if one.effect != "sensor_drift")
-    ambiguous = [not_ruled_out(ranked[key], key) for key in best.ids]
+    ambiguous = [not_ruled_out(ranked[key], key, selection.raw) for key in best.ids]
     wandered = 0.0
     if drift is not None and any(one.effect == "sensor_drift" for one in disturbances):
         wandered = drift.power
@@ -187,14 +188,16 @@ def _without_false_noise(whole: Evidence, first: _Found, account: Account, jobs:
 def _without_false_jumps(whole: Evidence, first: _Found, account: Account, jobs: int) -> _Found:
     """Return what is found with the jumps left in, where what seemed lost steps can be explained.
 
-    An axis that sticks and breaks loose jumps as well, by what its drive was bent meanwhile.
+    An axis that sticks and breaks loose jumps as well, by what its drive was bent meanwhile; and so
+    does one that is loose, at every reversal by its play. These alone do where little is left.
     """
     _, aside, _, best = first
     if best.score < NOTICED or not any(one.effect == "lost_steps" for one in aside):
         return first
     evidence, others = set_aside(whole, jumps=False)
     second = evidence, others, *_explained(whole, evidence, others, account, jobs)
-    return second if second[3].score < _MUCH_BETTER * best.score else first
+    simpler = closed(second[2].raw, second[3].score) >= _WITHOUT_JUMPS
+    return second if simpler or second[3].score < _MUCH_BETTER * best.score else first
 
 
 def _without_false_cells(whole: Evidence, first: _Found, account: Account, jobs: int) -> _Found:

@@ -76,9 +76,10 @@ def _sets(examination: Examination) -> Iterator[list[Rival]]:
     if not poor and examination.verdict is not Verdict.EXPLAINED:
         return
     seen: list[set[str]] = []
+    raw = examination.selection.raw
     for key, ranked in examination.ranked.items():
         likeliest = [one.effect for one in ranked if one.effect != key[0]]
-        others = dict.fromkeys(not_ruled_out(ranked, key) or likeliest[: _OPEN if poor else 0])
+        others = dict.fromkeys(not_ruled_out(ranked, key, raw) or likeliest[: _OPEN if poor else 0])
         names = {key[0], *others}
         if not others or names in seen or len(seen) == _MOST_SETS:
             continue

@@ -81,6 +81,17 @@ class Fit:
         return float(np.mean(self.residual**2))
 
     @property
+    def parameters(self) -> int:
+        """How many parameters were found, those of a grid of steps beside others included."""
+        free = {one.effect for one in self.free}
+        grids = (
+            one
+            for number, one in enumerate(self.effects)
+            if one.id in _STEPPED and number not in free
+        )
+        return len(self.free) + sum(len(one.parameters) for one in grids)
+
+    @property
     def at_bound(self) -> Mapping[tuple[int, str], str]:
         """Parameters (effect number, name) that ended at a bound: "low" or "high"."""
         ends: dict[tuple[int, str], str] = {}

@@ -10,6 +10,7 @@ from rotemina.sim.gap.baseline import OWN, RESONANCE
 from rotemina.sim.gap.blocks import Blocks
 from rotemina.sim.gap.evidence import Evidence, block_rows
 from rotemina.sim.gap.models import Explanation
+from rotemina.sim.gap.verdict import closed
 from rotemina.sim.records.record import Tap
 
 _POWER = 2.0  # of what is left: how fast a rival loses with what it leaves
@@ -34,6 +35,10 @@ _PRIOR: Mapping[str, float] = {  # others: 1
     "cross_coupling": 0.7,
     "clock_skew": 0.5,
 }
+
+_KIN = {"backlash", "friction"}
+_FAR_OFF = 25.0  # mean square over the floor, from which a formula is far from right
+_NEARLY_ALL = 0.9  # of the gap's power
 
 DELAY = "delay"
 
@@ -67,8 +72,8 @@ def rivals(
         (own,) = [key for key in keys if key not in others] or [cause]
         if own != cause:
             found.append((own, one))
-    least = min(len(one.fit.free) for _, one in found if _is_tied(best, one))
-    near = min(len(one.fit.free) for _, one in found if _is_near(best, one, raw))
+    least = min(one.fit.parameters for _, one in found if _is_tied(best, one))
+    near = min(one.fit.parameters for _, one in found if _is_near(best, one, raw))
     weights = np.array(
         [
             _weight(evidence, best, one)
@@ -82,9 +87,10 @@ def rivals(
     return tuple(Rival(key[0], key[1], float(share), one) for (key, one), share in ranked)
 
 
-def not_ruled_out(ranked: Sequence[Rival], cause: Key) -> tuple[str, ...]:
+def not_ruled_out(ranked: Sequence[Rival], cause: Key, raw: float) -> tuple[str, ...]:
     """Return the effects that the data cannot tell from a cause.
 
+    ``raw`` is the mean square of the gap over the floor.
     One that closes most is among them where the cause leaves something: that it takes more
     parameters speaks against it, but rules nothing out while no formula is quite right.
     """
@@ -99,7 +105,20 @@ def not_ruled_out(ranked: Sequence[Rival], cause: Key) -> tuple[str, ...]:
     if own is not None and own.explanation.score >= _INEXACT and closest.effect != cause[0]:
         names.append(closest.effect)
     names += [other for own, other, tells in _IMITATED if own == cause and tells(ranked)]
+    names += [other.effect for other in ranked if _is_kin(ranked, cause, other, raw)]
     return tuple(dict.fromkeys(names))
+
+
+def _is_kin(ranked: Sequence[Rival], cause: Key, other: Rival, raw: float) -> bool:
+    """Tell whether another effect does nearly all that its near kin does, of a gap far off.
+
+    A screw that sticks and one that is loose stay behind at each reversal. How softly they are
+    taken along, and what a dither does to them, is each machine's own; no formula is quite right.
+    """
+    if {cause[0], other.effect} != _KIN or cause[1] is not None:
+        return False
+    left = next(one.explanation.score for one in ranked if one.effect == cause[0])
+    return left >= _FAR_OFF and closed(raw, other.explanation.score) >= _NEARLY_ALL
 
 
 def _fitted_value(ranked: Sequence[Rival], cause: Key, name: str) -> float:
@@ -156,7 +175,7 @@ def _more_parameters(best: Explanation, other: Explanation, least: int, near: in
     ``near``. By other equations than a machine's own nothing is quite right, and much that one
     explanation closes more than another may be but what its many parameters bend.
     """
-    count = len(other.fit.free)
+    count = other.fit.parameters
     return max(count - least if _is_tied(best, other) else 0, int(count > near))
 
 

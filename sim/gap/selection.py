@@ -53,6 +53,8 @@ _WORTH_A_TRY = 0.8  # the same beside other causes, where each step takes longer
 _PROMISING = 0.3  # of what a quick form leaves, that a slow one leaves at first sight
 _MOSTLY_OWN = 0.9  # of the gap, that re-tuning closes for causes to be looked for beside it
 _ONE_MODE = 0.03  # relative difference of frequencies that are one mode's
+_ONE_PERIOD = 0.003  # the same of periods, as multiples of another's
+_HARMONICS = 8
 _MUCH_ALONE = 0.3  # of the gap, that a cause closes alone for others to do as well
 _AS_WELL = 1.1  # times its score
 _LEAST_PROMISE = 0.5  # of the score: a best candidate that leaves more is no clear cause
@@ -104,6 +106,9 @@ def select(
         for begun in beam:
             found += _extended(evidence, begun, own, bare, account, jobs)
         found = _unique(_apart_from_own(evidence, bare, alone, found))
+        overtones = [one for one in found if _has_overtone(evidence, one)]
+        tried += overtones  # no cause of its own, but it corrects the model
+        found = [one for one in found if one not in overtones]
         if found and enters(best, found[0]):
             others = _in_other_words(evidence, bare, found[0], own, tried, account, jobs)
             found = _unique([*found, *others])
@@ -192,6 +197,25 @@ def _is_own_mode(evidence: Evidence, tuned: Explanation, one: Explanation) -> bo
         for name, value in cause.parameters.items()
         if name.startswith("frequency")
     )
+
+
+def _has_overtone(evidence: Evidence, one: Explanation) -> bool:
+    """Tell whether a cause repeats a few times within the period of another: its harmonic.
+
+    What a reference does not see is the sensor's own all the same.
+    """
+    apart = {"encoder_interpolation"} if evidence.has(Tap.REF) else set()
+    periods = [
+        cause.parameters["period"]
+        for cause in one.causes
+        if cause.id not in apart and "period" in cause.parameters
+    ]
+    for long in periods:
+        for short in periods:
+            times = round(long / short)
+            if 2 <= times <= _HARMONICS and abs(long / short - times) < _ONE_PERIOD * times:
+                return True
+    return False
 
 
 def _extended(

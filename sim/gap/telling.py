@@ -87,7 +87,7 @@ def _cause(examination: Examination, number: int, rng: np.random.Generator) -> C
         tap=tap,
         from_axis=asked.from_axis,
         probability=_trust(examination) * probability(ranked, key),
-        ambiguous_with=not_ruled_out(ranked, key),
+        ambiguous_with=not_ruled_out(ranked, key, examination.selection.raw),
         gap_before=floor * rms(before[shown]),
         gap_after=floor * rms(best.held_out[shown]),
         closed=share,

@@ -13,7 +13,7 @@ from rotemina.sim.robot.model import AxisEffect
 
 
 def explained(score, free, *ids):
-    return SimpleNamespace(ids=ids, score=score, fit=SimpleNamespace(free=range(free)))
+    return SimpleNamespace(ids=ids, score=score, fit=SimpleNamespace(parameters=free))
 
 
 def test_of_what_was_tried_alike_the_simplest_stays_that_is_as_good():

@@ -21,7 +21,7 @@ def ranked(cause, parameters, others=()):
 
 def test_rivals_near_the_likeliest_are_not_ruled_out():
     own = ranked("creep", {}, [("thermal_drift", 0.2), ("sensor_drift", 0.05)])
-    assert not_ruled_out(own, ("creep", None)) == ("thermal_drift",)
+    assert not_ruled_out(own, ("creep", None), 100.0) == ("thermal_drift",)
 
 
 @pytest.mark.parametrize(
@@ -30,7 +30,7 @@ def test_rivals_near_the_likeliest_are_not_ruled_out():
 )
 def test_a_slight_shift_of_the_resonance_may_be_a_small_mass_on_a_spring(error, damping, also):
     own = ranked("resonance_mismatch", {"frequency_error": error, "damping_error": damping})
-    assert not_ruled_out(own, ("resonance_mismatch", None)) == also
+    assert not_ruled_out(own, ("resonance_mismatch", None), 100.0) == also
 
 
 @pytest.mark.parametrize(("left", "also"), [(1.05, ("amplifier_lag",)), (1.2, ())])
@@ -39,7 +39,7 @@ def test_a_delay_may_be_a_lag_of_some_order_that_does_as_well(left, also):
         Rival("delay", None, 0.98, SimpleNamespace(score=1.0)),
         Rival("amplifier_lag", None, 0.02, SimpleNamespace(score=left)),
     ]
-    assert not_ruled_out(own, ("delay", None)) == also
+    assert not_ruled_out(own, ("delay", None), 100.0) == also
 
 
 @pytest.mark.parametrize(
@@ -53,4 +53,23 @@ def test_what_closes_more_with_more_parameters_is_not_ruled_out_while_something_
         Rival("backlash", None, 0.95, SimpleNamespace(score=own)),
         Rival("friction", None, 0.02, SimpleNamespace(score=other)),
     ]
-    assert not_ruled_out(ranked, ("backlash", None)) == also
+    assert not_ruled_out(ranked, ("backlash", None), 100.0) == also
+
+
+@pytest.mark.parametrize(
+    ("cause", "left", "other", "also"),
+    [
+        ("friction", 50.0, 300.0, ("backlash",)),
+        ("backlash", 50.0, 300.0, ("friction",)),
+        ("friction", 50.0, 800.0, ()),
+        ("friction", 10.0, 300.0, ()),
+        ("creep", 50.0, 300.0, ()),
+    ],
+)
+def test_what_sticks_and_what_is_loose_are_kin_where_no_formula_is_right(cause, left, other, also):
+    twin = "friction" if cause == "backlash" else "backlash"
+    ranked = [
+        Rival(cause, None, 0.99, SimpleNamespace(score=left)),
+        Rival(twin, None, 0.01, SimpleNamespace(score=other)),
+    ]
+    assert not_ruled_out(ranked, (cause, None), 1e4) == also

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from rotemina.sim.gap.selection import _enters, _is_own_mode, _twins
+from rotemina.sim.gap.selection import _enters, _has_overtone, _is_own_mode, _twins
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -59,3 +59,22 @@ def test_a_mode_at_the_axis_own_resonance_is_no_further_one(frequency_hz, own):
     evidence = SimpleNamespace(robot=load_robot("rotemina"), axis="thx")
     one = SimpleNamespace(causes=(mode,), fit=SimpleNamespace(effects=(mode, tuned)))
     assert _is_own_mode(evidence, one, one) is own
+
+
+@pytest.mark.parametrize(
+    ("second", "period", "with_ref", "overtone"),
+    [
+        ("encoder_interpolation", 1.0005e-3 / 3, False, True),
+        ("encoder_interpolation", 1.0005e-3 / 3, True, False),
+        ("microstep_error", 1e-3 / 5, True, True),
+        ("encoder_interpolation", 1.03e-3 / 3, False, False),
+        ("encoder_interpolation", 1e-3 / 50, False, False),
+    ],
+)
+def test_what_repeats_a_few_times_a_period_is_a_harmonic(second, period, with_ref, overtone):
+    evidence = SimpleNamespace(has=lambda tap: with_ref)
+    causes = [
+        AxisEffect(axis="x", id="leadscrew_error", parameters={"period": 1e-3}),
+        AxisEffect(axis="x", id=second, parameters={"period": period}),
+    ]
+    assert _has_overtone(evidence, SimpleNamespace(causes=causes)) is overtone
