@@ -24,7 +24,6 @@ _SIMPLER = 6.0  # times likelier, on a tie, for each parameter less
 _MOST_MORE = 2  # parameters that count so
 _ANOTHER_MACHINE = 0.02  # times as likely, with an own parameter of the model at its bound
 _SLIGHT = 0.01  # error of a frequency, below which a small mass on a spring may do it
-_AS_WELL = 1.1  # times a score
 _SLIGHTLY_DAMPED = 0.1  # the same for damping
 _PRIOR: Mapping[str, float] = {  # others: 1
     "sensor_gain": 0.5,
@@ -35,10 +34,11 @@ _PRIOR: Mapping[str, float] = {  # others: 1
     "cross_coupling": 0.7,
     "clock_skew": 0.5,
 }
-
 _KIN = {"backlash", "friction"}
 _FAR_OFF = 25.0  # mean square over the floor, from which a formula is far from right
 _NEARLY_ALL = 0.9  # of the gap's power
+_LAGS = {"amplifier_lag", "sensor_lag"}
+_SHAPE = {"second_order": 1, "third_order": 2}  # parameters of a lag beside its lateness
 
 DELAY = "delay"
 
@@ -72,14 +72,16 @@ def rivals(
         (own,) = [key for key in keys if key not in others] or [cause]
         if own != cause:
             found.append((own, one))
-    least = min(one.fit.parameters for _, one in found if _is_tied(best, one))
-    near = min(one.fit.parameters for _, one in found if _is_near(best, one, raw))
+    counts = [_counted(one, cause) for _, one in found]
+    each = list(zip(found, counts, strict=True))
+    least = min(count for (_, one), count in each if _is_tied(best, one))
+    near = min(count for (_, one), count in each if _is_near(best, one, raw))
     weights = np.array(
         [
             _weight(evidence, best, one)
-            * _prior(key[0], _more_parameters(best, one, least, near))
+            * _prior(key[0], _more_parameters(best, one, count, least, near))
             * _as_the_machine(one)
-            for key, one in found
+            for (key, one), count in each
         ]
     )
     shares = weights / weights.sum()
@@ -90,9 +92,9 @@ def rivals(
 def not_ruled_out(ranked: Sequence[Rival], cause: Key, raw: float) -> tuple[str, ...]:
     """Return the effects that the data cannot tell from a cause.
 
-    ``raw`` is the mean square of the gap over the floor.
-    One that closes most is among them where the cause leaves something: that it takes more
-    parameters speaks against it, but rules nothing out while no formula is quite right.
+    ``raw`` is the mean square of the gap over the floor. One that closes most is among them where
+    the cause leaves something: that it takes more parameters speaks against it, but rules nothing
+    out while no formula is quite right.
     """
     likeliest = max(one.probability for one in ranked)
     names = [
@@ -140,15 +142,8 @@ def _is_slight(ranked: Sequence[Rival]) -> bool:
     return abs(error) < _SLIGHT and abs(damping) < _SLIGHTLY_DAMPED
 
 
-def _is_a_lag_as_well(ranked: Sequence[Rival]) -> bool:
-    """Tell whether a lag of some order does as well as a delay: that order needs no parameters."""
-    left = {one.effect: one.explanation.score for one in reversed(ranked)}
-    return left.get("amplifier_lag", np.inf) < _AS_WELL * left[DELAY]
-
-
 _IMITATED: Sequence[tuple[Key, str, Callable[[Sequence[Rival]], bool]]] = (
     ((RESONANCE, None), "flexible_mode", _is_slight),
-    ((DELAY, None), "amplifier_lag", _is_a_lag_as_well),
 )
 
 
@@ -168,14 +163,24 @@ def _as_the_machine(one: Explanation) -> float:
     return _ANOTHER_MACHINE if any(number in own for number, _ in one.fit.at_bound) else 1.0
 
 
-def _more_parameters(best: Explanation, other: Explanation, least: int, near: int) -> int:
+def _counted(one: Explanation, cause: Key) -> int:
+    """Return how many parameters an explanation has, but for the shape of a lag beside a delay.
+
+    A filter has some order: that a delay knows none makes it no likelier.
+    """
+    forms = [own.formulation for own in one.causes if cause[0] == DELAY and own.id in _LAGS]
+    return one.fit.parameters - sum(_SHAPE.get(form or "", 0) for form in forms)
+
+
+def _more_parameters(
+    best: Explanation, other: Explanation, count: int, least: int, near: int
+) -> int:
     """Return how many parameters more count against an explanation.
 
     All beyond the ``least`` of those that do as well; but one at most beyond those that come
     ``near``. By other equations than a machine's own nothing is quite right, and much that one
     explanation closes more than another may be but what its many parameters bend.
     """
-    count = other.fit.parameters
     return max(count - least if _is_tied(best, other) else 0, int(count > near))
 
 

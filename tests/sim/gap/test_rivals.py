@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from rotemina.sim.gap.rivals import Rival, not_ruled_out
+from rotemina.sim.gap.rivals import Rival, _counted, not_ruled_out
 from rotemina.sim.robot.model import AxisEffect
 
 
@@ -33,13 +33,22 @@ def test_a_slight_shift_of_the_resonance_may_be_a_small_mass_on_a_spring(error, 
     assert not_ruled_out(own, ("resonance_mismatch", None), 100.0) == also
 
 
-@pytest.mark.parametrize(("left", "also"), [(1.05, ("amplifier_lag",)), (1.2, ())])
-def test_a_delay_may_be_a_lag_of_some_order_that_does_as_well(left, also):
-    own = [
-        Rival("delay", None, 0.98, SimpleNamespace(score=1.0)),
-        Rival("amplifier_lag", None, 0.02, SimpleNamespace(score=left)),
-    ]
-    assert not_ruled_out(own, ("delay", None), 100.0) == also
+def lag(formulation):
+    cause = AxisEffect(axis="zn", id="amplifier_lag", formulation=formulation)
+    return SimpleNamespace(causes=(cause,), fit=SimpleNamespace(parameters=6))
+
+
+@pytest.mark.parametrize(
+    ("formulation", "cause", "counted"),
+    [
+        ("third_order", "delay", 4),
+        ("second_order", "delay", 5),
+        ("first_order", "delay", 6),
+        ("third_order", "hysteresis", 6),
+    ],
+)
+def test_the_order_of_a_lag_makes_a_delay_no_likelier(formulation, cause, counted):
+    assert _counted(lag(formulation), (cause, None)) == counted
 
 
 @pytest.mark.parametrize(
@@ -61,7 +70,7 @@ def test_what_closes_more_with_more_parameters_is_not_ruled_out_while_something_
     [
         ("friction", 50.0, 300.0, ("backlash",)),
         ("backlash", 50.0, 300.0, ("friction",)),
-        ("friction", 50.0, 800.0, ()),
+        ("friction", 50.0, 1200.0, ()),
         ("friction", 10.0, 300.0, ()),
         ("creep", 50.0, 300.0, ()),
     ],
