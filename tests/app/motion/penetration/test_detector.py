@@ -72,6 +72,21 @@ def test_innovations_of_noise_alone_raise_alarms_as_rarely_as_that():
     assert 30 < alarms < 110
 
 
+def test_a_soft_membrane_is_placed_within_a_fifth_of_a_micrometre_at_the_rate_of_telemetry():
+    rng = np.random.default_rng(12)
+    errors = []
+    for _ in range(300):
+        feed = (column[::5] for column in approach(rng, 1.0, kink(6e-6, 0.1)))
+        noise = noise_at_rest(np.arange(200) / 200.0, rng.normal(0.0, SIGMA, 200))
+        found = ContactDetector(
+            noise, 0.0, SPEED, drift=0.15, drift_length=1e-3, false_alarms_per_hour=1.0
+        ).feed(*feed)
+        assert found is not None
+        errors.append(found.command + 6e-6)
+    assert np.std(errors) < 2e-7
+    assert np.mean(np.abs(errors) > 5e-7) < 0.02
+
+
 @pytest.mark.parametrize("slope", [0.1, 0.25, 0.5])
 def test_a_kink_is_found_soon_and_where_it_was(slope):
     rng = np.random.default_rng(4)
