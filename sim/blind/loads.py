@@ -9,6 +9,10 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.blind import mechanics
 from rotemina.sim.blind.part import Axis, Course, Part, Stage
 
+_BRISTLES = 6
+_ALL_SHARES = 21.0  # 1 + 2 + … + 6
+_HALVINGS = 45
+
 
 def row(code: int, axis: Axis, numbers: Sequence[float]) -> FloatArray:
     """Return the row of a load table."""
@@ -21,31 +25,55 @@ def row(code: int, axis: Axis, numbers: Sequence[float]) -> FloatArray:
 def backlash(axis: Axis, rng: np.random.Generator) -> Part:
     """Dead band in the drive train, ahead of the axis' springs; size is its width, m.
 
-    A Duhem model: dy = ((1 ± (x − y)/h)/2)ⁿ dx with the half width h, + on the way up; the drive
-    takes the load up softly, the more so the smaller n.
+    A nut without mass between two flanks, on a dry guide: where it stands, the push of a flank,
+    ``(δ / bh)ⁿ`` at an indentation δ ≤ bh, equals what the guide holds it back with, bristles that
+    slip one after the other over a length gh, 1 in all; h is half the gap. Dragged along, the nut
+    stays half the width, h + bh, behind; in the gap nothing moves it.
     """
-    power = np.exp(rng.uniform(np.log(3.0), np.log(30.0)))
+    flank = np.exp(rng.uniform(np.log(0.03), np.log(0.4)))
+    bristles = np.exp(rng.uniform(np.log(0.03), np.log(0.4)))
+    power = rng.uniform(1.0, 2.0)
 
     def act(values: FloatArray, course: Course, size: float) -> FloatArray:
-        return _dragged(values, 0.5 * size, power)
+        half_gap = 0.5 * size / (1.0 + flank)
+        return _pushed(values / half_gap, flank, bristles, power) * half_gap
 
     return Part("backlash", axis, Stage.ACTUATOR, act, (1e-7, 3e-5))
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _dragged(values: FloatArray, half: float, power: float) -> FloatArray:
+def _pushed(values: FloatArray, flank: float, bristles: float, power: float) -> FloatArray:
+    """Return where the nut is, (n,); all lengths are in half gaps."""
     out = np.empty_like(values)
-    behind = half  # after a rise
+    held = np.zeros(_BRISTLES)
+    nut = values[0] - 1.0 - flank
+    for i in range(_BRISTLES):
+        held[i] = (i + 1.0) / _ALL_SHARES  # after a rise: all slip
     for k in range(len(values)):
-        move = values[k] - values[k - 1] if k > 0 else 0.0
-        pieces = min(max(int(np.ceil(abs(move) / (0.1 * half))), 1), 400)
-        for _ in range(pieces):
-            side = behind / half if move > 0.0 else -behind / half
-            taken = max(0.5 + 0.5 * side, 0.0) ** power
-            behind += move / pieces * (1.0 - taken)
-            behind = min(max(behind, -half), half)
-        out[k] = values[k] - behind
+        low, high = min(nut, values[k] - 1.0 - flank), max(nut, values[k] + 1.0 + flank)
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (low + high)
+            deep = max(abs(values[k] - middle) - 1.0, 0.0)
+            push = np.sign(values[k] - middle) * (deep / flank) ** power
+            for i in range(_BRISTLES):
+                push -= _drawn(held[i], middle - nut, i, bristles)
+            if push > 0.0:
+                low = middle
+            else:
+                high = middle
+        # In the gap the guide alone says where the nut is; it stays where nothing pulls.
+        there = 0.5 * (low + high)
+        for i in range(_BRISTLES):
+            held[i] = _drawn(held[i], there - nut, i, bristles)
+        nut = out[k] = there
     return out
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _drawn(held: float, way: float, i: int, bristles: float) -> float:
+    """Return what bristle i holds with after a way: the longer it is, the stronger."""
+    share = (i + 1.0) / _ALL_SHARES
+    return float(min(max(held + share * way * _BRISTLES / (bristles * (i + 1.0)), -share), share))
 
 
 def friction(axis: Axis, rng: np.random.Generator) -> Part:

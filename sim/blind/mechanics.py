@@ -112,22 +112,29 @@ def _stribeck(v: float, coulomb: float, static: float, speed: float) -> float:
 
 @numba.njit(cache=True, error_model="numpy")
 def _maxwell(row: FloatArray, memory: FloatArray, v: float, step_s: float) -> float:
-    """Generalised Maxwell slip: six elements that stick or slip towards their Stribeck share.
+    """Generalised Maxwell slip: six elements that stick, or slip towards their Stribeck share.
+
+    An element sticks until it holds its share of what the speed allows, and slips, that share
+    catching up with a rate of its own, until the motion turns; its springs pull no more meanwhile.
 
     Row: Coulomb by direction, static over Coulomb, Stribeck speed, presliding length, attraction,
     viscous.
     """
     coulomb = row[2] if v > 0.0 else row[3]
     bound = _stribeck(v, coulomb, coulomb * row[4], row[5])
+    side = np.sign(v)
     total = row[8] * v
     for i in range(6):
         share = (i + 1) / 21.0
-        length = row[6] * (i + 1) / 6.0
-        f = memory[i] + share * row[2] / length * v * step_s
-        most = share * bound
-        if abs(f) > most:
-            f = np.sign(f) * (most + (abs(f) - most) * np.exp(-step_s * row[7]))
-            f = min(max(f, -2.0 * most), 2.0 * most)
+        f = memory[i]
+        if side != 0.0 and memory[6 + i] == side:
+            f = side * share * bound + (f - side * share * bound) * np.exp(-step_s * row[7])
+        else:
+            f += share * row[2] / (row[6] * (i + 1) / 6.0) * v * step_s
+            slips = f * side >= share * bound
+            memory[6 + i] = side if slips else 0.0
+            if slips:
+                f = side * min(f * side, share * coulomb * row[4])
         memory[i] = f
         total += f
     return float(total)

@@ -16,7 +16,7 @@ from rotemina.sim.blind.loads import (
     stiffness_nonlinearity,
 )
 from rotemina.sim.blind.machine import Commands, machine_of
-from rotemina.sim.blind.mechanics import ROW, hardened
+from rotemina.sim.blind.mechanics import ROW, SLIP, hardened, load_force
 from rotemina.sim.blind.part import Course
 from rotemina.sim.blind.preisach import draw_plane, run_plane
 from rotemina.sim.blind.sensing import encoder_interpolation, sensor_lag
@@ -163,6 +163,29 @@ def test_backlash_leaves_the_axis_half_its_width_behind(seed):
     assert late[590] == pytest.approx(-2e-6, rel=0.25)  # after a rise, long ago
     assert late[1190] == pytest.approx(-2e-6, rel=0.25)
     assert late[1790] == pytest.approx(2e-6, rel=0.25)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_dither_within_the_play_moves_nothing(axis, seed):
+    rise = np.linspace(0.0, 30e-6, 2000)
+    dither = 0.8e-6 * np.sin(np.linspace(0.0, 60.0 * np.pi, 6000))
+    values = axis.low + np.concatenate([rise, 26.5e-6 + dither])  # off the flank
+    out = backlash(axis, np.random.default_rng(seed)).act(values, Course(1e-3, 1, 0, 0), 8e-6)
+    assert np.ptp(out[4000:]) < 1e-3 * 8e-6
+    turned = values[2000:].mean() - out[4000:].mean()
+    assert abs(turned) < 4e-6  # and it has not come to where a rise or a fall leaves it
+
+
+@pytest.mark.parametrize("speed", [1e-5, 1e-4, 1e-3, 1e-2])
+def test_slip_elements_hold_back_by_their_stribeck_force_at_any_speed(speed):
+    row, memory = np.zeros(ROW), np.zeros(12)
+    row[0], row[2:9] = SLIP, (40.0, 44.0, 1.4, 2e-4, 3e-7, 3e3, 0.0)
+    for _ in range(20_000):
+        force = load_force(row, memory, 0.0, speed, 0, 5e-5)
+    assert -force == pytest.approx(40.0 * (1.0 + 0.4 / (1.0 + (speed / 2e-4) ** 2)), rel=1e-6)
+    for _ in range(20_000):
+        force = load_force(row, memory, 0.0, -speed, 0, 5e-5)
+    assert force == pytest.approx(44.0 * (1.0 + 0.4 / (1.0 + (speed / 2e-4) ** 2)), rel=1e-6)
 
 
 @pytest.mark.parametrize("seed", range(5))
