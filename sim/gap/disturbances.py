@@ -286,10 +286,14 @@ def _by_cells(
 def _as_expected(
     evidence: Evidence, observation: Observation, answer: Signals, kept: BoolArray
 ) -> tuple[FloatArray, FloatArray, float]:
-    """Return what was read (n,), what a sensor as declared might read, and its finest step."""
+    """Return what was read (n,), what a sensor as declared might read, and its finest step.
+
+    It reads what a reference tells, if one was recorded: that is where the axis really was.
+    """
     sensor = evidence.robot.axes[evidence.axis].sensor
     reading = observation.real[Tap.MEAS][kept]
-    expected = _noisy(answer[Tap.MEAS][kept], 0.0 if sensor is None else sensor.noise_rms)
+    where = observation.real.get(Tap.REF, answer[Tap.MEAS])[kept]
+    expected = _noisy(where, 0.0 if sensor is None else sensor.noise_rms)
     finest = observation.floor[Tap.MEAS]
     if sensor is not None and sensor.resolution:
         finest = max(finest, sensor.resolution)

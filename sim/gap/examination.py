@@ -5,6 +5,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from rotemina.sim.effects.formulation import Stage
+from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.attribution import attributed
 from rotemina.sim.gap.baseline import OWN
 from rotemina.sim.gap.contest import Ranking, contested
@@ -295,8 +297,13 @@ def _counting(
     aside: Sequence[Disturbance],
     drift: Disturbance | None,
 ) -> tuple[Disturbance, ...]:
-    """Return the disturbances that are a cause: each closes its share, or clearly what is left."""
+    """Return the disturbances that are a cause: each closes its share, or clearly what is left.
+
+    What a sensor's own error leaves, told by other equations than the machine's, changes with the
+    place and shows at no reference: beside one a wander needs its share.
+    """
     found = list(aside)
+    misread = any(effect_named(one.id).stage is Stage.SENSOR for one in best.causes)
     if drift is not None:
         raised = (evidence.floor(drift.tap) / whole.floor(drift.tap)) ** 2
         found.append(replace(drift, power=drift.power * raised))
@@ -312,7 +319,8 @@ def _counting(
         left = by_tap[one.tap] - 1.0
         least = _TAILS if others and one.effect == "sensor_outliers" else LEAST_SHARE
         share = one.power >= least * (raw[one.tap] - 1.0)
-        if one.power >= LEAST_POWER and (share or one.power >= CLEARLY * left):
+        clearly = one.power >= CLEARLY * left and not (misread and one.effect == "sensor_drift")
+        if one.power >= LEAST_POWER and (share or clearly):
             counting.append(one)
     return tuple(counting)
 
