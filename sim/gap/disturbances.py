@@ -17,6 +17,7 @@ from rotemina.sim.gap.cells import cell_of, floor_beyond
 from rotemina.sim.gap.coarseness import coarse_step, stands_on
 from rotemina.sim.gap.evidence import Evidence, Observation, Signals
 from rotemina.sim.gap.excursions import excursions
+from rotemina.sim.gap.fit import fit
 from rotemina.sim.gap.jumps import jumps as jumps_in
 from rotemina.sim.gap.tones import tone_signals, tones
 from rotemina.sim.gap.whiteness import common_level, noise_level
@@ -26,6 +27,8 @@ from rotemina.sim.robot.model import AxisEffect, StepperAxis
 _MORE_NOISE = 1.3  # floors from which noise is more than declared
 _SETTLED_S = 0.3  # after which a held axis rests
 _AROUND_A_JUMP_S = 0.08
+_LOOSE = 0.85  # of the gap's power, that a play closes where no steps were lost
+_PLAY_STEPS = 4
 _JUMPING = 0.6  # of the gap's power in all records, that lost steps must close
 _SHAKEN = 0.1  # of its range, that another axis' going through all of its own may shake an axis
 _REST_ROWS = 100
@@ -95,11 +98,28 @@ def _without_jumps(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
     gap = {tap: _power(evidence, evidence.residual(), tap) for tap in power}
     if all(total < _JUMPING * gap[tap] * _rows(evidence, tap) for tap, total in power.items()):
         return evidence, []  # a play that is used up, or what else is there in all records
+    if power and _is_loose(evidence):
+        return evidence, []
     note = f"{count} sudden jumps by whole multiples of four full steps were taken back."
     return evidence.with_observations(observations), [
         Disturbance("lost_steps", tap, total / _rows(evidence, tap), note)
         for tap, total in power.items()
     ]
+
+
+def _is_loose(evidence: Evidence) -> bool:
+    """Tell whether one play does at every reversal what jumps would do at some.
+
+    So jumps an axis that is loose, and one that its drive bends until it breaks loose.
+    """
+    before = evidence.residual()
+    part = evidence.parts[0]
+    width = 2.0 * float(np.std(before[part.rows])) * evidence.floor(part.tap)
+    play = AxisEffect(
+        axis=evidence.axis, id="backlash", formulation="rigid", parameters={"width": width}
+    )
+    left = fit(evidence, [play], most_steps=_PLAY_STEPS).cost
+    return left < (1.0 - _LOOSE) * float(np.mean(before**2))
 
 
 def _late_left(gap: FloatArray, answer: FloatArray, time_s: FloatArray) -> float:

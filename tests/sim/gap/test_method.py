@@ -135,7 +135,6 @@ def test_two_effects_on_one_axis_are_told_apart():
 
 
 @pytest.mark.slow
-@pytest.mark.slow
 def test_what_sticks_and_breaks_loose_by_whole_steps_lost_none():
     # Bent by 190 N both ways, the drive lets go by 19 µm: nearly four full steps.
     force = {"coulomb_forward": 190.0, "coulomb_backward": 190.0}
@@ -149,8 +148,7 @@ def test_what_sticks_and_breaks_loose_by_whole_steps_lost_none():
             time_s, {("x", Tap.CMD): 0.0275 + way * to_and_fro}, {"x": "m"}
         )
         seen.append(simulate(ROBOT, [stuck], command, rng))
-    _, aside = set_aside(Evidence.of(ROBOT, "x", seen))
-    assert "lost_steps" in {one.effect for one in aside}
+    assert not set_aside(Evidence.of(ROBOT, "x", seen))[1]
     assert named(diagnose(ROBOT, seen)) == {("x", "friction", None)}
 
 
