@@ -22,7 +22,8 @@ _SAME = 0.15  # of the likeliest one's probability, from which a rival is not ru
 _INEXACT = 2.0  # mean square over the floor, from which a formula is not quite right
 _SIMPLER = 6.0  # times likelier, on a tie, for each parameter less
 _MOST_MORE = 2  # parameters that count so
-_ANOTHER_MACHINE = 0.02  # times as likely, with an own parameter of the model at its bound
+_ANOTHER_MACHINE = 0.02  # times as likely, with an own parameter of the model at a bound
+_AT_AN_END = 0.01  # of a parameter's bounds apart, how near to one it is at it
 _SLIGHT = 0.01  # error of a frequency, below which a small mass on a spring may do it
 _SLIGHTLY_DAMPED = 0.1  # the same for damping
 _PRIOR: Mapping[str, float] = {  # others: 1
@@ -160,7 +161,13 @@ def probability(ranked: Sequence[Rival], cause: Key) -> float:
 def _as_the_machine(one: Explanation) -> float:
     """Return how likely it is that the model's own parameters are so far off."""
     own = [number for number, effect in enumerate(one.fit.effects) if effect.id in OWN]
-    return _ANOTHER_MACHINE if any(number in own for number, _ in one.fit.at_bound) else 1.0
+    reached = (
+        min(x * free.size - free.low, free.high - x * free.size)
+        < _AT_AN_END * (free.high - free.low)
+        for free, x in zip(one.fit.free, one.fit.x, strict=True)
+        if free.effect in own
+    )
+    return _ANOTHER_MACHINE if any(reached) else 1.0
 
 
 def _counted(one: Explanation, cause: Key) -> int:
