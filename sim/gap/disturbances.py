@@ -41,13 +41,14 @@ class Disturbance:
     """Something that chance or time alone decides.
 
     ``power`` is what it adds to the mean square of the gap at the tap, in declared floors;
-    ``note`` a whole sentence.
+    ``note`` a whole sentence; ``step`` of a reading in steps, SI.
     """
 
     effect: str
     tap: Tap
     power: float
     note: str
+    step: float | None = None
 
 
 def set_aside(
@@ -278,7 +279,7 @@ def _with_true_floors(evidence: Evidence, *, cells: bool) -> tuple[Evidence, lis
         # At rest an error of up to half a step stays as it is, which no mean over errors tells.
         raised = _raised(evidence, float(np.sqrt(1.0 + 3.0 * power)))
         seen = _by_cells(evidence, raised, answers, step) if cells else raised
-        return seen, [Disturbance("sensor_quantization", Tap.MEAS, power, note)]
+        return seen, [Disturbance("sensor_quantization", Tap.MEAS, power, note, step)]
     if level > _MORE_NOISE:
         note = f"The sensor is {level:.3g} times as noisy as declared."
         return _raised(evidence, level), [

@@ -28,6 +28,7 @@ from rotemina.sim.gap.selection import (
     Selection,
     select,
 )
+from rotemina.sim.gap.stepping import steps_of
 from rotemina.sim.gap.verdict import closed, decide
 from rotemina.sim.gap.wander import wander
 from rotemina.sim.records.record import Tap
@@ -57,7 +58,7 @@ class Examination:
     ``evidence`` is without what was set aside, and ``declared`` the noise floor of each tap, SI,
     before that raised it; ``disturbances`` are what of it counts. The fit
     of ``best`` may hold more than its causes: what corrects the model further but is too small, or
-    too much like something else, to be named.
+    too much like something else, to be named. In ``steps`` the corrected model reads.
     """
 
     evidence: Evidence
@@ -68,13 +69,15 @@ class Examination:
     verdict: Verdict
     ranked: Ranking
     probe: Probe
+    steps: tuple[AxisEffect, ...] = ()
 
     @property
     def fitted(self) -> tuple[AxisEffect, ...]:
         """What corrects the model: the causes and the small re-tuning that they bring along."""
-        if self.verdict is not Verdict.EXPLAINED or not self.best.causes:
+        if self.verdict is not Verdict.EXPLAINED:
             return ()
-        return tuple(one for one in self.best.fit.effects if _acts(one))
+        acting = self.best.fit.effects if self.best.causes else ()
+        return (*(one for one in acting if _acts(one)), *self.steps)
 
 
 def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
@@ -121,6 +124,7 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
         verdict = Verdict.INSUFFICIENT
     if verdict is Verdict.EXPLAINED and drift is None:
         best = _fullest(selection, best)
+    steps = _stepped(whole, best, disturbances) if verdict is Verdict.EXPLAINED else ()
     return Examination(
         evidence,
         _floors(whole),
@@ -130,7 +134,17 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
         verdict,
         ranked,
         probed(evidence, best.held_out),
+        steps,
     )
+
+
+def _stepped(
+    whole: Evidence, best: Explanation, disturbances: Sequence[Disturbance]
+) -> tuple[AxisEffect, ...]:
+    """Return the steps in which the corrected model is to read, if a coarse sensor was found."""
+    acting = [one for one in best.fit.effects if _acts(one)] if best.causes else []
+    found = (steps_of(whole, acting, one.step) for one in disturbances if one.step is not None)
+    return tuple(one for one in found if one is not None)
 
 
 def _looked_again(whole: Evidence, first: _Found, account: Account, jobs: int) -> _Found:
