@@ -19,6 +19,7 @@ from rotemina.sim.robot.model import Robot
 _ALIKE = (
     {"delay", "amplifier_lag", "sensor_lag"},
     {"gain_error", "sensor_gain", "hysteresis", "stiffness_nonlinearity"},
+    {"gain_error", "sensor_gain", "static_nonlinearity", "sensor_nonlinearity"},
     {"static_nonlinearity", "sensor_nonlinearity", "saturation", "contact"},
     {"thermal_drift", "sensor_drift", "creep"},
     {"quantization", "sensor_quantization"},

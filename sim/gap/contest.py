@@ -20,7 +20,7 @@ from rotemina.sim.gap.models import (
     mean_squares,
 )
 from rotemina.sim.gap.richness import alike_axes
-from rotemina.sim.gap.rivals import DELAY, Key, Rival, rivals
+from rotemina.sim.gap.rivals import DELAY, Key, Rival, probability, rivals
 from rotemina.sim.gap.selection import LEAST_POWER, Selection
 from rotemina.sim.gap.verdict import closed
 from rotemina.sim.records.record import Tap
@@ -41,6 +41,7 @@ _DOUBTED_OF_LITTLE = 0.9
 _BESIDE_A_WANDER = 0.3  # of the gap's power, that a cause closes at least
 _AS_SLOW = {"thermal_drift": 0.7}  # the same for what is as slow as a wander
 _LIKELIER = 0.6  # probability from which a rival takes a cause's place
+_TIMES_LIKELIER = 2.5  # the same beside that of the cause
 _TURNS = 2  # in which rivals may take a cause's place: one may be simpler beside another
 _AS_GOOD = 1.03  # times a score
 _LOAD_ABOVE = 1.8  # times an axis' resonance, from where that of a mass on it is looked for
@@ -93,9 +94,17 @@ def _likelier(ranked: Mapping[Key, Sequence[Rival]]) -> Explanation | None:
 
     It does about as well with fewer parameters.
     """
-    found = [own[0] for key, own in ranked.items() if (own[0].effect, own[0].from_axis) != key]
+    found = [
+        own[0]
+        for key, own in ranked.items()
+        if (own[0].effect, own[0].from_axis) != key
+        and (
+            own[0].probability >= _LIKELIER
+            or own[0].probability >= _TIMES_LIKELIER * probability(own, key)
+        )
+    ]
     surest = max(found, key=lambda one: one.probability, default=None)
-    return None if surest is None or surest.probability < _LIKELIER else surest.explanation
+    return None if surest is None else surest.explanation
 
 
 def _of_its_kind(ranked: Sequence[Rival], key: Key) -> float:
