@@ -36,7 +36,7 @@ def backlash(axis: Axis, rng: np.random.Generator) -> Part:
 
     def act(values: FloatArray, course: Course, size: float) -> FloatArray:
         half_gap = 0.5 * size / (1.0 + flank)
-        return _pushed(values / half_gap, flank, bristles, power) * half_gap
+        return np.asarray(half_gap * _pushed(values / half_gap, flank, bristles, power))
 
     return Part("backlash", axis, Stage.ACTUATOR, act, (1e-7, 3e-5))
 
