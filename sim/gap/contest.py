@@ -73,16 +73,19 @@ def contested(
         best = attributed(evidence, selection.bare, likelier)
         ranked = _ranked(evidence, selection, best)
     unsure = wanders or max(aside.values(), default=0.0) > selection.raw
+    once: set[Key] = set()  # a re-tuned parameter may come back in what the others leave
     while len(best.causes) > 1 or (best.causes and unsure):
-        doubted = [
+        doubted = {
             key
             for key, own in ranked.items()
             if _of_its_kind(own, key) < _least_sure(evidence, selection, aside, best, key)
-        ]
+        }
         if wanders:
-            doubted += [key for key in best.ids if _bends_to(evidence, best, key)]
+            doubted |= {key for key in best.ids if _bends_to(evidence, best, key)}
+        doubted -= once
         if not doubted:
             break
+        once |= doubted
         kept = [one for one in best.causes if (one.id, one.from_axis) not in doubted]
         best = _with_only(evidence, selection, kept)
         ranked = _ranked(evidence, selection, best)
