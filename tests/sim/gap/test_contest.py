@@ -7,6 +7,7 @@ import pytest
 from scipy.linalg import eigh
 
 from rotemina.sim.effects.attachment import Attached
+from rotemina.sim.gap import contest
 from rotemina.sim.gap.contest import _alike, _bends_to, _loads, _of_its_kind, _one_of_each, _twins
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -69,6 +70,24 @@ def test_what_is_as_slow_as_a_wander_must_close_most_of_it(effect, left, none):
     cause = AxisEffect(axis="x", id=effect)
     best = SimpleNamespace(causes=(cause,), score=left)
     assert _bends_to(evidence, best, (effect, None)) is none
+
+
+def test_a_doubted_cause_that_comes_back_in_what_is_left_ends_the_contest(monkeypatch):
+    keys = (("creep", None), ("resonance_mismatch", None))
+    causes = tuple(AxisEffect(axis="x", id=name) for name, _ in keys)
+    whole = SimpleNamespace(causes=causes, ids=keys)
+    left = SimpleNamespace(causes=causes[1:], ids=keys[1:])
+    doubt = SimpleNamespace(from_axis=None, probability=0.2)
+
+    def ranked(_evidence, _selection, best):
+        return {key: (SimpleNamespace(effect=key[0], **vars(doubt)),) for key in best.ids}
+
+    returns = iter([whole, left])
+    monkeypatch.setattr(contest, "_ranked", ranked)
+    monkeypatch.setattr(contest, "_least_sure", lambda *_: 0.5)
+    monkeypatch.setattr(contest, "_with_only", lambda *_: next(returns))
+    best, _ = contest.contested(None, SimpleNamespace(raw=9.0), whole, {}, wanders=False)
+    assert best is whole  # which has come back once, and would for ever
 
 
 def test_what_does_the_same_at_the_sensor_is_one_kind():
