@@ -31,6 +31,7 @@ from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import AxisEffect, Robot
 
 _LEAST_LEFT = 0.06  # of an axis' gap, that other axes' causes must leave for it to have its own
+_LEAKED = 0.25  # the same, where nothing explains it: other axes' formulas are not quite right
 _SHAKES = 10.0  # times the power of a gap, that a coupled axis' one has to be the reason of it
 _LEAST_BEYOND_THE_SENSOR = 2.5  # floors of a finer reference, that a sensor does not see
 _LEAST_GAP = 1.45  # floors below which a gap is no matter: an encoder at rest may be off so far
@@ -137,7 +138,10 @@ class _Run:
         now = float(np.mean(evidence.residual() ** 2))
         if context and now - 1.0 < _LEAST_LEFT * (before - 1.0):
             return
-        self.examined[name] = examine(evidence, account, jobs=self.jobs)
+        examined = examine(evidence, account, jobs=self.jobs)
+        leaked = context and now - 1.0 < _LEAKED * (before - 1.0)
+        if not (leaked and examined.verdict is Verdict.UNKNOWN):
+            self.examined[name] = examined
 
     def _bare(self, name: str) -> Evidence:
         return Evidence.of(self.robot, name, self.records)

@@ -1,9 +1,11 @@
 """The diagnosis from records to verdict, on short records of the simulator."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
-from rotemina.sim.gap import examination, selection
+from rotemina.sim.gap import examination, method, selection
 from rotemina.sim.gap.diagnosis import UNKNOWN, Verdict
 from rotemina.sim.gap.disturbances import set_aside
 from rotemina.sim.gap.errors import GapError
@@ -159,6 +161,33 @@ def test_a_resonance_that_is_far_off_is_no_further_mode():
     assert named(found) == {("thy", "resonance_mismatch", None)}
     fitted = {one.name: one.value for one in found.causes[0].parameters}
     assert fitted == pytest.approx(off, abs=0.01)
+
+
+@pytest.mark.parametrize(("found", "own"), [(0.02, True), (0.06, False)])
+def test_what_leaks_from_an_axis_whose_formula_is_not_quite_right_is_nothing_of_its_own(
+    monkeypatch, found, own
+):
+    def mode(share):
+        numbers = {"frequency": 330.0, "damping_ratio": 0.02, "mass_ratio": share}
+        return AxisEffect(
+            axis="thy", id="flexible_mode", formulation="appendage", parameters=numbers
+        )
+
+    seen = records([mode(0.3)], "thy", "thx")
+    run = method._Run(ROBOT, seen, np.random.default_rng(0), 1, lambda _progress: None)
+    whole = Evidence.of(ROBOT, "thx", seen)
+    before, left = whole.residual(), whole.residual([mode(found)])
+    assert np.mean(before**2) > 1.5
+    share = (np.mean(left**2) - 1.0) / (np.mean(before**2) - 1.0)
+    assert share > 0.3 if own else 0.07 < share < 0.2, share
+    answers = {"thy": SimpleNamespace(fitted=(mode(found),), verdict=Verdict.EXPLAINED)}
+    nothing = SimpleNamespace(fitted=(), verdict=Verdict.UNKNOWN)
+    monkeypatch.setattr(
+        method, "examine", lambda evidence, *_, **__: answers.get(evidence.axis, nothing)
+    )
+    for name in ("thy", "thx"):
+        run._examine(name, Evidence.of(ROBOT, name, seen), 0.0, 0.5)
+    assert ("thx" in run.examined) is own
 
 
 def test_what_no_effect_explains_is_unknown():
