@@ -5,8 +5,8 @@ Where the gap lies (:mod:`~rotemina.sim.gap.where`), which effects may cause it
 that their fit did not see (:mod:`~rotemina.sim.gap.fit`, :mod:`~rotemina.sim.gap.selection`), what
 can be told apart (:mod:`~rotemina.sim.gap.rivals`, :mod:`~rotemina.sim.gap.contest`), by which
 further experiment (:mod:`~rotemina.sim.gap.experiment`), and what can be said
-(:mod:`~rotemina.sim.gap.verdict`), axis by axis, the larger gaps first: what one axis does may show
-on another.
+(:mod:`~rotemina.sim.gap.verdict`), axis by axis: what one axis does may show on another
+(:mod:`~rotemina.sim.gap.order`).
 """
 
 import hashlib
@@ -23,6 +23,7 @@ from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.examination import Examination, examine
 from rotemina.sim.gap.experiment import experiments
 from rotemina.sim.gap.intake import check
+from rotemina.sim.gap.order import examination_order
 from rotemina.sim.gap.progress import Account, Listener, Progress, unheard
 from rotemina.sim.gap.telling import told_of
 from rotemina.sim.gap.where import Place, locate
@@ -111,7 +112,7 @@ class _Run:
         places = {name: locate(one, self.rng) for name, one in evidences.items()}
         gaps = [name for name in evidences if _has_gap(places[name])]
         gaps.sort(key=lambda name: -max(place.excess for place in places[name]))
-        for number, name in enumerate(gaps):
+        for number, name in enumerate(examination_order(evidences, gaps)):
             self._examine(name, evidences[name], 0.9 * number / len(gaps), 0.9 / len(gaps))
         told = {name: self._told_of(name, places[name], name in gaps) for name in evidences}
         return {name: self._shaken(one, told) for name, one in told.items()}
