@@ -8,7 +8,7 @@ import numpy as np
 from rotemina.sim.effects.formulation import Stage
 from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.attribution import attributed
-from rotemina.sim.gap.baseline import OWN
+from rotemina.sim.gap.baseline import OWN, is_own
 from rotemina.sim.gap.contest import Ranking, contested
 from rotemina.sim.gap.diagnosis import Verdict
 from rotemina.sim.gap.disturbances import Disturbance, by_effect, power_by_tap, set_aside
@@ -39,6 +39,7 @@ _TAILS = 0.08  # of the gap's power, that outliers have beyond the tails of what
 _WITH_TAILS = {"sensor_noise", "sensor_quantization", "vibration"}
 _STILL_OUT = 0.5  # of their power, that outliers keep beside an explanation
 _MUCH_BETTER = 0.7  # of a score: what else would correct the model is taken along
+_BETTER = 0.9  # of a score: what is left of the same causes beside more that is set aside
 _WITHOUT_JUMPS = 0.97  # of the gap, closed without them, from which jumps are none
 _NO_STEPS = 0.03  # of the power of steps: nothing explains their own error
 _BEYOND_STEPS = 0.8  # of what is beyond cells, that an explanation closes
@@ -160,6 +161,9 @@ def _looked_again(whole: Evidence, first: _Found, account: Account, jobs: int) -
         evidence, found = set_aside(whole, acting)
         if not _more(found, aside):
             break
+        again = explain(evidence, [one for one in best.causes if not is_own(evidence, one)])
+        if again.score > _BETTER * best.score:
+            break  # what is set aside beside these causes hid nothing
         selection, better = _explained(whole, evidence, found, account, jobs)
         if better.score > _MUCH_BETTER * best.score:
             break

@@ -46,6 +46,8 @@ _FITTED_LATER = 4
 _FITTED_SLOWLY = 2  # beside a cause that takes long to simulate
 _BEAM = (2, 1, 1)  # explanations that are extended, with one, two, three causes
 _ALSO = 2.5  # times the score of the best, up to which another is extended
+_BY_FAR_MOST = 0.99  # of the gap, closed, beside which nothing else is worth its runs
+_NEARLY_ALL = 0.999  # of the gap, closed, from which no other beginning does better
 _HOPELESS = 10.0  # times the cost of the best candidate
 _WORTH_GOING_ON = (0.25, 0.5, 1.0)  # share closed by one, two causes, to look for another
 _WORTH_A_FIRST_TRY = 4.0  # times what quick formulations leave, that a slow one may promise
@@ -102,9 +104,7 @@ def select(
     if alone.score >= NOTICED and closed(bare.score, alone.score) >= _MOSTLY_OWN:
         beam = [bare, alone]
     for level in range(MOST_CAUSES):
-        found: list[Explanation] = []
-        for begun in beam:
-            found += _extended(evidence, begun, own, bare, account, jobs)
+        found = _all_extended(evidence, beam, own, bare, account, jobs)
         found = _unique(_apart_from_own(evidence, bare, alone, found))
         overtones = [one for one in found if _has_overtone(evidence, one)]
         tried += overtones  # no cause of its own, but it corrects the model
@@ -117,6 +117,8 @@ def select(
             break
         if enters(best, found[0]):
             best = found[0]
+            if _is_enough(bare, best):
+                break
         elif level > 0 or _is_little(bare, best):
             break  # two causes may still do what one alone does not do better than a re-tuning
         beam = [one for one in found[: _BEAM[level]] if one.score < _ALSO * found[0].score]
@@ -169,6 +171,11 @@ def _is_little(bare: Explanation, begun: Explanation) -> bool:
     )
 
 
+def _is_enough(bare: Explanation, best: Explanation) -> bool:
+    """Tell whether no further cause can close its share, nor correct the model by much."""
+    return _is_little(bare, best) and closed(bare.score, best.score) > _BY_FAR_MOST
+
+
 def _apart_from_own(
     evidence: Evidence, bare: Explanation, alone: Explanation, found: Sequence[Explanation]
 ) -> list[Explanation]:
@@ -216,6 +223,26 @@ def _has_overtone(evidence: Evidence, one: Explanation) -> bool:
             if 2 <= times <= _HARMONICS and abs(long / short - times) < _ONE_PERIOD * times:
                 return True
     return False
+
+
+def _all_extended(
+    evidence: Evidence,
+    beam: Sequence[Explanation],
+    own: Sequence[AxisEffect],
+    bare: Explanation,
+    account: Account,
+    jobs: int,
+) -> list[Explanation]:
+    """Return the extensions of each explanation, up to one whose extension leaves next to nothing.
+
+    Re-tuned parameters and none are both extended all the same.
+    """
+    found: list[Explanation] = []
+    for begun in beam:
+        found += _extended(evidence, begun, own, bare, account, jobs)
+        if begun.causes and any(closed(bare.score, one.score) > _NEARLY_ALL for one in found):
+            break
+    return found
 
 
 def _extended(

@@ -84,7 +84,7 @@ class State(NamedTuple):
     seen: FloatArray
 
 
-@numba.njit(cache=True, error_model="numpy")
+@numba.njit(cache=True, error_model="numpy", inline="always")
 def _through(
     function: TableArray, numbers: FloatArray, memory: FloatArray, begin: int, end: int,
     x: float, own: float, t: float, h: float,
@@ -98,7 +98,7 @@ def _through(
     return x
 
 
-@numba.njit(cache=True, error_model="numpy")
+@numba.njit(cache=True, error_model="numpy", inline="always")
 def _drive(
     axis: TableArray, function: TableArray, numbers: FloatArray, memory: FloatArray, i: int,
     u: float, own: float, t: float, h: float,
@@ -192,7 +192,7 @@ def _effort(
     return float(min(max(effort, -own.limit), own.limit))
 
 
-@numba.njit(cache=True, error_model="numpy")
+@numba.njit(cache=True, error_model="numpy", inline="always")
 def _forces(
     axis: TableArray, function: TableArray, numbers: FloatArray, memory: FloatArray,
     group: TableArray, member: IntArray, g: int, into: FloatArray, at: int, t: float, h: float,
@@ -342,7 +342,7 @@ def _held_inputs(
             before[i] = a
 
 
-@numba.njit(cache=True, error_model="numpy")
+@numba.njit(cache=True, error_model="numpy", inline="always")
 def _follow(
     axis: TableArray, function: TableArray, numbers: FloatArray, memory: FloatArray,
     seen: FloatArray, output: TableArray, state: IntArray, weight: FloatArray, x: FloatArray,

@@ -6,6 +6,8 @@ import pytest
 from rotemina.sim.gap.candidates import candidates
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import fit
+from rotemina.sim.gap.models import beside, untouched
+from rotemina.sim.gap.screening import screen
 from rotemina.sim.gap.starts import starts
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
@@ -129,3 +131,21 @@ def test_a_skewed_clock_is_found_where_rows_hardly_sample_what_rings():
     found = fit(evidence, starts(evidence, fit(evidence, []), truth)[:1])
     assert found.effects[0].parameters["skew"] == pytest.approx(800.0, rel=0.01)
     assert found.cost < 1.3
+
+
+@pytest.mark.parametrize("centre", [-0.3, 0.17, 0.4])
+def test_a_fit_from_a_first_look_finds_a_flexure_wherever_it_is_straight(centre):
+    centre_m = centre * ROBOT.axes["zn"].span
+    truth = AxisEffect(
+        axis="zn",
+        id="stiffness_nonlinearity",
+        formulation="cubic",
+        parameters={"hardening": 0.2, "centre": centre_m},
+    )
+    seen = [sweep([truth], ("zn",), share=share) for share in (0.45, -0.45)]
+    evidence = Evidence.of(ROBOT, "zn", seen)
+    bare = AxisEffect(axis="zn", id="stiffness_nonlinearity", formulation="cubic")
+    look = screen(evidence, untouched(evidence).fit, bare, briefly=True)
+    found = fit(evidence, beside(evidence, [look.effect]))
+    assert found.effects[0].parameters["hardening"] == pytest.approx(0.2, rel=0.05)
+    assert found.effects[0].parameters["centre"] == pytest.approx(centre_m, rel=0.05)

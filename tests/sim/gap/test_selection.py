@@ -4,7 +4,13 @@ from types import SimpleNamespace
 
 import pytest
 
-from rotemina.sim.gap.selection import _enters, _has_overtone, _is_own_mode, _twins
+from rotemina.sim.gap.selection import (
+    _enters,
+    _has_overtone,
+    _is_enough,
+    _is_own_mode,
+    _twins,
+)
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -35,6 +41,23 @@ def test_what_was_set_aside_may_leave_something_of_itself():
     before, after = left(60.0), left(20.0, LAG)
     assert _enters(left(60.0), {Tap.MEAS: 1000.0}, before, after)
     assert not _enters(left(60.0), {Tap.MEAS: 10_000.0}, before, after)
+
+
+@pytest.mark.parametrize(
+    ("ref", "meas", "enough"),
+    [
+        (90.0, 9.0, True),
+        (400.0, 9.0, False),  # of the reference's gap, that another cause may close
+        (150.0, 25.0, False),  # a few hundredths in all, that others may correct
+        (90.0, 31.0, False),  # of the sensor's, which is the smaller one
+    ],
+)
+def test_no_more_is_looked_for_where_no_cause_can_close_its_share(ref, meas, enough):
+    def both(ref, meas):
+        taps = {Tap.REF: ref, Tap.MEAS: meas}
+        return SimpleNamespace(by_tap=taps, score=(ref + meas) / 2.0)
+
+    assert _is_enough(both(10_000.0, 1000.0), both(ref, meas)) is enough
 
 
 def alone(name, score, formulation=None):
