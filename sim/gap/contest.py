@@ -85,8 +85,10 @@ def contested(
         doubted -= once
         if not doubted:
             break
-        once |= doubted
-        kept = [one for one in best.causes if (one.id, one.from_axis) not in doubted]
+        # One at a time: without it, another that it stood in for may be beyond doubt.
+        least = min(doubted, key=lambda key: (_of_its_kind(ranked[key], key), key[0], key[1] or ""))
+        once.add(least)
+        kept = [one for one in best.causes if (one.id, one.from_axis) != least]
         best = _with_only(evidence, selection, kept)
         ranked = _ranked(evidence, selection, best)
     return best, ranked

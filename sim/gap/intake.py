@@ -57,7 +57,7 @@ def check(
     for one in labelled:
         _check_fit(robot, one)
         cautions += check_clock(one)
-        cautions += check_scales(robot, one)
+        cautions += check_scales(robot, one, records)
         cautions += check_sensors(robot, one)
         check_following(robot, one)
     check_copies(labelled)

@@ -15,6 +15,7 @@ from rotemina.sim.records.record import Tap
 
 _POWER = 2.0  # of what is left: how fast a rival loses with what it leaves
 _SLACK = 0.03  # of the floor's power, which two scores at the floor differ by chance
+_AT_THE_FLOOR = 1.3  # mean square over the floor, up to which a score may be all noise
 _TIED = 1.5  # times a score, within which another is as good
 _NEARLY = 0.02  # of the gap's power, within which another closes nearly as much
 _SURE = 3.0  # standard errors from which a difference counts in full
@@ -29,7 +30,8 @@ _SLIGHTLY_DAMPED = 0.1  # the same for damping
 _PRIOR: Mapping[str, float] = {  # others: 1
     "sensor_gain": 0.5,
     "sensor_nonlinearity": 0.5,
-    "sensor_lag": 0.5,
+    "amplifier_lag": 0.6,
+    "sensor_lag": 0.3,
     "vibration": 0.5,
     "contact": 0.5,
     "cross_coupling": 0.7,
@@ -175,7 +177,8 @@ def _counted(one: Explanation, cause: Key) -> int:
 
     A filter has some order: that a delay knows none makes it no likelier.
     """
-    forms = [own.formulation for own in one.causes if cause[0] == DELAY and own.id in _LAGS]
+    late = cause[0] == DELAY or cause[0] in _LAGS
+    forms = [own.formulation for own in one.causes if late and own.id in _LAGS]
     return one.fit.parameters - sum(_SHAPE.get(form or "", 0) for form in forms)
 
 
@@ -205,7 +208,9 @@ def _weight(evidence: Evidence, best: Explanation, other: Explanation) -> float:
     """Return how likely an explanation is beside the best one."""
     if other is best:
         return 1.0
-    floor = min(best.score, 1.3) if best.score < 1.3 else 1.0
+    # What is left near the floor may be noise that was declared too small, but not what another
+    # explanation closes.
+    floor = min(best.score, other.score) if best.score < _AT_THE_FLOOR else 1.0
     ratio = (max(other.score - floor, 0.0) + _SLACK) / (max(best.score - floor, 0.0) + _SLACK)
     doubt = min(1.0, (_errors_apart(evidence, best, other) / _SURE) ** 2)
     return float(ratio ** (-_POWER * doubt))

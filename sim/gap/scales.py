@@ -1,6 +1,6 @@
 """Units of records: what is off by a factor that no effect explains."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import permutations
 from math import log
@@ -27,8 +27,8 @@ _SLACK = 1e-9  # spans by which it does so unnoticed
 _HASTE = 30.0  # speed limits that the median speed may have
 
 
-def check_scales(robot: Robot, one: Labelled) -> Iterator[Caution]:
-    """Check commands against limits, and readings against commands.
+def check_scales(robot: Robot, one: Labelled, records: Sequence[Record]) -> Iterator[Caution]:
+    """Check commands against limits, and readings against commands, in one of several records.
 
     A factor between two units of the axis is refused, as are commands far beyond the range: to
     the model they are errors of gain, saturation or contact. Other odd gains, and a reading that
@@ -42,7 +42,7 @@ def check_scales(robot: Robot, one: Labelled) -> Iterator[Caution]:
     for axis in one.record.axes:
         if one.record.has(axis, Tap.CMD):
             yield from _check_command(robot, one, axis)
-            yield from _check_readings(robot, one, axis)
+            yield from _check_readings(robot, one, axis, records)
 
 
 def _check_command(robot: Robot, one: Labelled, axis: str) -> Iterator[Caution]:
@@ -73,7 +73,9 @@ def _check_command(robot: Robot, one: Labelled, axis: str) -> Iterator[Caution]:
         )
 
 
-def _check_readings(robot: Robot, one: Labelled, axis: str) -> Iterator[Caution]:
+def _check_readings(
+    robot: Robot, one: Labelled, axis: str, records: Sequence[Record]
+) -> Iterator[Caution]:
     described = robot.axes[axis]
     motion = SlowMotion.of(described, one.record, axis)
     if motion is None:
@@ -87,7 +89,8 @@ def _check_readings(robot: Robot, one: Labelled, axis: str) -> Iterator[Caution]
         if gain is None:
             continue
         if tap is Tap.U:
-            _check_voltage(one, axis, gain)
+            if not _is_cut_off(robot, records, axis):
+                _check_voltage(one, axis, gain)
             continue
         factor = _unit_factor(abs(gain), one.record.units[axis])
         if factor is not None and not _moves_with_another(one.record, axis):
@@ -123,6 +126,25 @@ def _slow_gain(
     if size == 0.0 or abs(product) < alike * size:
         return None
     return product / float(np.var(slow)) / expected
+
+
+def _is_cut_off(robot: Robot, records: Sequence[Record], axis: str) -> bool:
+    """Tell whether a voltage follows its command but in part in any record.
+
+    Then it does so in those whose command goes between a few places as well, though there it may
+    seem to be in proportion.
+    """
+    for record in records:
+        if not (record.has(axis, Tap.CMD) and record.has(axis, Tap.U)):
+            continue
+        described = robot.axes[axis]
+        motion = SlowMotion.of(described, record, axis)
+        expected = _expected(described, record, Tap.U)
+        if motion is not None and expected is not None:
+            gain = _slow_gain(motion, record.signal(axis, Tap.U), expected, _PROPORTIONAL)
+            if gain is None:
+                return True
+    return False
 
 
 def _moves_with_another(record: Record, axis: str) -> bool:

@@ -76,18 +76,39 @@ def test_a_doubted_cause_that_comes_back_in_what_is_left_ends_the_contest(monkey
     keys = (("creep", None), ("resonance_mismatch", None))
     causes = tuple(AxisEffect(axis="x", id=name) for name, _ in keys)
     whole = SimpleNamespace(causes=causes, ids=keys)
-    left = SimpleNamespace(causes=causes[1:], ids=keys[1:])
     doubt = SimpleNamespace(from_axis=None, probability=0.2)
 
     def ranked(_evidence, _selection, best):
         return {key: (SimpleNamespace(effect=key[0], **vars(doubt)),) for key in best.ids}
 
-    returns = iter([whole, left])
+    returns = iter([whole, whole])
     monkeypatch.setattr(contest, "_ranked", ranked)
     monkeypatch.setattr(contest, "_least_sure", lambda *_: 0.5)
     monkeypatch.setattr(contest, "_with_only", lambda *_: next(returns))
     best, _ = contest.contested(None, SimpleNamespace(raw=9.0), whole, {}, wanders=False)
     assert best is whole  # which has come back once, and would for ever
+
+
+def test_of_two_that_are_doubted_the_less_likely_one_goes_first(monkeypatch):
+    keys = (("static_nonlinearity", None), ("stiffness_nonlinearity", None))
+    causes = tuple(AxisEffect(axis="thy", id=name) for name, _ in keys)
+    both = SimpleNamespace(causes=causes, ids=keys)
+    likely = {2: {keys[0]: 0.05, keys[1]: 0.08}, 1: {keys[1]: 0.7}}
+
+    def ranked(_evidence, _selection, best):
+        return {
+            key: (SimpleNamespace(effect=key[0], from_axis=None, probability=probability),)
+            for key, probability in likely[len(best.ids)].items()
+        }
+
+    def with_only(_evidence, _selection, kept):
+        return SimpleNamespace(causes=tuple(kept), ids=tuple((one.id, None) for one in kept))
+
+    monkeypatch.setattr(contest, "_ranked", ranked)
+    monkeypatch.setattr(contest, "_least_sure", lambda *_: 0.1)
+    monkeypatch.setattr(contest, "_with_only", with_only)
+    best, _ = contest.contested(None, SimpleNamespace(raw=9.0), both, {}, wanders=False)
+    assert best.ids == keys[1:]
 
 
 def test_what_does_the_same_at_the_sensor_is_one_kind():

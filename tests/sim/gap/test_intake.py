@@ -189,6 +189,22 @@ def test_a_voltage_that_is_cut_off_by_far_is_no_unit_error():
     assert check(ROBOT, [cut]) == check(ROBOT, [record])
 
 
+def test_a_voltage_that_another_record_shows_cut_off_is_no_unit_error():
+    def between_two_places(record, factor):
+        places = np.sign(np.sin(2 * np.pi * 0.5 * record.time_s))
+        cmd = 32.5e-6 + 20e-6 * places
+        u = factor * places + 75.0
+        return changed(record, {("zn", Tap.CMD): cmd, ("zn", Tap.U): u})
+
+    record = measured()
+    u = record.signal("zn", Tap.U)
+    cut = changed(record, {("zn", Tap.U): np.clip(u, u.mean() - 1.5, u.mean() + 1.5)})
+    few = between_two_places(measured(seed=1), 1.5)
+    assert "zn.u is 0." in refusal(few)  # by itself it cannot tell
+    assert "zn.u is 0." in refusal(record, few)
+    check(ROBOT, [cut, few])
+
+
 def test_commands_in_wrong_units_are_refused():
     record = measured()
     far = changed(record, {("x", Tap.CMD): 1e3 * record.signal("x", Tap.CMD)})
