@@ -34,7 +34,8 @@ def attributed(evidence: Evidence, bare: Explanation, explained: Explanation) ->
     if explained is bare:
         return bare
     named = {cause.id for cause in explained.causes}
-    own = [one for one in baseline(evidence) if one.id not in named]
+    fitted = {one.id for one in explained.fit.effects}  # a rival may be fitted without one of them
+    own = [one for one in baseline(evidence) if one.id in fitted - named]
     brought = {name for cause in named for name in _BRINGS_ALONG.get(cause, ())}
     if _is_part_of_the_mass(explained):
         brought.add(GAIN)
