@@ -44,6 +44,7 @@ _LIKELIER = 0.6  # probability from which a rival takes a cause's place
 _TIMES_LIKELIER = 2.5  # the same beside that of the cause
 _TURNS = 2  # in which rivals may take a cause's place: one may be simpler beside another
 _AS_GOOD = 1.03  # times a score
+_WELL = 1.5  # times a score, above which a twin that was tried is fitted again
 _LOAD_ABOVE = 1.8  # times an axis' resonance, from where that of a mass on it is looked for
 _NEAR = 4.0  # times the best score, up to which a re-tuning alone is a rival
 
@@ -207,9 +208,10 @@ def _with_retuned(
 def _twins_of(
     evidence: Evidence, best: Explanation, tried: Sequence[Explanation]
 ) -> tuple[Explanation, ...]:
-    """Return explanations by what does much the same as a cause, if it was not tried in that form.
+    """Return explanations by what does much the same as a cause, if that was not tried so already.
 
-    The sensor, where no reference was recorded; another axis that moved alike, for a gain; a lag
+    It is fitted from the cause's numbers on: from others it may have ended in a worse place. The
+    sensor, where no reference was recorded; another axis that moved alike, for a gain; a lag
     of high order, for a delay.
     """
     more = []
@@ -217,7 +219,8 @@ def _twins_of(
         own = is_own(evidence, cause)
         others = [one for one in best.causes if one is not cause and not is_own(evidence, one)]
         for asked in _twins(evidence, cause):
-            if own or not any(_is_by(one, [*others, asked]) for one in tried):
+            well = _WELL * best.score
+            if own or not any(one.score < well and _is_by(one, [*others, asked]) for one in tried):
                 effects = beside(evidence, [*others, asked])
                 if own:  # in whose place it stands
                     effects = [one for one in effects if one.id != cause.id]

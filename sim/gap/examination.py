@@ -104,7 +104,7 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
     account.tell("deciding", None)
     drift = wander(evidence, best.fit.residual)
     disturbances = _counting(whole, evidence, best, aside, drift)
-    found, aside_at = best, power_by_tap(whole, disturbances)
+    found, aside_at = best, _aside_at(whole, evidence, disturbances)
     best, ranked = contested(evidence, selection, best, aside_at, wanders=drift is not None)
     if best is not found:
         # What a cause that does not stand had bent away of it is the sensor's wander as well.
@@ -306,6 +306,19 @@ def _explained(
     }
     selection = select(evidence, account, power, jobs=jobs)
     return selection, attributed(evidence, selection.bare, selection.best)
+
+
+def _aside_at(
+    whole: Evidence, evidence: Evidence, disturbances: Sequence[Disturbance]
+) -> dict[Tap, float]:
+    """Return the power of disturbances at each tap, in the floors that noise raised.
+
+    Beyond coarse steps the floor is lower instead: these count as they are.
+    """
+    return {
+        tap: power * min(whole.floor(tap) / evidence.floor(tap), 1.0) ** 2
+        for tap, power in power_by_tap(whole, disturbances).items()
+    }
 
 
 def _counting(

@@ -52,6 +52,8 @@ _HOPELESS = 10.0  # times the cost of the best candidate
 _WORTH_GOING_ON = (0.25, 0.5, 1.0)  # share closed by one, two causes, to look for another
 _WORTH_A_FIRST_TRY = 4.0  # times what quick formulations leave, that a slow one may promise
 _WORTH_A_TRY = 0.8  # the same beside other causes, where each step takes longer still
+_CURVES = {"static_nonlinearity", "sensor_nonlinearity"}
+_MUCH_OF_IT = 0.7  # of a gap, that a stop closes where a curve may but follow a softer contact
 _PROMISING = 0.3  # of what a quick form leaves, that a slow one leaves at first sight
 _MOSTLY_OWN = 0.9  # of the gap, that re-tuning closes for causes to be looked for beside it
 _ONE_MODE = 0.03  # relative difference of frequencies that are one mode's
@@ -271,9 +273,11 @@ def _extended(
     chosen = _chosen(looks, most)
     account.tell("fitting", chosen[0].id)
     found = fitted(evidence, [[*begun.causes, one] for one in chosen], account, jobs, begun)
-    if min(one.fit.cost for one in found) < ADEQUATE:
-        return found  # other formulations, which take long, could not do better
     others = [_informed(one, found) for one in siblings(chosen, free) if one not in first]
+    best = min(found, key=lambda one: one.fit.cost)
+    if best.fit.cost < ADEQUATE:
+        # Other formulations, which take long, could do no better; but a curve bends to anything.
+        others = [one for one in others if _is_bent_to(best, one, begun, found)]
     if others:
         slower = looked_at(evidence, begun, others, account, jobs, briefly=True)
         least = min(one.fit.cost for one in found)
@@ -286,6 +290,17 @@ def _extended(
         attempts = [[*begun.causes, one.effect] for one in slower]
         found += fitted(evidence, attempts, account, jobs, begun) if attempts else []
     return found
+
+
+def _is_bent_to(
+    best: Explanation, slow: AxisEffect, begun: Explanation, found: Sequence[Explanation]
+) -> bool:
+    """Tell whether a curve that explains a gap may but follow a slow form of a contact.
+
+    Its quick form does much of it then.
+    """
+    curved = best.causes[-1].id in _CURVES and slow.id == "contact"
+    return curved and closed(begun.fit.cost, _quick(slow, found)) >= _MUCH_OF_IT
 
 
 def _informed(slow: AxisEffect, found: Sequence[Explanation]) -> AxisEffect:

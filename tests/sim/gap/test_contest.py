@@ -143,3 +143,24 @@ def test_a_load_that_rings_as_slow_as_a_retuned_resonance(off):
 def test_no_load_makes_an_axis_ring_faster():
     cause = AxisEffect(axis="x", id="resonance_mismatch", parameters={"frequency_error": 0.1})
     assert _loads(SimpleNamespace(robot=load_robot("rotemina"), axis="x"), cause) == []
+
+
+@pytest.mark.parametrize(("score", "again"), [(1.6, False), (8.6, True)])
+def test_a_twin_that_was_fitted_from_a_worse_begin_is_fitted_again(monkeypatch, score, again):
+    robot = load_robot("rotemina")
+    evidence = SimpleNamespace(robot=robot, axis="x", has=lambda tap: True)
+    steps = AxisEffect(axis="x", id="quantization", parameters={"step": 3e-7, "shift": -0.38})
+    late = AxisEffect(axis="x", id="delay", parameters={"delay": 4e-4})
+    lag = AxisEffect(axis="x", id="amplifier_lag", formulation="third_order")
+    monkeypatch.setattr(contest, "is_own", lambda *_: False)
+    monkeypatch.setattr(contest, "beside", lambda _, causes: list(causes))
+    monkeypatch.setattr(contest, "fit", lambda _, causes, **__: causes)
+    monkeypatch.setattr(contest, "explanation", lambda _, number, causes: causes)
+    ids = (("amplifier_lag", None), ("quantization", None))
+    tried = SimpleNamespace(ids=ids, causes=(lag, steps), score=score)
+    best = SimpleNamespace(causes=(late, steps), score=1.4)
+    found = contest._twins_of(evidence, best, [tried])
+    assert [[one.id for one in causes] for causes in found] == (
+        [["quantization", "amplifier_lag"]] if again else []
+    )
+    assert all(causes[0] is steps for causes in found)  # where its grid was found

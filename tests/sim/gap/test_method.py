@@ -315,3 +315,12 @@ def test_a_coarse_sensor_at_rest_is_not_stuck():
     coarse = AxisEffect(axis="zn", id="sensor_quantization", parameters={"step": 2e-6})
     found = diagnose(ROBOT, records([coarse], "zn"))  # stairs among them: rest, and then a leap
     assert named(found) == {("zn", "sensor_quantization", None)}
+
+
+def test_a_cause_of_little_beside_the_declared_noise_counts_beside_the_raised_one():
+    effects = [
+        AxisEffect(axis="zn", id="sensor_noise", parameters={"rms": 6e-7}),
+        AxisEffect(axis="zn", id="delay", parameters={"delay": 2e-3}),
+    ]
+    diagnosis = diagnose(ROBOT, read_alone(effects, "zn"))
+    assert named(diagnosis) == {("zn", "sensor_noise", None), ("zn", "delay", None)}

@@ -7,6 +7,7 @@ import pytest
 from rotemina.sim.gap.selection import (
     _enters,
     _has_overtone,
+    _is_bent_to,
     _is_enough,
     _is_own_mode,
     _twins,
@@ -101,3 +102,25 @@ def test_what_repeats_a_few_times_a_period_is_a_harmonic(second, period, with_re
         AxisEffect(axis="x", id=second, parameters={"period": period}),
     ]
     assert _has_overtone(evidence, SimpleNamespace(causes=causes)) is overtone
+
+
+@pytest.mark.parametrize(
+    ("curve", "other", "left", "bent"),
+    [
+        ("static_nonlinearity", "contact", 30.0, True),
+        ("sensor_nonlinearity", "contact", 30.0, True),
+        ("static_nonlinearity", "contact", 90.0, False),  # a bow that no stop makes
+        ("static_nonlinearity", "hysteresis", 30.0, False),
+        ("hysteresis", "contact", 30.0, False),
+    ],
+)
+def test_a_curve_that_explains_a_gap_may_but_follow_a_soft_contact(curve, other, left, bent):
+    def alone(name, cost):
+        effect = AxisEffect(axis="y", id=name)
+        return SimpleNamespace(
+            causes=(effect,), ids=((name, None),), fit=SimpleNamespace(cost=cost)
+        )
+
+    best, begun = alone(curve, 1.2), SimpleNamespace(fit=SimpleNamespace(cost=220.0))
+    slow = AxisEffect(axis="y", id=other, formulation="progressive")
+    assert _is_bent_to(best, slow, begun, [best, alone(other, left)]) is bent
