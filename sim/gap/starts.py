@@ -47,6 +47,9 @@ _LADDERS: Mapping[str, Mapping[str, tuple[float, ...]]] = {  # in presets
     "thermal_drift": {"time_constant": (0.03, 0.2, 1.0)},
     "hysteresis": {"width": (0.3, 1.0)},
 }
+# Gratings are ruled at 20 μm as a rule, else at 4, 8, 10 or 40 μm. Over records far apart, a period
+# that is but nearly right is in phase with none.
+_GRATINGS = (1.0, 0.2, 0.4, 0.5, 2.0)
 
 
 def starts(evidence: Evidence, fitted: Fit, candidate: AxisEffect) -> tuple[AxisEffect, ...]:
@@ -110,7 +113,8 @@ def _periods(evidence: Evidence, fitted: Fit, attached: Attached) -> Iterator[di
     parameter = attached.formulation.parameter("period")
     assert parameter is not None
     low, high = parameter.bounds(attached.facts)
-    yield {"period": attached.values["period"]}
+    for share in _GRATINGS if attached.effect.id == "encoder_interpolation" else (1.0,):
+        yield {"period": attached.values["period"] * share}
     for seen in strongest_periods(evidence, fitted, (low, high))[:_MOST_PERIODS]:
         yield {"period": seen}
 

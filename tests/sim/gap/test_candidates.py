@@ -102,6 +102,18 @@ def test_a_fit_finds_what_cannot_be_found_downhill_from_the_preset(truth, axes):
         assert found.effects[0].parameters[name] == pytest.approx(value, rel=0.05), name
 
 
+@pytest.mark.parametrize("period", [4e-6, 10e-6, 40e-6])
+def test_the_period_of_a_grating_is_found_over_ways_of_any_length(period):
+    numbers = {"period": period, "sine": -9e-8, "cosine": 2.3e-7, "second_cosine": -1.8e-7}
+    truth = AxisEffect(axis="x", id="encoder_interpolation", parameters=numbers)
+    ways = [sweep([truth], share=share, seed=seed) for seed, share in enumerate((4e-3, 0.08, 2e-3))]
+    evidence = Evidence.of(ROBOT, "x", ways)
+    bare = AxisEffect(axis="x", id="encoder_interpolation")
+    found = screen(evidence, fit(evidence, []), bare, briefly=True)
+    assert found.effect.parameters["period"] == pytest.approx(period, rel=1e-6)
+    assert found.cost < 1.5
+
+
 @pytest.mark.slow
 def test_the_grid_of_a_thousand_steps_is_found_to_a_part_of_one():
     truth = AxisEffect(axis="x", id="quantization", parameters={"step": 2.713e-6, "shift": 0.31})
