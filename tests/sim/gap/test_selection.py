@@ -109,6 +109,7 @@ def test_what_repeats_a_few_times_a_period_is_a_harmonic(second, period, with_re
     [
         ("static_nonlinearity", "contact", 30.0, True),
         ("sensor_nonlinearity", "contact", 30.0, True),
+        ("saturation", "contact", 30.0, True),
         ("static_nonlinearity", "contact", 90.0, False),  # a bow that no stop makes
         ("static_nonlinearity", "hysteresis", 30.0, False),
         ("hysteresis", "contact", 30.0, False),
