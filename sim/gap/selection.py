@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 
 from rotemina.sim.gap.attempts import fitted, looked_at
-from rotemina.sim.gap.baseline import RESONANCE, is_own
+from rotemina.sim.gap.baseline import is_own
 from rotemina.sim.gap.candidates import candidates, is_slow, scouts, siblings
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import fit
@@ -19,6 +19,7 @@ from rotemina.sim.gap.models import (
     untouched,
 )
 from rotemina.sim.gap.progress import Account
+from rotemina.sim.gap.repeats import has_overtone, is_own_mode
 from rotemina.sim.gap.retuning import retuned
 from rotemina.sim.gap.screening import Screened
 from rotemina.sim.gap.standing import Grade
@@ -56,9 +57,6 @@ _CURVES = {"static_nonlinearity", "sensor_nonlinearity", "saturation"}  # that b
 _MUCH_OF_IT = 0.7  # of a gap, that a stop closes where a curve may but follow a softer contact
 _PROMISING = 0.3  # of what a quick form leaves, that a slow one leaves at first sight
 _MOSTLY_OWN = 0.9  # of the gap, that re-tuning closes for causes to be looked for beside it
-_ONE_MODE = 0.03  # relative difference of frequencies that are one mode's
-_ONE_PERIOD = 0.003  # the same of periods, as multiples of another's
-_HARMONICS = 8
 _MUCH_ALONE = 0.3  # of the gap, that a cause closes alone for others to do as well
 _AS_WELL = 1.1  # times its score
 _LEAST_PROMISE = 0.5  # of the score: a best candidate that leaves more is no clear cause
@@ -108,7 +106,7 @@ def select(
     for level in range(MOST_CAUSES):
         found = _all_extended(evidence, beam, own, bare, account, jobs)
         found = _unique(_apart_from_own(evidence, bare, alone, found))
-        overtones = [one for one in found if _has_overtone(evidence, one)]
+        overtones = [one for one in found if has_overtone(evidence, one)]
         tried += overtones  # no cause of its own, but it corrects the model
         found = [one for one in found if one not in overtones]
         if found and enters(best, found[0]):
@@ -186,45 +184,10 @@ def _apart_from_own(
     Two modes at one frequency follow whatever the ring of a single one looks like, an instant
     later for one. That of a re-tuning ``alone`` is the simpler reason where it explains most.
     """
-    apart = [one for one in found if not _is_own_mode(evidence, one, one)]
+    apart = [one for one in found if not is_own_mode(evidence, one, one)]
     if closed(bare.score, alone.score) < _MOSTLY_OWN:
         return apart
-    return [one for one in apart if not _is_own_mode(evidence, alone, one)]
-
-
-def _is_own_mode(evidence: Evidence, tuned: Explanation, one: Explanation) -> bool:
-    """Tell whether a further mode of an explanation is at the resonance as another has it."""
-    inertia = evidence.robot.axes[evidence.axis].inertia
-    off = [own.parameters["frequency_error"] for own in tuned.fit.effects if own.id == RESONANCE]
-    if inertia is None or not off:
-        return False
-    rings_hz = np.sqrt(inertia.stiffness / inertia.mass) / (2.0 * np.pi) * (1.0 + off[0])
-    return any(
-        abs(value - rings_hz) < _ONE_MODE * rings_hz
-        for cause in one.causes
-        if cause.id == "flexible_mode"
-        for name, value in cause.parameters.items()
-        if name.startswith("frequency")
-    )
-
-
-def _has_overtone(evidence: Evidence, one: Explanation) -> bool:
-    """Tell whether a cause repeats a few times within the period of another: its harmonic.
-
-    What a reference does not see is the sensor's own all the same.
-    """
-    apart = {"encoder_interpolation"} if evidence.has(Tap.REF) else set()
-    periods = [
-        cause.parameters["period"]
-        for cause in one.causes
-        if cause.id not in apart and "period" in cause.parameters
-    ]
-    for long in periods:
-        for short in periods:
-            times = round(long / short)
-            if 2 <= times <= _HARMONICS and abs(long / short - times) < _ONE_PERIOD * times:
-                return True
-    return False
+    return [one for one in apart if not is_own_mode(evidence, alone, one)]
 
 
 def _all_extended(

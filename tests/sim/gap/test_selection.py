@@ -4,12 +4,11 @@ from types import SimpleNamespace
 
 import pytest
 
+from rotemina.sim.gap.repeats import has_overtone, is_own_mode
 from rotemina.sim.gap.selection import (
     _enters,
-    _has_overtone,
     _is_bent_to,
     _is_enough,
-    _is_own_mode,
     _twins,
 )
 from rotemina.sim.records.record import Tap
@@ -82,7 +81,7 @@ def test_a_mode_at_the_axis_own_resonance_is_no_further_one(frequency_hz, own):
     tuned = AxisEffect(axis="thx", id="resonance_mismatch", parameters={"frequency_error": 0.0})
     evidence = SimpleNamespace(robot=load_robot("rotemina"), axis="thx")
     one = SimpleNamespace(causes=(mode,), fit=SimpleNamespace(effects=(mode, tuned)))
-    assert _is_own_mode(evidence, one, one) is own
+    assert is_own_mode(evidence, one, one) is own
 
 
 @pytest.mark.parametrize(
@@ -101,7 +100,7 @@ def test_what_repeats_a_few_times_a_period_is_a_harmonic(second, period, with_re
         AxisEffect(axis="x", id="leadscrew_error", parameters={"period": 1e-3}),
         AxisEffect(axis="x", id=second, parameters={"period": period}),
     ]
-    assert _has_overtone(evidence, SimpleNamespace(causes=causes)) is overtone
+    assert has_overtone(evidence, SimpleNamespace(causes=causes)) is overtone
 
 
 @pytest.mark.parametrize(
