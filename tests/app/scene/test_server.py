@@ -20,7 +20,7 @@ from rotemina.app.scene.server import ViewServer
 from rotemina.app.scene.viewers import MOST
 
 LONG_S = 20.0
-LINES = []  # that the present conversation has opened
+LINES = []  # that the present conversation has opened, each with its stream
 
 
 @pytest.fixture
@@ -65,7 +65,7 @@ async def connect(server, url=None, **headers):
     address = url or server.url.replace("http:", "ws:") + "socket"
     request = HTTPRequest(address, headers={k: v for k, v in given.items() if v is not None})
     line = await asyncio.wait_for(websocket_connect(request), LONG_S)
-    LINES.append(line)
+    LINES.append((line, line.protocol.stream))
     return line
 
 
@@ -76,8 +76,9 @@ def run(talk):
         try:
             return await talk
         finally:
-            for line in LINES:
+            for line, stream in LINES:
                 line.close()
+                stream.close()  # which would wait for an answer that this loop may not live to hear
             LINES.clear()
             await asyncio.sleep(0)
 
