@@ -9,6 +9,7 @@ from rotemina.sim.effects.formulation import Stage
 from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.attribution import attributed
 from rotemina.sim.gap.baseline import OWN, is_own
+from rotemina.sim.gap.companions import accompanied
 from rotemina.sim.gap.contest import Ranking, contested
 from rotemina.sim.gap.diagnosis import Verdict
 from rotemina.sim.gap.disturbances import Disturbance, by_effect, power_by_tap, set_aside
@@ -110,6 +111,8 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
         # What a cause that does not stand had bent away of it is the sensor's wander as well.
         drift = wander(evidence, best.fit.residual) or drift
         disturbances = _counting(whole, evidence, best, aside, drift)
+    if drift is None:
+        best, ranked = accompanied(evidence, best, ranked, selection.raw, account, jobs=jobs)
     power = sum(one.power for one in disturbances if one.effect != "sensor_drift")
     ambiguous = [not_ruled_out(ranked[key], key, selection.raw) for key in best.ids]
     wandered = 0.0

@@ -112,13 +112,17 @@ class TestPiezoStack:
         assert self.left((), real_dir, "picma_growing") > 2e-6
         assert self.left(diagnosis.fitted, real_dir, "picma_growing") <= 0.3e-6
 
-    def test_both_records_name_hysteresis_alone_and_then_what_comes_late(self, real_dir):
+    def test_both_records_name_hysteresis_alone_then_what_comes_late_and_creep(self, real_dir):
         records = read(self.robot, real_dir, "picma_train", "picma_growing")
         diagnosis = diagnose(self.robot, records, jobs=2)
         first, *others = named(diagnosis, "p")
         assert first == {"hysteresis"}
         # A well damped mode at 19 Hz, of nearly all the motion, is a lag of second order too.
         assert any(one & (LATE | {"flexible_mode"}) for one in others)
+        assert any("creep" in one for one in others)
+        (creep,) = (one for one in diagnosis.axes["p"].causes if one.effect == "creep")
+        rate = next(one.value for one in creep.parameters if one.name == "rate")
+        assert 0.2e-6 < rate * 46.5e-6 < 1e-6  # m a decade of time, of a move over the range
 
 
 class TestSteeringMirror:
