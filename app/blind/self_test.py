@@ -91,7 +91,7 @@ def _write(
         if options.report is not None:
             picture = options.report.with_suffix(".svg")
             files.enter_context(replaced(options.report)).write(
-                page(figures, outcomes, picture.name, _made(cases, len(outcomes)), rivals).encode(
+                page(figures, outcomes, picture.name, _origin(cases, len(outcomes)), rivals).encode(
                     "utf-8"
                 )
             )
@@ -126,11 +126,11 @@ def _document(
     }
 
 
-def _made(cases: Cases, done: int) -> str:
-    told = " ".join(f"{key} {value}" for key, value in cases.key.items())
+def _origin(cases: Cases, done: int) -> str:
+    told = ", ".join(f"{key} `{value}`" for key, value in cases.key.items())
     asked = len(cases.names)
     share = f"{asked}" if done == asked else f"{done} of {asked}"
-    return f"rotemina gap blind, {share} cases of {told}"
+    return f"{share} cases of {told}"
 
 
 def _names(figures: dict[str, Figure]) -> dict[str, Figure]:

@@ -66,18 +66,19 @@ def page(
     figures: Mapping[str, Figure],
     outcomes: Sequence[Outcome],
     picture: str,
-    made: str,
+    origin: str,
     others: Mapping[str, Mapping[str, Figure]] | None = None,
 ) -> str:
     """Return the report as Markdown.
 
-    ``made``: the command that makes it; ``others``: figures of other contestants by their names.
+    ``origin``: which cases these are; ``others``: figures of other contestants by their names.
     """
     kinds = Counter(outcome.kind for outcome in outcomes)
     made_of = ", ".join(f"{number} {kind}" for kind, number in kinds.most_common())
+    heading = f"{len(outcomes)} cases: {made_of}. Made by `rotemina gap blind`, {origin}."
     return f"""# Blind test of the diagnosis
 
-{len(outcomes)} cases: {made_of}. Made by `{made}`. Every figure with its 95 % interval.
+{heading} Every figure with its 95 % interval.
 
 {markdown_table({"reached": figures, **(others or {})})}
 

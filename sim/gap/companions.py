@@ -6,23 +6,23 @@ Trans. Control Syst. Technol. 15 (2007) 802-823). Beside swings of a loop creep 
 nothing of the gap. What is asked of it here is much of what the loop leaves instead.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 from rotemina.sim.gap.attempts import fitted, looked_at
 from rotemina.sim.gap.baseline import is_own
-from rotemina.sim.gap.candidates import candidates, scouts
+from rotemina.sim.gap.candidates import scouts
 from rotemina.sim.gap.contest import Ranking
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.models import Explanation
 from rotemina.sim.gap.progress import Account
 from rotemina.sim.gap.rivals import rivals
-from rotemina.sim.gap.selection import LEAST_SHARE, NOTICED
+from rotemina.sim.gap.selection import LEAST_SHARE, NOTICED, possible_causes
 from rotemina.sim.gap.verdict import closed
 from rotemina.sim.robot.model import AxisEffect
 
-_COMPANIONS: Mapping[str, str] = {"hysteresis": "creep"}
-_OF_SEEN = 0.8  # of what is left of seen data: it leaves no more, at first sight already
+_CREEP = "creep", None
+_OF_SEEN = 0.8  # of what is left of seen data: creep leaves no more, at first sight already
 _OF_UNSEEN = 0.9  # the same of data that no fit saw
 _FITTED = 4  # of what else might be there, that are compared in full
 
@@ -36,35 +36,29 @@ def accompanied(
     *,
     jobs: int,
 ) -> tuple[Explanation, Ranking]:
-    """Return the explanation with what comes along with its causes, and the rivals of each cause.
+    """Return the explanation with creep beside hysteresis if it is there, and each cause's rivals.
 
-    Where these leave so little that none could close its share, a companion takes much of it, and
-    of unseen data more than any other candidate does. ``raw`` is the mean square of the gap over
-    the floor.
+    Where the causes leave so little that none could close its share, it takes much of that, and of
+    unseen data more than any other candidate does. ``raw`` is the mean square of the gap over the
+    floor.
     """
+    if ("hysteresis", None) not in best.ids or _CREEP in best.ids:
+        return best, ranked
     if best.score < NOTICED or closed(raw, best.score) < 1.0 - LEAST_SHARE:
         return best, ranked
-    for cause in best.causes:
-        name = _COMPANIONS.get(cause.id)
-        if name is None or (name, None) in best.ids:
-            continue
-        found = _beside_it(evidence, best, name, account, jobs)
-        if not found:
-            continue
-        least = min(found, key=lambda one: one.score)
-        key = name, None
-        if key in least.ids and least.score <= _OF_UNSEEN * best.score:
-            ranked = {**ranked, key: rivals(evidence, least, found, key, raw)}
-            best = least
-    return best, ranked
+    found = _with_one_more(evidence, best, account, jobs)
+    least = min(found, key=lambda one: one.score, default=best)
+    if _CREEP not in least.ids or least.score > _OF_UNSEEN * best.score:
+        return best, ranked
+    return least, {**ranked, _CREEP: rivals(evidence, least, found, _CREEP, raw)}
 
 
-def _beside_it(
-    evidence: Evidence, best: Explanation, name: str, account: Account, jobs: int
+def _with_one_more(
+    evidence: Evidence, best: Explanation, account: Account, jobs: int
 ) -> list[Explanation]:
-    """Return the explanation with a companion, and with the likeliest others in its place.
+    """Return the explanation with creep, and with the likeliest others in its place.
 
-    There are none if the companion does not do enough at first sight.
+    There are none if creep does not do enough at first sight.
     """
     causes = tuple(own for own in best.causes if not is_own(evidence, own))
     begun = replace(best, causes=causes)
@@ -74,13 +68,13 @@ def _beside_it(
         enough = [one for one in looks if one.cost <= _OF_SEEN * best.fit.cost]
         return [one.effect for one in sorted(enough, key=lambda one: one.cost)]
 
-    companion = looked([AxisEffect(axis=evidence.axis, id=name)])
-    if not companion:
+    creep = looked([AxisEffect(axis=evidence.axis, id="creep")])
+    if not creep:
         return []
-    own = [one for one in candidates(evidence) if not is_own(evidence, one)]
-    known = {*begun.ids, (name, None)}
-    others = looked(scouts(evidence, [one for one in own if (one.id, one.from_axis) not in known]))
-    attempts = [[*causes, one] for one in (*companion, *others[:_FITTED])]
+    known = {*begun.ids, _CREEP}
+    others = [one for one in possible_causes(evidence) if (one.id, one.from_axis) not in known]
+    chosen = [*creep, *looked(scouts(evidence, others))[:_FITTED]]
+    attempts = [[*causes, one] for one in chosen]
     return [_named(one, best) for one in fitted(evidence, attempts, account, jobs, begun)]
 
 

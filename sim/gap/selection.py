@@ -93,7 +93,7 @@ def select(
     ``account`` hears of stages, and of every candidate what it leaves. ``aside`` is the power at
     each tap, in its floors squared, of what was set aside before.
     """
-    own = _candidates(evidence)
+    own = possible_causes(evidence)
     bare = untouched(evidence)
     account.begin(bare.score)
     alone = retuned(evidence)
@@ -128,7 +128,7 @@ def select(
     return Selection(bare, alone, simplest, tuple(sorted(tried, key=lambda one: one.score)))
 
 
-def _candidates(evidence: Evidence) -> list[AxisEffect]:
+def possible_causes(evidence: Evidence) -> list[AxisEffect]:
     """Return what may be a cause beside the model's own parameters."""
     apart = set() if evidence.has(Tap.REF) else set(_SENSORS_OWN)
     if evidence.in_cells:

@@ -252,4 +252,4 @@ def test_the_command_scores_ones_own_cases(tmp_path, monkeypatch, capsys, own, p
     assert main([*words, "--score"]) == 0
     document = json.loads((tmp_path / "out.json").read_text())
     assert (document["done"], document["asked"]) == (1, 2)
-    assert "gap blind, 1 of 2 cases of" in (tmp_path / "page.md").read_text()
+    assert "1 of 2 cases of labels `" in (tmp_path / "page.md").read_text()
