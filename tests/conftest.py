@@ -81,6 +81,7 @@ def make_robot_window(qtbot, settings, tmp_path, panels_made):
     import threading
 
     from PySide6.QtCore import QCoreApplication, QEvent
+    from shiboken6 import isValid
 
     from rotemina.app.motion.session import MotionSession
     from rotemina.app.shell.window_run import make_window
@@ -103,7 +104,7 @@ def make_robot_window(qtbot, settings, tmp_path, panels_made):
         return window
 
     yield make
-    for window in windows:
+    for window in filter(isValid, windows):  # a test may have closed its own
         window.workbench.close()
         window.hide()
         window.deleteLater()

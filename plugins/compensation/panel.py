@@ -220,7 +220,7 @@ class CompensationPanel(Panel):
     def _come_forward(self, run: Run) -> None:
         """Come to the front again after a trial: the comparison of it has come there."""
         if run.record.metadata.get("trajectory") == NAME:
-            QTimer.singleShot(0, self._raise)
+            QTimer.singleShot(0, self, self._raise)
 
     def _raise(self) -> None:
         dock = self.parentWidget()

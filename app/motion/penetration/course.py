@@ -342,24 +342,27 @@ class Course:
     def _hold_here(self, reason: str, now_s: float) -> None:
         """Stay where the tip is, and keep the axes reserved."""
         self._outcome = (Verdict.HELD, reason)
-        self._enter(Phase.HELD, now_s, reason)
-        self._keep(Verdict.HELD, reason)
+        self._conclude(Phase.HELD, now_s)
 
     def _finish(self, now_s: float) -> None:
-        verdict, reason = self._outcome
         ends = {Verdict.DONE: Phase.DONE, Verdict.ABORTED: Phase.ABORTED}
-        self._enter(ends.get(verdict, Phase.FAILED), now_s, reason)
-        self._keep(verdict, reason)
+        self._conclude(ends.get(self._outcome[0], Phase.FAILED), now_s)
         self._release()
 
-    def _keep(self, verdict: Verdict, reason: str) -> None:
-        """Have the run logged by the next step, outside of the lock: a disk may be slow."""
-        attempt, session = self._attempt, self._session
-        if attempt is None:
-            return
-        run: PenetrationRun = attempt.ended(session.robot, session.driver.name, verdict, reason)
+    def _conclude(self, phase: Phase, now_s: float) -> None:
+        """Enter the phase in which the run ends.
+
+        The status takes phase and run at once: others look at it without the lock. The run is
+        logged by the next step, outside of the lock: a disk may be slow.
+        """
+        (verdict, reason), attempt, session = self._outcome, self._attempt, self._session
+        assert attempt is not None, "under way"
+        self._begin(phase, now_s)
+        run = attempt.ended(session.robot, session.driver.name, verdict, reason)
         self._unwritten.append(run)
-        self._status = replace(self._status, run=run, problem="")
+        self._status = replace(
+            self._status, phase=phase, reason=reason, armed_left_s=None, run=run, problem=""
+        )
 
     def _release(self) -> None:
         self._session.set_free(OWNER)
@@ -368,11 +371,14 @@ class Course:
         self._feed = self._attempt = None
 
     def _enter(self, phase: Phase, now_s: float, reason: str = "") -> None:
+        self._begin(phase, now_s)
+        self._status = replace(self._status, phase=phase, reason=reason, armed_left_s=None)
+
+    def _begin(self, phase: Phase, now_s: float) -> None:
         self._since_s, self._rested_s = now_s, None
         self._told = self._capturing = False
         if self._attempt is not None and phase is not Phase.DISARMED:
             self._attempt.noted(str(phase), now_s)
-        self._status = replace(self._status, phase=phase, reason=reason, armed_left_s=None)
 
     def _show(self, attempt: Attempt, state: SessionState) -> None:
         way = abs(state.command[attempt.parameters.axis] - attempt.start)

@@ -4,10 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from PySide6.QtCore import QCoreApplication, QEvent
+from shiboken6 import isValid
 
 from rotemina.app.motion.state import PlaybackFinished
+from rotemina.app.shell.workbench import Run
 from rotemina.plugins.compensation.learning import Learned, learned_from
-from rotemina.plugins.compensation.trial import Help, trial_motion, trial_of
+from rotemina.plugins.compensation.trial import NAME, Help, trial_motion, trial_of
 from rotemina.plugins.compensation.words import (
     KINDS,
     REASONS,
@@ -17,6 +20,7 @@ from rotemina.plugins.compensation.words import (
     left,
     micro,
 )
+from rotemina.sim.comparison.comparison import compare
 from rotemina.sim.compensate import anfis
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.file import Provenance, write_trained
@@ -229,6 +233,23 @@ def test_before_and_after_on_the_simulated_machine(qtbot, panel):
     controls.trial.click()
     qtbot.waitUntil(lambda: Help.INVERSE in trials, timeout=LONG_MS)
     assert abs(trials[Help.INVERSE].offset) < max(abs(mean), 0.2e-6)
+
+
+def test_a_window_that_closes_right_after_a_trial_leaves_nothing_behind(qtbot, panel):
+    """Coming to the front waits for a turn of the event loop; the panel may be gone by then."""
+    motion = trial_motion(ROBOT, "zn")
+    path = motion.signal("zn", Tap.CMD)
+    signals = {("zn", Tap.CMD): path, ("zn", Tap.MEAS): path}
+    trial = Record.from_signals(motion.time_s, signals, {"zn": "m"}, {"trajectory": NAME})
+    window, bench = panel.window(), panel.workbench
+    with qtbot.captureExceptions() as raised:
+        bench.run_changed.emit(Run("trial", compare(bench.robot, trial)))
+        bench.close()
+        window.deleteLater()
+        QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+        QCoreApplication.processEvents()
+    assert not isValid(panel)
+    assert raised == []
 
 
 def test_a_trial_is_told_from_other_plays():

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.penetration.errors import PenetrationError
+from rotemina.app.motion.penetration.penetration import Penetration
 from rotemina.app.motion.penetration.run_log import Verdict
 from rotemina.app.motion.penetration.status import UNDER_WAY, Phase
 from rotemina.drivers.driver import Driver
@@ -120,6 +121,27 @@ def test_the_thrust_can_be_drawn_beside_its_profile(bench):
     assert np.abs(trace.way - wanted).max() < 0.04 * 50e-6
     assert bench.run().trace is trace
     assert not trace.way.flags.writeable
+
+
+@pytest.mark.parametrize("held", [False, True])
+def test_an_end_is_never_shown_without_its_run(bench, monkeypatch, held):
+    """Windows and scripts look at the status from other threads, at any moment."""
+    shown = []
+
+    def noting(self, name, value):
+        object.__setattr__(self, name, value)
+        if name == "_status":
+            shown.append(value)
+
+    monkeypatch.setattr(Penetration, "__setattr__", noting, raising=False)
+    bench.ready([cell()]).arm(depth_tolerance=0.2).press()
+    bench.until(Phase.HOLD)
+    bench.session.stop() if held else bench.press()
+    end = bench.run().phase
+    assert end is (Phase.HELD if held else Phase.ABORTED)
+    seen = [status.run for status in shown if status.phase is end]
+    assert seen
+    assert all(run is not None and run.verdict == end for run in seen)
 
 
 @pytest.mark.parametrize("phase", MOVING)
