@@ -3,10 +3,15 @@
 import pytest
 
 from rotemina.app.motion.session import MotionSession
+from rotemina.app.motion.state import Faulted
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.samples import DeviceState
 from rotemina.drivers.simulator.driver import Simulator
+from rotemina.sim.errors import InputError
 from rotemina.sim.robot.file import load_robot
+
+TRIES = 4
+STARVED = ("a set-point came too late", "the host was silent", "has said nothing for")
 
 
 class Unruly(Simulator):
@@ -98,3 +103,24 @@ def make_stepped(clock):
 @pytest.fixture
 def stepped_type():
     return Stepped
+
+
+@pytest.fixture
+def patiently():
+    """Do what needs boards in real time; once more, where this machine was too busy for that.
+
+    A machine that lets the program or the boards wait for longer than they do for one another
+    ends a motion, as it must. What is done is given a list to fill with the session's events.
+    """
+
+    def patiently(work, tries=TRIES):
+        events = []
+        try:
+            return work(events)
+        except (AssertionError, InputError):
+            faults = [event.message for event in events if isinstance(event, Faulted)]
+            if tries == 1 or not any(sign in one for one in faults for sign in STARVED):
+                raise
+        return patiently(work, tries - 1)
+
+    return patiently

@@ -23,7 +23,6 @@ ROBOT = load_robot("rotemina")
 CONNECTING_S, PLAYING_S = 20.0, 30.0
 DURATION_S = 8.0
 MISBEHAVING_S = 25.0
-TRIES = 4  # on a machine that is busy otherwise
 
 
 @contextmanager
@@ -49,9 +48,9 @@ def board_process(robot, *options):
 class Told:
     """The events of a session, and a way to wait for them."""
 
-    def __init__(self, session):
+    def __init__(self, session, events):
         self.session = session
-        self.events = []
+        self.events = events
         self._came = threading.Condition()
         session.subscribe(self._note)
 
@@ -93,42 +92,30 @@ def excitations(period_s):
         yield Record.from_signals(time_s, commands, units)
 
 
-def recorded(robot):
-    """Play both excitations on boards with this robot behind them; return the records.
-
-    A machine that lets this process wait for longer than the boards' set-points last ends a
-    trajectory, as it must; then all is played once more.
-    """
-    for _ in range(TRIES):
-        records = played(robot)
-        if records is not None:
-            return records
-    raise AssertionError(f"{TRIES} times a set-point came too late")
+@pytest.fixture
+def record(patiently):
+    """Play both excitations on boards with a robot behind them; return the records."""
+    return lambda robot: patiently(lambda events: played(robot, events))
 
 
-def played(robot):
-    """Play both excitations once; return the records, or nothing if a set-point came too late."""
+def played(robot, events):
     with board_process(robot) as ((port, second), _):
         session = MotionSession(MC68HC11(ROBOT, {"port": port, "second_port": second}))
-        told = Told(session)
+        told = Told(session, events)
         session.start()
         try:
             told.until(lambda: session.snapshot().phase is Phase.READY, CONNECTING_S)
             for number, trajectory in enumerate(excitations(session.setpoint_period_s)):
                 session.play(trajectory)
                 told.until(lambda n=number: len(told.of(PlaybackFinished)) > n, PLAYING_S)
+                assert told.of(PlaybackFinished)[number].completed
             link = session.snapshot().link
         finally:
             session.close()
-    faults = told.of(Faulted)
-    if faults and all("a set-point came too late" in one.message for one in faults):
-        return None
-    assert not faults
+    assert not told.of(Faulted)
     assert not told.of(CommandRefused)
-    finished = told.of(PlaybackFinished)
-    assert all(one.completed for one in finished)
     assert link.rejected == 0
-    return [one.record for one in finished]
+    return [one.record for one in told.of(PlaybackFinished)]
 
 
 def effects_file(folder, axis, effect):
@@ -138,21 +125,21 @@ def effects_file(folder, axis, effect):
     return path
 
 
-def test_what_the_nominal_machine_played_shows_no_gap():
-    records = recorded("rotemina")
-    for record, asked in zip(records, excitations(5e-3), strict=True):
+def test_what_the_nominal_machine_played_shows_no_gap(record):
+    records = record("rotemina")
+    for one, asked in zip(records, excitations(5e-3), strict=True):
         for axis, step in (("x", 1e-7), ("zn", 1e-9)):
             wanted = asked.signal(axis, Tap.CMD)
-            assert np.abs(record.signal(axis, Tap.CMD) - wanted).max() <= 0.5001 * step
-        np.testing.assert_allclose(np.diff(record.time_s), 5e-3, rtol=1e-6)
+            assert np.abs(one.signal(axis, Tap.CMD) - wanted).max() <= 0.5001 * step
+        np.testing.assert_allclose(np.diff(one.time_s), 5e-3, rtol=1e-6)
     diagnosis = diagnose(ROBOT, records)
     assert diagnosis.verdict.value == "none"
     assert not diagnosis.causes
 
 
 @pytest.mark.parametrize(("axis", "effect"), [("zn", "hysteresis"), ("x", "backlash")])
-def test_a_machine_with_one_effect_is_diagnosed_as_that_effect(tmp_path, axis, effect):
-    records = recorded(effects_file(tmp_path, axis, effect))
+def test_a_machine_with_one_effect_is_diagnosed_as_that_effect(tmp_path, record, axis, effect):
+    records = record(effects_file(tmp_path, axis, effect))
     diagnosis = diagnose(ROBOT, records)
     assert diagnosis.verdict.value == "explained"
     assert [(one.axis, one.effect) for one in diagnosis.causes] == [(axis, effect)]
@@ -177,7 +164,7 @@ def test_the_worker_outlives_a_line_that_misbehaves():
     faults = ("silence 0.2 s", "silence 1 s", "reset 1", "brown-out 2", "garbage 20", "tear 0.1 s")
     with board_process("rotemina", "--mishaps", "2") as ((port, second), commands):
         session = MotionSession(MC68HC11(ROBOT, {"port": port, "second_port": second}))
-        told = Told(session)
+        told = Told(session, [])
         session.start()
         asked = 0
         try:

@@ -142,7 +142,7 @@ def boards(folder):
 class Operator:
     """Somebody at the stick, who looks at the machine, and waits for nothing in particular."""
 
-    def __init__(self, ports, folder):
+    def __init__(self, ports, folder, events):
         self.stick = Stick()
         self.told = []
         self.session = MotionSession(MC68HC11(ROBOT, {"port": ports[0], "second_port": ports[1]}))
@@ -155,7 +155,7 @@ class Operator:
         )
         self._ticks = threading.Condition()
         self.samples = []
-        self.events = []
+        self.events = events
         self.session.subscribe(self.events.append)
         self.session.tap(self._note)
 
@@ -201,18 +201,20 @@ class Operator:
         self.session.close()
 
 
-@pytest.fixture
-def operator(tmp_path):
-    with boards(tmp_path) as ports:
-        operator = Operator(ports, tmp_path)
-        operator.session.start()
-        operator.until(lambda: operator.session.snapshot().phase is Phase.READY)
-        operator.operation.start()
-        operator.until(lambda: operator.operation.intent.device.startswith("hid:"))
-        yield operator
-        operator.close()
-        assert not [event for event in operator.events if isinstance(event, Faulted)]
-        assert not [event for event in operator.events if isinstance(event, CommandRefused)]
+@contextmanager
+def at_work(folder, events):
+    """Give an operator at boards, stick and machine in order."""
+    with boards(folder) as ports:
+        operator = Operator(ports, folder, events)
+        try:
+            operator.session.start()
+            operator.until(lambda: operator.session.snapshot().phase is Phase.READY)
+            operator.operation.start()
+            operator.until(lambda: operator.operation.intent.device.startswith("hid:"))
+            yield operator
+        finally:
+            operator.close()
+        assert not [event for event in events if isinstance(event, Faulted | CommandRefused)]
 
 
 def assert_no_jump(operator, since):
@@ -229,15 +231,19 @@ def assert_no_jump(operator, since):
         assert change <= model.max_acceleration * 2.0 * dt.max() + 4.0 * step / dt.min(), axis
 
 
-def test_steer_switch_penetrate_abort_and_replay(operator):
-    operator.session.go_to({"zn": 60e-6})
-    operator.until(operator.at_rest)
-    path = operator.operation.start_recording({"test": True})
-    steered = steer_and_switch(operator)
-    penetrate_and_abort(operator)
-    unplug_in_mid_move(operator)
-    assert operator.operation.stop_recording() == path
-    replay(operator, Recording.open(path), steered)
+def test_steer_switch_penetrate_abort_and_replay(tmp_path_factory, patiently):
+    def work(events):
+        with at_work(tmp_path_factory.mktemp("operator"), events) as operator:
+            operator.session.go_to({"zn": 60e-6})
+            operator.until(operator.at_rest)
+            path = operator.operation.start_recording({"test": True})
+            steered = steer_and_switch(operator)
+            penetrate_and_abort(operator)
+            unplug_in_mid_move(operator)
+            assert operator.operation.stop_recording() == path
+            replay(operator, Recording.open(path), steered)
+
+    patiently(work)
 
 
 def steer_and_switch(operator):
