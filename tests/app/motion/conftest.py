@@ -1,4 +1,8 @@
-"""Sessions that tests step by hand, and a driver that misbehaves on request."""
+"""Sessions that tests step by hand, a driver that misbehaves on request, and boards as they run."""
+
+import subprocess
+import sys
+from contextlib import contextmanager
 
 import pytest
 
@@ -103,6 +107,31 @@ def make_stepped(clock):
 @pytest.fixture
 def stepped_type():
     return Stepped
+
+
+@pytest.fixture
+def board_process():
+    """Serve both boards, each on a pseudo-terminal of its own; give names and standard input."""
+
+    @contextmanager
+    def board_process(robot, *options):
+        command = [sys.executable, "-m", "rotemina.app.cli.main", "board", "--robot", str(robot)]
+        with subprocess.Popen(
+            [*command, "--position-known", *options],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        ) as process:
+            try:
+                lines = [process.stdout.readline() for _ in range(2)]
+                assert all(line.startswith("listening on ") for line in lines), lines
+                yield [line.split()[2].rstrip(":") for line in lines], process.stdin
+            finally:
+                process.terminate()
+                process.communicate(timeout=10.0)
+
+    return board_process
 
 
 @pytest.fixture

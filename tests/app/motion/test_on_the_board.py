@@ -1,10 +1,8 @@
 """The whole way: a trajectory on virtual boards at true baud, recorded, and diagnosed."""
 
-import subprocess
-import sys
 import threading
 import time
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from importlib.resources import files
 
 import numpy as np
@@ -23,26 +21,6 @@ ROBOT = load_robot("rotemina")
 CONNECTING_S, PLAYING_S = 20.0, 30.0
 DURATION_S = 8.0
 MISBEHAVING_S = 25.0
-
-
-@contextmanager
-def board_process(robot, *options):
-    """Serve both boards, each on a pseudo-terminal of its own; give names and standard input."""
-    command = [sys.executable, "-m", "rotemina.app.cli.main", "board", "--robot", str(robot)]
-    with subprocess.Popen(
-        [*command, "--position-known", *options],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    ) as process:
-        try:
-            lines = [process.stdout.readline() for _ in range(2)]
-            assert all(line.startswith("listening on ") for line in lines), lines
-            yield [line.split()[2].rstrip(":") for line in lines], process.stdin
-        finally:
-            process.terminate()
-            process.communicate(timeout=10.0)
 
 
 class Told:
@@ -93,13 +71,13 @@ def excitations(period_s):
 
 
 @pytest.fixture
-def record(patiently):
+def record(board_process, patiently):
     """Play both excitations on boards with a robot behind them; return the records."""
-    return lambda robot: patiently(lambda events: played(robot, events))
+    return lambda robot: patiently(lambda events: played(board_process(robot), events))
 
 
-def played(robot, events):
-    with board_process(robot) as ((port, second), _):
+def played(boards, events):
+    with boards as ((port, second), _):
         session = MotionSession(MC68HC11(ROBOT, {"port": port, "second_port": second}))
         told = Told(session, events)
         session.start()
@@ -159,7 +137,7 @@ def recover(session):
         session.confirm_position()
 
 
-def test_the_worker_outlives_a_line_that_misbehaves():
+def test_the_worker_outlives_a_line_that_misbehaves(board_process):
     rng = np.random.default_rng(0)
     faults = ("silence 0.2 s", "silence 1 s", "reset 1", "brown-out 2", "garbage 20", "tear 0.1 s")
     with board_process("rotemina", "--mishaps", "2") as ((port, second), commands):

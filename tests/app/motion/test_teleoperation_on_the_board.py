@@ -5,8 +5,6 @@ and replays the recording.
 """
 
 import struct
-import subprocess
-import sys
 import threading
 import time
 from collections import deque
@@ -115,28 +113,13 @@ class Stick:
         self.waiting.append(struct.pack("<3hH", *(round(32767 * a) for a in axes), buttons))
 
 
-@contextmanager
-def boards(folder):
-    """Both boards with the nominal machine and a cell behind them; give their ports."""
+def robot_above_a_cell(folder):
+    """Write the nominal machine with a cell below its tip; return the file."""
     text = files("rotemina.resources.robots").joinpath("rotemina.toml").read_text("utf-8")
     effect = f'id = "contact"\nplace = {CELL!r}\nstiffness = -0.08'
     robot = folder / "cell.toml"
     robot.write_text(f"{text}\n[[axis.zn.effect]]\n{effect}\n", "utf-8")
-    command = [sys.executable, "-m", "rotemina.app.cli.main", "board", "--robot", str(robot)]
-    with subprocess.Popen(
-        [*command, "--position-known"],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    ) as process:
-        try:
-            lines = [process.stdout.readline() for _ in range(2)]
-            assert all(line.startswith("listening on ") for line in lines), lines
-            yield [line.split()[2].rstrip(":") for line in lines]
-        finally:
-            process.terminate()
-            process.communicate(timeout=10.0)
+    return robot
 
 
 class Operator:
@@ -202,9 +185,9 @@ class Operator:
 
 
 @contextmanager
-def at_work(folder, events):
+def at_work(boards, folder, events):
     """Give an operator at boards, stick and machine in order."""
-    with boards(folder) as ports:
+    with boards as (ports, _):
         operator = Operator(ports, folder, events)
         try:
             operator.session.start()
@@ -231,9 +214,10 @@ def assert_no_jump(operator, since):
         assert change <= model.max_acceleration * 2.0 * dt.max() + 4.0 * step / dt.min(), axis
 
 
-def test_steer_switch_penetrate_abort_and_replay(tmp_path_factory, patiently):
+def test_steer_switch_penetrate_abort_and_replay(tmp_path_factory, board_process, patiently):
     def work(events):
-        with at_work(tmp_path_factory.mktemp("operator"), events) as operator:
+        folder = tmp_path_factory.mktemp("operator")
+        with at_work(board_process(robot_above_a_cell(folder)), folder, events) as operator:
             operator.session.go_to({"zn": 60e-6})
             operator.until(operator.at_rest)
             path = operator.operation.start_recording({"test": True})

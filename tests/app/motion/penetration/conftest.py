@@ -10,20 +10,8 @@ from rotemina.app.motion.penetration.penetration import Penetration
 from rotemina.app.motion.penetration.run_log import RunLog
 from rotemina.app.motion.penetration.status import Phase
 from rotemina.drivers.samples import DeviceState
-from rotemina.sim.robot.model import AxisEffect
 
 START = 64e-6
-
-
-def cell(place=58e-6, stiffness=0.1):
-    """A membrane that is met on the way down; over the stiffness of the axis itself."""
-    return AxisEffect(axis="zn", id="contact", parameters={"place": place, "stiffness": -stiffness})
-
-
-HYSTERESIS = AxisEffect(axis="zn", id="hysteresis", parameters={"width": 0.12 * 65e-6})
-CREEP = AxisEffect(axis="zn", id="creep", parameters={"rate": 0.02})
-
-
 ENDS = {Phase.DONE, Phase.ABORTED, Phase.FAILED, Phase.HELD, Phase.DISARMED}
 
 

@@ -1,7 +1,5 @@
 """A penetration of the simulated cell on virtual boards at true baud, stepped by a real clock."""
 
-import subprocess
-import sys
 import time
 from importlib.resources import files
 
@@ -24,24 +22,12 @@ CELL = AxisEffect(axis="zn", id="contact", parameters={"place": 58e-6, "stiffnes
 
 
 @pytest.fixture
-def ports(tmp_path):
+def ports(tmp_path, board_process):
     nominal = files("rotemina.resources.robots").joinpath("rotemina.toml").read_text("utf-8")
     robot = tmp_path / "cell.toml"
     robot.write_text(with_effects(nominal, [CELL]), "utf-8")
-    command = [sys.executable, "-m", "rotemina.app.cli.main", "board", "--robot", str(robot)]
-    with subprocess.Popen(
-        [*command, "--position-known"],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    ) as process:
-        try:
-            lines = [process.stdout.readline() for _ in range(2)]
-            yield [line.split()[2].rstrip(":") for line in lines]
-        finally:
-            process.terminate()
-            process.communicate(timeout=10.0)
+    with board_process(robot) as (ports, _):
+        yield ports
 
 
 def until(condition, limit_s):
