@@ -8,6 +8,10 @@ is so where the change of speed Δv over a step dt, and the way, satisfy::
 and it can always still stop inside the range: ``x + v²/(2a) ≤ high`` and likewise at the low end.
 Both hold whatever is wished, and however the steps vary. Source: reachable set of the double
 integrator, e.g. A. E. Bryson and Y.-C. Ho, *Applied Optimal Control* (1975).
+
+A target, and an end of the range, is approached no faster than ``gap/T`` as well. The machine is
+told speeds, and each acts until the next one has come over the line: a brisk axis that braked as
+late as it may would be told to stop when it has long gone by.
 """
 
 from dataclasses import dataclass
@@ -15,6 +19,8 @@ from math import isfinite, sqrt
 from typing import NamedTuple
 
 from rotemina.sim.errors import InputError
+
+APPROACH_S = 0.05  # T: several steps of the loop and turns of the line
 
 
 class ScalingError(InputError):
@@ -73,8 +79,8 @@ class Bounds:
         """Return the speed after ``dt`` s that is nearest to the wish."""
         position, velocity = motion
         most = self.max_acceleration * dt
-        up = self.braking_speed(self.high - position, velocity, dt)
-        down = -self.braking_speed(position - self.low, -velocity, dt)
+        up = self.approach_speed(self.high - position, velocity, dt)
+        down = -self.approach_speed(position - self.low, -velocity, dt)
         wish = min(max(wish, -self.max_speed, down), self.max_speed, up)
         return min(max(wish, velocity - most), velocity + most)
 
@@ -99,26 +105,29 @@ class Bounds:
         return Motion(self.place(motion, velocity, dt), velocity)
 
     def toward(self, motion: Motion, target: float, dt: float) -> Motion:
-        """Go to a target as fast as allowed, without passing it where that is possible."""
+        """Go to a target as fast as it may be approached, not past it where that is possible."""
         target = self.clip(target)
         gap = target - motion.position
         if gap >= 0.0:
-            wish = self.braking_speed(gap, motion.velocity, dt)
+            wish = self.approach_speed(gap, motion.velocity, dt)
         else:
-            wish = -self.braking_speed(-gap, -motion.velocity, dt)
+            wish = -self.approach_speed(-gap, -motion.velocity, dt)
         velocity = self.speed(motion, wish, dt)
         if wish == 0.0 and velocity == 0.0:
             return Motion(self._landing(motion, target, dt), 0.0)
         return Motion(self.place(motion, velocity, dt), velocity)
 
-    def braking_speed(self, gap: float, velocity: float, dt: float) -> float:
-        """Return the greatest speed after ``dt`` from which one still stops within ``gap``.
+    def approach_speed(self, gap: float, velocity: float, dt: float) -> float:
+        """Return the greatest speed after ``dt`` at which what then is left of ``gap`` is near.
 
-        It solves ``(v + v') dt/2 + v'²/(2a) = gap``; 0 where braking must end within the step.
+        The least of what solves ``(v + v') dt/2 + v'²/(2a) = gap``, to be able to stop, and
+        ``(v + v') dt/2 + v' T = gap``; 0 where the motion must end within the step.
         """
         half = 0.5 * self.max_acceleration * dt
         square = half**2 + self.max_acceleration * (2.0 * gap - velocity * dt)
-        return max(sqrt(max(square, 0.0)) - half, 0.0)
+        stopping = sqrt(max(square, 0.0)) - half
+        slowing = (gap - 0.5 * velocity * dt) / (APPROACH_S + 0.5 * dt)
+        return max(min(stopping, slowing), 0.0)
 
     def _landing(self, motion: Motion, target: float, dt: float) -> float:
         """Return where a motion that ends within the step does: on the target if it can."""

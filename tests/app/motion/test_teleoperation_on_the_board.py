@@ -169,6 +169,11 @@ class Operator:
         state = self.session.snapshot()
         return state.activity is DeviceState.IDLE and not state.queued
 
+    def let_go(self):
+        """Whether the stick was seen in the middle, and what it moved stands."""
+        state = self.operation.teleoperator.state
+        return not state.driving and not any(one.deflection for one in state.coordinates)
+
     def press(self, action):
         self.stick.hold(action)
         self.look_on(0.1)
@@ -259,7 +264,7 @@ def steer_and_switch(operator):
     stick.tell(x=-0.5)
     operator.look_on(0.5)
     stick.tell(x=0.0)
-    operator.until(lambda: not teleoperator.state.driving)
+    operator.until(operator.let_go)
     operator.until(operator.at_rest)
     assert session.snapshot().command["thx"] != began.command["thx"]
     assert teleoperator.state.refused is None

@@ -8,13 +8,15 @@ import pytest
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import Phase
 from rotemina.app.motion.teleoperation.intent import Action, Intent
-from rotemina.app.motion.teleoperation.scales import LawKind
+from rotemina.app.motion.teleoperation.scales import LawKind, Scale, Scales
 from rotemina.app.motion.teleoperation.teleoperator import JOYSTICK, Teleoperator
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.samples import DeviceState
 from rotemina.drivers.simulator.driver import Simulator
+from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.trajectory.dry_run import dry_run
 
 TICK_S = 0.005
 CENTRE = {"x": 0.0, "y": 0.0, "z": 0.0}
@@ -23,7 +25,8 @@ CENTRE = {"x": 0.0, "y": 0.0, "z": 0.0}
 class Desk:
     """An operator at a stepped session."""
 
-    def __init__(self, robot="rotemina", **settings):
+    def __init__(self, robot="rotemina", late=1, **settings):
+        self.late = late  # how many steps of the operator's loop a speed takes to the machine
         self.clock = VirtualClock(5.0)
         driver = Simulator(load_robot(robot), settings, clock=self.clock)
         self.session = MotionSession(driver)
@@ -39,7 +42,8 @@ class Desk:
         steps = max(1, round(seconds / TICK_S))
         for number in range(steps):
             self.clock.advance(TICK_S)
-            self.session.run_once()
+            if number % self.late == 0:
+                self.session.run_once()
             intent = Intent(
                 self.clock(),
                 dict(deflections),
@@ -106,6 +110,41 @@ def test_linear_position_follows_the_stick_and_comes_back(desk):
     x = desk.path("x")[1]
     assert x.max() - start <= 1.01 * 5e-4  # nearly no overshoot
     desk.smooth("x")
+
+
+@pytest.mark.parametrize("late", [1, 2, 3, 6])
+@pytest.mark.parametrize("stick", ["y", "z"])
+def test_a_piezo_follows_a_stick_that_jumps_without_overshoot_however_late_it_hears(late, stick):
+    desk = Desk(late=late)
+    axis = {"y": "thx", "z": "zn"}[stick]
+    desk.teleoperator.use_mode("nano")
+    desk.teleoperator.use_law(LawKind.POSITION)
+    desk.run(0.2)
+    desk.run(1.5, {**CENTRE, stick: 0.5})
+    way = np.abs(desk.path(axis)[1] - desk.path(axis)[1][0])
+    assert way[-1] == pytest.approx(0.125 * desk.session.robot.axes[axis].span, rel=2e-3)
+    assert way.max() <= (1.01 if late <= 3 else 1.1) * way[-1]
+
+
+@pytest.mark.parametrize("law", list(LawKind))
+def test_what_was_steered_to_the_end_of_a_piezo_s_range_may_be_played_again(law):
+    desk = Desk(late=3)
+    robot = desk.session.robot
+    quick = Scale(way=1e-3, speed=0.04, time_constant_s=0.1)
+    desk.teleoperator.use_scales(Scales().with_scale("nano", "thx", quick))
+    desk.teleoperator.use_mode("nano")
+    desk.teleoperator.use_law(law)
+    desk.run(0.2)
+    desk.run(1.0, {**CENTRE, "y": 1.0})
+    desk.run(1.0, {**CENTRE, "y": -1.0})
+    desk.run(0.5)
+    times, path = desk.path("thx")
+    low, high = robot.axes["thx"].range
+    assert np.ptp(path) > 0.9 * (high - low)
+    grid = np.arange(times[0], times[-1], TICK_S)
+    signals = {("thx", Tap.CMD): np.interp(grid, times, path)}
+    record = Record.from_signals(grid - grid[0], signals, {"thx": "rad"}, {})
+    assert dry_run(robot, record).objections == ()
 
 
 def test_a_clutch_reindexes(desk):
