@@ -15,7 +15,12 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.robot.file import load_robot
 
 TRIES = 4
-STARVED = ("a set-point came too late", "the host was silent", "has said nothing for")
+STARVED = (
+    "a set-point came too late",
+    "the host was silent",
+    "has said nothing for",
+    "samples are missing",
+)
 
 
 class Unruly(Simulator):
@@ -139,16 +144,16 @@ def patiently():
     """Do what needs boards in real time; once more, where this machine was too busy for that.
 
     A machine that lets the program or the boards wait for longer than they do for one another
-    ends a motion, as it must. What is done is given a list to fill with the session's events.
+    ends a motion, as it must, or leaves holes in what is recorded. What is done is given a list to fill with the session's events.
     """
 
     def patiently(work, tries=TRIES):
         events = []
         try:
             return work(events)
-        except (AssertionError, InputError):
-            faults = [event.message for event in events if isinstance(event, Faulted)]
-            if tries == 1 or not any(sign in one for one in faults for sign in STARVED):
+        except (AssertionError, InputError) as error:
+            said = [str(error), *(event.message for event in events if isinstance(event, Faulted))]
+            if tries == 1 or not any(sign in one for one in said for sign in STARVED):
                 raise
         return patiently(work, tries - 1)
 
