@@ -144,7 +144,8 @@ def patiently():
     """Do what needs boards in real time; once more, where this machine was too busy for that.
 
     A machine that lets the program or the boards wait for longer than they do for one another
-    ends a motion, as it must, or leaves holes in what is recorded. What is done is given a list to fill with the session's events.
+    ends a motion, as it must, or leaves holes in what is recorded. What is done is given a list to
+    fill with the session's events.
     """
 
     def patiently(work, tries=TRIES):
