@@ -12,6 +12,7 @@ from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import CommandRefused, Faulted, Phase, PlaybackFinished
 from rotemina.drivers.mc68hc11.driver import MC68HC11
+from rotemina.drivers.samples import DeviceState
 from rotemina.sim.gap.method import diagnose
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
@@ -21,6 +22,7 @@ ROBOT = load_robot("rotemina")
 CONNECTING_S, PLAYING_S = 20.0, 30.0
 DURATION_S = 8.0
 PERIOD_S = 5e-3
+STILL = (DeviceState.IDLE, DeviceState.FAULT, DeviceState.CLOSED)
 HOLES = "samples are missing"
 MISBEHAVING_S = 25.0
 
@@ -88,6 +90,8 @@ def played(boards, events):
             for number, trajectory in enumerate(excitations(session.setpoint_period_s)):
                 session.play(trajectory)
                 told.until(lambda n=number: len(told.of(PlaybackFinished)) > n, PLAYING_S)
+                # What was cut off still brakes; why it was is told when it stands.
+                told.until(lambda: session.snapshot().activity in STILL, PLAYING_S)
                 assert told.of(PlaybackFinished)[number].completed
             link = session.snapshot().link
         finally:

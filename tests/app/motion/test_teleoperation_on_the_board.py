@@ -314,6 +314,8 @@ def replay(operator, recording, steered):
     again = trajectory(recording, *steered, operator.session.setpoint_period_s)
     operator.session.play(again)
     operator.until(lambda: any(isinstance(e, PlaybackFinished) for e in operator.events))
+    # What was cut off still brakes; why it was is told when it stands.
+    operator.until(lambda: operator.session.snapshot().activity is not DeviceState.MOVING)
     played = next(e for e in operator.events if isinstance(e, PlaybackFinished))
     assert played.completed
     asked = again.commands
