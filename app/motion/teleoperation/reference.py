@@ -105,7 +105,7 @@ class Bounds:
         return Motion(self.place(motion, velocity, dt), velocity)
 
     def toward(self, motion: Motion, target: float, dt: float) -> Motion:
-        """Go to a target as fast as it may be approached, not past it where that is possible."""
+        """Go to a target as fast as it may be approached; not past it where that is possible."""
         target = self.clip(target)
         gap = target - motion.position
         if gap >= 0.0:
@@ -118,10 +118,11 @@ class Bounds:
         return Motion(self.place(motion, velocity, dt), velocity)
 
     def approach_speed(self, gap: float, velocity: float, dt: float) -> float:
-        """Return the greatest speed after ``dt`` at which what then is left of ``gap`` is near.
+        """Return the greatest speed after ``dt`` s, per s, at which ``gap`` may be approached.
 
-        The least of what solves ``(v + v') dt/2 + v'²/(2a) = gap``, to be able to stop, and
-        ``(v + v') dt/2 + v' T = gap``; 0 where the motion must end within the step.
+        It is the lesser of v' that solves ``(v + v') dt/2 + v'²/(2a) = gap``, from which one still
+        stops within the gap, and that of ``(v + v') dt/2 + v' T = gap``, at which what then is left
+        lasts for T; 0 where the motion must end within the step.
         """
         half = 0.5 * self.max_acceleration * dt
         square = half**2 + self.max_acceleration * (2.0 * gap - velocity * dt)
