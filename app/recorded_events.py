@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -55,7 +56,15 @@ def happenings(events: Sequence[RecordedEvent], began_s: float) -> tuple[Happeni
 def _in_words(event: RecordedEvent, began_s: float) -> Happening:
     at_s = max(event.host_time_s - began_s, 0.0)
     if event.kind == "log":
-        complaint = json.loads(event.details).get("level") in _COMPLAINTS
-        return Happening(at_s, "Log", event.text, Weight.WARNING if complaint else Weight.DETAIL)
+        weight = Weight.WARNING if _complains(event.details) else Weight.DETAIL
+        return Happening(at_s, "Log", event.text, weight)
     word, weight = _KINDS.get(event.kind, (event.kind, Weight.REMARK))
     return Happening(at_s, word, event.text, weight)
+
+
+def _complains(details: str) -> bool:
+    """Whether details of a log entry say so; those that were spoilt on the disk do not."""
+    with suppress(ValueError):
+        found = json.loads(details)
+        return isinstance(found, dict) and found.get("level") in _COMPLAINTS
+    return False

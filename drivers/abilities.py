@@ -5,12 +5,12 @@ The rules are those of :class:`rotemina.drivers.driver.Driver`: final methods ch
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from math import isfinite
 from typing import final
 
 from rotemina.drivers.capture import Captured, CaptureRates
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.errors import LimitError, StateError
+from rotemina.drivers.gate import Permit, Purpose
 from rotemina.drivers.link import LinkQuality
 from rotemina.drivers.parameters import ParameterDifference
 from rotemina.drivers.profile import Profile
@@ -19,6 +19,7 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
 from rotemina.sim.trajectory.checked import CheckedTrajectory, accepted
 from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
+from rotemina.sim.trajectory.limits import is_finite
 
 LONGEST_LEASE_S = 1.0
 DISPLAY_ROWS, DISPLAY_COLUMNS = 2, 20
@@ -28,7 +29,9 @@ class VelocityMover(Driver, ABC):
     """A device that moves axes at a speed for as long as somebody vouches for it."""
 
     @final
-    def move_velocity(self, velocities: Mapping[str, float], lease_s: float) -> None:
+    def move_velocity(
+        self, velocities: Mapping[str, float], lease_s: float, *, permit: Permit | None = None
+    ) -> None:
         """Let axes move at these speeds (m/s or rad/s) until the lease runs out. Returns at once.
 
         Renewed before its end it goes on without a jump; not renewed, the axes come to a halt by
@@ -43,17 +46,18 @@ class VelocityMover(Driver, ABC):
         StateError
             As :meth:`Driver.move_to`.
         """
+        permit = self._permitted(permit)
         self.check_velocity(velocities, lease_s)
         self._require_free("move")
         if velocities:
-            self._move_velocity(dict(velocities), lease_s)
+            self._move_velocity(dict(velocities), lease_s, permit)
 
     @final
     def check_velocity(self, velocities: Mapping[str, float], lease_s: float) -> None:
         """Raise :class:`LimitError` where :meth:`move_velocity` would; asks the device nothing."""
-        if not 0.0 < lease_s <= LONGEST_LEASE_S:
+        if not is_finite(lease_s) or not 0.0 < lease_s <= LONGEST_LEASE_S:
             raise LimitError(
-                f"{self.name}: a lease of {lease_s:g} s: must be more than 0 s, at most "
+                f"{self.name}: a lease of {lease_s} s: must be more than 0 s, at most "
                 f"{LONGEST_LEASE_S:g} s"
             )
         for axis, speed in velocities.items():
@@ -62,15 +66,15 @@ class VelocityMover(Driver, ABC):
                     f"{self.name}: no such axis {axis!r}; it has {', '.join(self.axes)}"
                 )
             most = self.robot.axes[axis].max_speed
-            if not isfinite(speed) or (most is not None and abs(speed) > most * (1.0 + 1e-9)):
+            if not is_finite(speed) or (most is not None and abs(speed) > most * (1.0 + 1e-9)):
                 bound = "a finite number" if most is None else f"{most:g} at most"
                 raise LimitError(
-                    f"{self.name}: axis {axis}: a speed of {speed:g} {self.robot.unit(axis)}/s: "
+                    f"{self.name}: axis {axis}: a speed of {speed} {self.robot.unit(axis)}/s: "
                     f"must be {bound}"
                 )
 
     @abstractmethod
-    def _move_velocity(self, velocities: dict[str, float], lease_s: float) -> None:
+    def _move_velocity(self, velocities: dict[str, float], lease_s: float, permit: Permit) -> None:
         """Move at speeds that the axes may go, until the lease runs out."""
 
 
@@ -83,7 +87,7 @@ class Homer(Driver, ABC):
         """The axes that have switches to be found; the others always know where they are."""
 
     @final
-    def home(self, axes: Sequence[str]) -> None:
+    def home(self, axes: Sequence[str], *, permit: Permit | None = None) -> None:
         """Begin to look for the limit switches of axes; their position is known afterwards.
 
         Returns at once; the state is ``homing`` meanwhile, and `stop` ends it, position unknown.
@@ -95,6 +99,7 @@ class Homer(Driver, ABC):
         StateError
             If the device is closed, in a fault, or not at rest.
         """
+        permit = self._permitted(permit, Purpose.HOMING)
         self._require_open("home")
         status = self._status()
         if status.state is not DeviceState.IDLE or status.silent_s > 0.0:
@@ -105,10 +110,10 @@ class Homer(Driver, ABC):
                 have = ", ".join(self.homing_axes) or "no axis has any"
                 raise LimitError(f"{self.name}: axis {axis!r} has no limit switch; these: {have}")
         if axes:
-            self._home(tuple(axes))
+            self._home(tuple(axes), permit)
 
     @abstractmethod
-    def _home(self, axes: tuple[str, ...]) -> None:
+    def _home(self, axes: tuple[str, ...], permit: Permit) -> None:
         """Begin to look for the switches of axes that have some."""
 
 
@@ -116,8 +121,8 @@ class VoltageOutput(Driver, ABC):
     """A device whose piezo amplifiers can be given a voltage straight."""
 
     @final
-    def set_voltage(self, axis: str, voltage: float) -> None:
-        """Put out a voltage, V, within the device's slew limit; the next move takes over from it.
+    def set_voltage(self, axis: str, voltage: float, *, permit: Permit | None = None) -> None:
+        """Put out a voltage, V, no faster than the axis may go; the next move takes over from it.
 
         Raises
         ------
@@ -126,7 +131,12 @@ class VoltageOutput(Driver, ABC):
         StateError
             As :meth:`Driver.move_to`.
         """
-        self._require_free("put out a voltage")
+        permit = self._permitted(permit)
+        state = self._require_sound("put out a voltage")
+        if state is not DeviceState.IDLE:
+            raise StateError(
+                f"{self.name}: cannot put out a voltage while it is {state}; stop it or wait"
+            )
         bounds = getattr(self.robot.axes.get(axis), "voltage_range", None)
         if bounds is None:
             raise LimitError(f"{self.name}: axis {axis!r} has no amplifier with a voltage range")
@@ -134,10 +144,10 @@ class VoltageOutput(Driver, ABC):
             raise LimitError(
                 f"{self.name}: axis {axis}: {voltage:g} V: must be {bounds[0]:g} to {bounds[1]:g} V"
             )
-        self._set_voltage(axis, voltage)
+        self._set_voltage(axis, voltage, permit)
 
     @abstractmethod
-    def _set_voltage(self, axis: str, voltage: float) -> None:
+    def _set_voltage(self, axis: str, voltage: float, permit: Permit) -> None:
         """Put out a voltage inside the range."""
 
 
@@ -191,7 +201,7 @@ class ProfileRunner(Driver, ABC):
     """A device that runs a short motion by itself, at its own control rate."""
 
     @final
-    def upload(self, profile: Profile) -> None:
+    def upload(self, profile: Profile, *, permit: Permit | None = None) -> None:
         """Hand over a profile, from where its axis is; it waits for :meth:`trigger`.
 
         Raises
@@ -201,6 +211,7 @@ class ProfileRunner(Driver, ABC):
         StateError
             If the device is closed, faulty or not at rest.
         """
+        permit = self._permitted(permit)
         state = self._require_sound("take a profile")
         if state is not DeviceState.IDLE:
             raise StateError(f"{self.name}: cannot take a profile while it is {state}")
@@ -208,10 +219,10 @@ class ProfileRunner(Driver, ABC):
             profile.check(self.robot, self._commanded(profile.axis))
         except InputError as error:
             raise LimitError(str(error)) from error
-        self._upload(profile)
+        self._upload(profile, permit)
 
     @final
-    def trigger(self) -> None:
+    def trigger(self, *, permit: Permit | None = None) -> None:
         """Let the profile run.
 
         Raises
@@ -219,8 +230,9 @@ class ProfileRunner(Driver, ABC):
         StateError
             If none was uploaded, or the device is not at rest.
         """
+        permit = self._permitted(permit)
         self._require_free("run a profile")
-        self._trigger()
+        self._trigger(permit)
 
     @final
     def abort(self) -> None:
@@ -233,11 +245,11 @@ class ProfileRunner(Driver, ABC):
         """Return where an axis was commanded last, m or rad."""
 
     @abstractmethod
-    def _upload(self, profile: Profile) -> None:
+    def _upload(self, profile: Profile, permit: Permit) -> None:
         """Hand over a profile that is inside every limit."""
 
     @abstractmethod
-    def _trigger(self) -> None:
+    def _trigger(self, permit: Permit) -> None:
         """Run it; raise :class:`StateError` if there is none."""
 
     @abstractmethod
@@ -295,7 +307,7 @@ class Parameterised(Driver, ABC):
         self._accept_parameters()
 
     @final
-    def write_parameters(self) -> None:
+    def write_parameters(self, *, permit: Permit | None = None) -> None:
         """Begin to write the robot file's parameters into the device; it keeps them.
 
         Raises
@@ -303,18 +315,19 @@ class Parameterised(Driver, ABC):
         StateError
             If the device is closed or not at rest.
         """
+        permit = self._permitted(permit, Purpose.SERVICE)
         self._require_open("write its parameters")
         state = self._status().state
         if state not in (DeviceState.IDLE, DeviceState.FAULT):
             raise StateError(f"{self.name}: cannot write its parameters while it is {state}")
-        self._write_parameters()
+        self._write_parameters(permit)
 
     @abstractmethod
     def _accept_parameters(self) -> None:
         """Take the device's own for good."""
 
     @abstractmethod
-    def _write_parameters(self) -> None:
+    def _write_parameters(self, permit: Permit) -> None:
         """Begin to write."""
 
 
@@ -354,7 +367,7 @@ class TrajectoryPlayer(Driver, ABC):
             raise LimitError(str(error)) from error
 
     @final
-    def play(self, trajectory: Record | CheckedTrajectory) -> None:
+    def play(self, trajectory: Record | CheckedTrajectory, *, permit: Permit | None = None) -> None:
         """Begin to play the ``cmd`` channels of a trajectory. Returns at once.
 
         The device first goes to the first row within its limits and settles; its samples name the
@@ -367,11 +380,15 @@ class TrajectoryPlayer(Driver, ABC):
         StateError
             If the device is closed, faulty, moving or playing.
         """
+        permit = self._permitted(permit)
         state = self._require_sound("play")
         if state is not DeviceState.IDLE:
             raise StateError(f"{self.name}: it is still {state}; stop it or wait before playing")
-        self._play(self.accept(trajectory).commands)
+        self._play(self.accept(trajectory).commands, permit)
 
     @abstractmethod
-    def _play(self, trajectory: Record) -> None:
-        """Begin to play a trajectory that is inside every limit."""
+    def _play(self, trajectory: Record, permit: Permit) -> None:
+        """Begin to play a trajectory that is inside every limit.
+
+        Each set-point on the way passes ``permit.passing(begins=False)``.
+        """

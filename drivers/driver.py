@@ -3,6 +3,9 @@
 A driver is made without touching its device, opened, used by one thread, and closed. ``stop`` is
 the exception: any thread may call it at any time. What only some devices can do is a small base
 class of its own (:mod:`rotemina.drivers.abilities`), to be inherited beside others.
+
+Whatever moves something passes the driver's gate (:mod:`rotemina.drivers.gate`) at its last place
+before the device: hooks get a permit, and write inside ``with permit.passing():``.
 """
 
 import time
@@ -14,12 +17,13 @@ from typing import ClassVar, final
 from rotemina.drivers.axes import AxisDescription
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import LimitError, ProtocolError, StateError
+from rotemina.drivers.gate import Gate, Permit, Purpose
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.drivers.settings import SettingValue, resolve
 from rotemina.sim.errors import InputError
 from rotemina.sim.plugin_points import API_VERSIONS
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.limits import check_target
+from rotemina.sim.trajectory.limits import check_speeds, check_target
 
 _CLOSED = DeviceStatus(DeviceState.CLOSED)
 
@@ -63,6 +67,8 @@ class Driver(ABC):
         self.axes = tuple(robot.axes)
         self.settings = MappingProxyType(resolve(self.default_settings, settings or {}, self.name))
         self.clock = clock
+        #: What every motion passes; a program that owns the driver puts its own gate here.
+        self.gate = Gate(clock)
         self._is_open = False
         self._last_time_s = float("-inf")
 
@@ -103,6 +109,11 @@ class Driver(ABC):
         self._close()
 
     @property
+    def stop_pending(self) -> bool:
+        """Whether the device has yet to confirm a stop; one that cannot tell confirms at once."""
+        return False
+
+    @property
     def descriptions(self) -> tuple[AxisDescription, ...]:
         """What the axes are, in order; a driver that knows its device better says so."""
         return tuple(AxisDescription.of(self.robot, axis) for axis in self.axes)
@@ -114,11 +125,16 @@ class Driver(ABC):
 
     @final
     def move_to(
-        self, targets: Mapping[str, float], speeds: Mapping[str, float] = MappingProxyType({})
+        self,
+        targets: Mapping[str, float],
+        speeds: Mapping[str, float] = MappingProxyType({}),
+        *,
+        permit: Permit | None = None,
     ) -> None:
         """Begin to move axes to positions (m or rad); also in mid-move. Returns at once.
 
         Each goes as fast as it may, or as ``speeds`` (m/s or rad/s) says, where that is slower.
+        ``permit`` is that of the request; drawn now where it is left out.
 
         Raises
         ------
@@ -126,46 +142,53 @@ class Driver(ABC):
             If any target is beyond a limit, or a speed is none; then no axis moves.
         StateError
             If the device is closed, faulty or playing a trajectory.
+        GateError
+            If a stop has come since the permit was drawn, or something locks motion.
         """
+        permit = self._permitted(permit)
         self._require_free("move")
         try:
             for axis, position in targets.items():
                 check_target(self.robot, axis, position)
+            check_speeds(targets, speeds)
         except InputError as error:
             raise LimitError(str(error)) from error
-        for axis, speed in speeds.items():
-            if axis not in targets or not speed > 0.0:
-                raise LimitError(
-                    f"{self.name}: axis {axis}: a speed of {speed:g}: must be more than 0, of an "
-                    "axis with a target"
-                )
         if targets:
-            self._move_to(dict(targets), dict(speeds))
+            self._move_to(dict(targets), dict(speeds), permit)
 
     @final
     def stop(self) -> None:
         """Bring every axis to a halt and hold it there; ends a trajectory too.
 
-        Any thread may call it at any time. It never waits, is not queued behind anything, and does
-        nothing on a closed driver.
+        Any thread may call it at any time. It never waits and is not queued behind anything. What
+        was asked for before does not pass the gate any more, on a closed driver too.
         """
+        self.gate.stop()
+        self.halt()
+
+    @final
+    def halt(self) -> None:
+        """Tell the device to stop, where the gate has been told already; as :meth:`stop`."""
         if self._is_open:
             self._stop()
 
     @final
-    def clear_fault(self) -> None:
+    def clear_fault(self, *, permit: Permit | None = None) -> None:
         """Acknowledge a fault: the device holds where it stands. Nothing happens without one.
 
         Raises
         ------
         StateError
             If the device is closed.
+        GateError
+            As :meth:`move_to`.
         DriverError
             If the fault persists.
         """
+        permit = self._permitted(permit, Purpose.SERVICE)
         self._require_open("clear a fault")
         if self._status().state is DeviceState.FAULT:
-            self._clear_fault()
+            self._clear_fault(permit)
 
     @final
     def read(self) -> Samples:
@@ -191,6 +214,12 @@ class Driver(ABC):
                 )
             self._last_time_s = float(samples.device_time_s[-1])
         return samples
+
+    def _permitted(self, permit: Permit | None, purpose: Purpose = Purpose.MOTION) -> Permit:
+        """Return the permit of a request, which still holds; one of now where there is none."""
+        permit = self.gate.permit(purpose) if permit is None else permit
+        permit.check()
+        return permit
 
     def _require_open(self, action: str) -> None:
         if not self._is_open:
@@ -232,15 +261,18 @@ class Driver(ABC):
         """Return what is known of an open device without asking it."""
 
     @abstractmethod
-    def _move_to(self, targets: dict[str, float], speeds: dict[str, float]) -> None:
-        """Begin to move to targets that are inside every limit, no faster than ``speeds``."""
+    def _move_to(self, targets: dict[str, float], speeds: dict[str, float], permit: Permit) -> None:
+        """Begin to move to targets that are inside every limit, no faster than ``speeds``.
+
+        What is written to the device is written inside ``with permit.passing():``.
+        """
 
     @abstractmethod
     def _stop(self) -> None:
         """Halt, from any thread, out of band, without waiting; the device is or was just open."""
 
     @abstractmethod
-    def _clear_fault(self) -> None:
+    def _clear_fault(self, permit: Permit) -> None:
         """Acknowledge the present fault."""
 
     @abstractmethod

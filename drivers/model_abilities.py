@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, final
 
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.errors import LimitError, StateError
+from rotemina.drivers.gate import Permit, Purpose
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.robot.model import AxisEffect
@@ -34,7 +35,7 @@ class EffectCarrier(Driver, ABC):
             Attached.of(self.robot, effect)
 
     @final
-    def set_effects(self, effects: Sequence[AxisEffect]) -> None:
+    def set_effects(self, effects: Sequence[AxisEffect], *, permit: Permit | None = None) -> None:
         """Put effects in place of those before; the axes go on from where they are.
 
         Raises
@@ -44,12 +45,13 @@ class EffectCarrier(Driver, ABC):
         StateError
             If the device is closed.
         """
+        permit = self._permitted(permit, Purpose.SERVICE)
         self._require_open("change its effects")
         self.check_effects(effects)
-        self._set_effects(tuple(effects))
+        self._set_effects(tuple(effects), permit)
 
     @abstractmethod
-    def _set_effects(self, effects: tuple[AxisEffect, ...]) -> None:
+    def _set_effects(self, effects: tuple[AxisEffect, ...], permit: Permit) -> None:
         """Put checked effects in place."""
 
 
@@ -66,7 +68,9 @@ class Compensator(Driver, ABC):
         """The axes that are, and in what each has gone beyond since; any thread may ask."""
 
     @final
-    def compensate(self, axis: str, model: "InverseModel | None") -> None:
+    def compensate(
+        self, axis: str, model: "InverseModel | None", *, permit: Permit | None = None
+    ) -> None:
         """Send an axis' set-points through an inverse, or, for None, as they are.
 
         The axis stays where it is: its command becomes what the inverse takes for its position,
@@ -79,6 +83,7 @@ class Compensator(Driver, ABC):
         StateError
             If the device is closed, faulty or not at rest.
         """
+        permit = self._permitted(permit)
         state = self._require_sound("change a compensation")
         if state is not DeviceState.IDLE:
             raise StateError(
@@ -88,10 +93,10 @@ class Compensator(Driver, ABC):
             raise LimitError(f"{self.name}: no such axis {axis!r}; it has {', '.join(self.axes)}")
         if model is not None and model.axis != axis:
             raise LimitError(f"{self.name}: an inverse of axis {model.axis} is none of {axis}")
-        self._compensate(axis, model)
+        self._compensate(axis, model, permit)
 
     @abstractmethod
-    def _compensate(self, axis: str, model: "InverseModel | None") -> None:
+    def _compensate(self, axis: str, model: "InverseModel | None", permit: Permit) -> None:
         """Change it; raise :class:`LimitError` where the inverse does not reach."""
 
 
@@ -113,7 +118,9 @@ class Regulator(Driver, ABC):
         """The axes whose loop asks for more than a limit allows just now; any thread may ask."""
 
     @final
-    def regulate(self, axis: str, regulation: "Regulation | None") -> None:
+    def regulate(
+        self, axis: str, regulation: "Regulation | None", *, permit: Permit | None = None
+    ) -> None:
         """Close a loop around an axis, or, for None, open it.
 
         The axis stays where it is: its command becomes where the sensor says that it is, and with
@@ -126,6 +133,7 @@ class Regulator(Driver, ABC):
         StateError
             If the device is closed, faulty or not at rest.
         """
+        permit = self._permitted(permit)
         state = self._require_sound("change a loop")
         if state is not DeviceState.IDLE:
             raise StateError(
@@ -141,8 +149,8 @@ class Regulator(Driver, ABC):
                     f"{self.name}: axis {axis}: the loop was found stable on robot "
                     f"{regulation.robot.name!r} with another such axis; check it on this one"
                 )
-        self._regulate(axis, regulation)
+        self._regulate(axis, regulation, permit)
 
     @abstractmethod
-    def _regulate(self, axis: str, regulation: "Regulation | None") -> None:
+    def _regulate(self, axis: str, regulation: "Regulation | None", permit: Permit) -> None:
         """Change it; raise :class:`LimitError` where it does not fit."""

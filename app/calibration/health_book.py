@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from rotemina.sim.calibration.calibrating import Figure
 from rotemina.sim.errors import InputError
+from rotemina.sim.input_files import parse_json, read_bytes
 from rotemina.sim.whole_files import FileWriteError
 
 FOLDER = "health"
@@ -59,13 +60,7 @@ class HealthBook:
         path = self.path(axis)
         if not path.exists():
             return ()
-        try:
-            with path.open("rb") as file:
-                data = file.read(_MOST_BYTES + 1)
-        except OSError as error:
-            raise HealthBookError(f"{path}: it cannot be read ({error.strerror})") from error
-        if len(data) > _MOST_BYTES:
-            raise HealthBookError(f"{path}: larger than {_MOST_BYTES} bytes; move it away")
+        data = read_bytes(path, HealthBookError, _MOST_BYTES, advice="move it away")
         lines = data.decode("utf-8", errors="replace").splitlines()
         return tuple(card for line in lines if (card := _card(line)) is not None)
 
@@ -101,7 +96,7 @@ class HealthBook:
 def _card(line: str) -> Card | None:
     """Return the card of a line; None where it is cut off, or of a later program."""
     try:
-        value = json.loads(line)
+        value = parse_json(line, "card", HealthBookError)
         if value["version"] != VERSION:
             return None
         figures = tuple(
@@ -111,5 +106,5 @@ def _card(line: str) -> Card | None:
         if not all(isfinite(each.value) and each.half_width >= 0.0 for each in figures):
             return None
         return Card(str(value["date"]), str(value["record"]), figures)
-    except (ValueError, KeyError, TypeError, RecursionError):
+    except (ValueError, KeyError, TypeError):
         return None

@@ -8,6 +8,7 @@ from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.recorder import PlaybackRecorder
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import Connection, Event, PlaybackFinished, StateChanged
+from rotemina.app.motion.stop_request import PROGRAM
 from rotemina.drivers.samples import Samples
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.records.record import Record
@@ -97,9 +98,9 @@ class CalibrationRun:
             self._end(Phase.FAILED, "the motion was refused")
             raise
 
-    def stop(self) -> None:
-        """Stop the machine, and give the run up."""
-        self._session.stop()
+    def stop(self, *, by: str = PROGRAM) -> None:
+        """Stop the machine, and give the run up; ``by`` as of :meth:`MotionSession.stop`."""
+        self._session.stop("the calibration is given up", by=by)
         self._end(Phase.FAILED, "stopped; nothing of it is kept")
 
     def close(self) -> None:
@@ -115,7 +116,7 @@ class CalibrationRun:
             if samples.reference is not None:
                 self._recorder.add(samples)
                 return
-        self._session.stop()
+        self._session.stop(NO_LASER)
         self._end(Phase.FAILED, NO_LASER)
 
     def _on_event(self, event: Event) -> None:

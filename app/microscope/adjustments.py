@@ -17,6 +17,7 @@ from rotemina.app.microscope.tip_tracker import TipTracker
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.cameras.camera import FocusDrive
 from rotemina.drivers.clock import Clock
+from rotemina.drivers.gate import Permit
 from rotemina.sim.errors import InputError
 
 FOCUS = "focus"  # the microscope's own drive
@@ -116,8 +117,8 @@ class Adjustments:
 
         self._runs.begin(Activity.AUTOFOCUS, make, lambda: self._focused(name))
 
-    def focus_mover(self, name: str) -> Callable[[float], None]:
-        """Return what goes to a focus place, m.
+    def focus_mover(self, name: str) -> Callable[[float, Permit | None], None]:
+        """Return what goes to a focus place, m, with the permit of a plan.
 
         Raises
         ------
@@ -126,10 +127,18 @@ class Adjustments:
         """
         camera = self._camera.camera
         if name != FOCUS:
-            return lambda place: self._session.go_to({name: place}, AUTOFOCUS)
+            return lambda place, permit: self._session.go_to(
+                {name: place}, AUTOFOCUS, permit=permit
+            )
         if not isinstance(camera, FocusDrive):
             raise MicroscopeError("this microscope has no motor at its focus; use an axis, or turn")
-        return camera.move_focus
+
+        def move(place: float, permit: Permit | None) -> None:
+            if permit is not None:
+                permit.check()
+            camera.move_focus(place)
+
+        return move
 
     def _focus_place(self, name: str) -> FocusPlace:
         places = self.focus_places

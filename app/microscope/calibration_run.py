@@ -184,7 +184,7 @@ class CalibrationRun:
     def abort(self, reason: str = "the calibration was stopped") -> None:
         """Stop the machine and end; it stays where it is."""
         if not self.ended:
-            self._session.stop()
+            self._session.stop(reason)
             self._end(Phase.FAILED, reason)
 
     # --- the moves --------------------------------------------------------------------------------
@@ -205,7 +205,7 @@ class CalibrationRun:
         done = self._status.done
         if done <= len(self._plan) - 1:
             self._looking.check()
-            self._session.go_to(self._plan[done], OWNER)
+            self._session.go_to(self._plan[done], OWNER, permit=self._looking.permit)
         else:
             self._finish()
             self._go_back("", now_s)
@@ -218,7 +218,7 @@ class CalibrationRun:
         self._status = replace(self._status, phase=Phase.RETURNING, reason=reason)
         try:
             self._looking.check()
-            self._session.go_to(self._begin, OWNER)
+            self._session.go_to(self._begin, OWNER, permit=self._looking.permit)
         except InputError as error:
             self._end(Phase.FAILED, f"{reason or 'calibrated'}; it could not go back: {error}")
             return

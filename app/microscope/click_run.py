@@ -90,7 +90,7 @@ class ClickRun:
         self._clear = clear
         self._tolerance_px, self._corrections = tolerance_px, corrections
         self._looking = Looking(clicks.session, newest)
-        clicks.go(move, confirmed=confirmed)
+        clicks.go(move, confirmed=confirmed, permit=self._looking.permit)
         self._looking.begin(now_s)
         self.status = VisitStatus(Visit.UNDER_WAY)
 
@@ -114,7 +114,7 @@ class ClickRun:
     def abort(self, reason: str) -> None:
         """Stop the machine and end; it stays where it is."""
         if not self.ended:
-            self._clicks.session.stop()
+            self._clicks.session.stop(reason)
             self.status = replace(self.status, visit=Visit.FAILED, reason=reason)
 
     def _judge(self, look: Look, now_s: float) -> None:
@@ -139,7 +139,7 @@ class ClickRun:
         self._ghost = self._goal
         move = self._correction(tip)
         self._looking.check()
-        self._clicks.go(move)
+        self._clicks.go(move, permit=self._looking.permit)
         self.status = replace(self.status, corrections=self.status.corrections + 1)
         self._looking.begin(now_s)
 

@@ -13,6 +13,7 @@ from rotemina.app.microscope.calibration_file import MICRO, NANO, MicroscopeCali
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.cameras.frame import Frame
+from rotemina.drivers.gate import Permit
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.kinematics.chain import JOINTS, Chain
 from rotemina.sim.kinematics.forward import tip_position
@@ -127,8 +128,10 @@ class ClickToMove:
                     raise
         return self._planned(np.asarray(pixel, dtype=np.float64), MICRO, tip_px)
 
-    def go(self, move: PlannedMove, *, confirmed: bool = False) -> None:
-        """Send a planned move.
+    def go(
+        self, move: PlannedMove, *, confirmed: bool = False, permit: Permit | None = None
+    ) -> None:
+        """Send a planned move, with the permit of the plan that it is a part of.
 
         Raises
         ------
@@ -139,7 +142,7 @@ class ClickToMove:
         """
         if not confirmed:
             self.check(move)
-        self.session.go_to(move.targets, OWNER)
+        self.session.go_to(move.targets, OWNER, permit=permit)
 
     def check(self, move: PlannedMove) -> None:
         """Refuse a move that must be confirmed, with MicroscopeError."""

@@ -10,6 +10,7 @@ from enum import StrEnum
 
 from rotemina.app.microscope.look import Looking, Newest
 from rotemina.app.motion.session import MotionSession
+from rotemina.drivers.gate import Permit
 from rotemina.sim.errors import InputError
 from rotemina.sim.vision.focus import Autofocus, FocusPeak, sharpness
 
@@ -42,7 +43,7 @@ class FocusRun:
     newest : callable
         The camera's newest picture.
     move : callable
-        Goes to a focus place, m; raises InputError if it must not.
+        Goes to a focus place, m, with a permit; raises InputError if it must not.
     low, high : float
         Where to search, m, in the terms of ``move``.
     now_s : float
@@ -59,7 +60,7 @@ class FocusRun:
         self,
         session: MotionSession,
         newest: Newest,
-        move: Callable[[float], None],
+        move: Callable[[float, Permit | None], None],
         low: float,
         high: float,
         *,
@@ -101,11 +102,11 @@ class FocusRun:
     def abort(self, reason: str) -> None:
         """Stop the machine and end; it stays where it is."""
         if not self.ended:
-            self._session.stop()
+            self._session.stop(reason)
             self.status = replace(self.status, search=Search.FAILED, reason=reason)
 
     def _go(self, now_s: float) -> None:
         target = self._autofocus.target
         assert target is not None
-        self._move(target)
+        self._move(target, self._looking.permit)
         self._looking.begin(now_s)

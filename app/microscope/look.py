@@ -76,7 +76,8 @@ class Looking:
         self._newest = newest
         self._pictures, self._settle_s = pictures, settle_s
         self._region: Region | None = None
-        self._stop_s = session.stop_asked_s
+        #: Drawn when it began; every move of what looks goes with it, and a stop ends them all.
+        self.permit = session.permit()
         self._begun_s = 0.0
         self._rested_s: float | None = None
         self._same = False
@@ -182,7 +183,7 @@ class Looking:
         )
 
     def _refuse_if_broken(self, state: SessionState) -> None:
-        if self._session.stop_asked_s != self._stop_s:
+        if not self.permit.valid:
             raise MicroscopeError("somebody stopped the machine; it stays where it is")
         if state.connection is not Connection.CONNECTED or state.fault is not None:
             reason = state.fault or state.locked or "it is not connected"

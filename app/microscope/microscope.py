@@ -23,6 +23,7 @@ from rotemina.app.microscope.visits import Visits
 from rotemina.app.motion.penetration.status import Phase as PenetrationPhase
 from rotemina.app.motion.recording.session_recorder import SessionRecorder
 from rotemina.app.motion.session import MotionSession
+from rotemina.app.motion.stop_request import PROGRAM
 from rotemina.app.motion.ticker import Ticker
 from rotemina.app.settings import Settings
 from rotemina.drivers.cameras.camera import Camera
@@ -229,7 +230,7 @@ class Microscope:
     def move_focus(self, focus_m: float) -> None:
         """Move the microscope's focus drive, m; raises InputError if it has none, or cannot."""
         self._refuse_under_way()
-        self.adjustments.focus_mover(FOCUS)(focus_m)
+        self.adjustments.focus_mover(FOCUS)(focus_m, None)
 
     def plan(self, pixel: FloatArray, *, stage: str | None = None) -> PlannedMove:
         """Think a click or drag through; nothing moves. Its ghost is shown until another is.
@@ -262,10 +263,10 @@ class Microscope:
         self._refuse_under_way()
         self.session.undo()
 
-    def stop(self) -> None:
-        """Halt the machine, and end what is under way."""
-        self.runs.stop("it was stopped")
-        self.session.stop()
+    def stop(self, *, by: str = PROGRAM) -> None:
+        """Halt the machine, and end what is under way; ``by`` as of :meth:`MotionSession.stop`."""
+        self.runs.stop("it was stopped", by=by)
+        self.session.stop(by=by)
 
     # --- targets ----------------------------------------------------------------------------------
 

@@ -8,6 +8,7 @@ from rotemina.app.cameras.feed import FeedState, FeedView
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.sight import Activity
 from rotemina.app.motion.session import MotionSession
+from rotemina.app.motion.stop_request import PROGRAM
 
 _BROKEN = (
     FeedState.CLOSED,
@@ -87,13 +88,13 @@ class Runs:
             self._run, self._after = make(), after
             self._activity = activity
 
-    def stop(self, reason: str) -> None:
-        """Halt the machine, and end what is under way."""
+    def stop(self, reason: str, *, by: str = PROGRAM) -> None:
+        """Halt the machine, and end what is under way; ``by`` as of :meth:`MotionSession.stop`."""
         with self._lock:
             if self._run is None:
                 return
             self._asked = reason
-        self._session.stop()
+        self._session.stop(reason, by=by)
 
     def step(self, now_s: float) -> None:
         """Go on; on one thread only."""

@@ -15,6 +15,7 @@ from rotemina.app.motion.device_requests import DeviceRequests
 from rotemina.app.motion.mailbox import Compensate, RefusedError
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.drivers.driver import Driver
+from rotemina.drivers.gate import Permit
 from rotemina.drivers.model_abilities import Compensator
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Beyond
@@ -64,7 +65,7 @@ class CompensatedRequests(DeviceRequests, ABC):
         """Return in what an axis has gone beyond its inverse since that was put on."""
         return self._on_device.get(axis, Beyond(0))
 
-    def compensate(self, inverse: NamedInverse) -> None:
+    def compensate(self, inverse: NamedInverse, *, permit: Permit | None = None) -> None:
         """Put an inverse on its axis, which stays where it is.
 
         Its command becomes the position that the inverse takes it to be at; what it went through
@@ -77,14 +78,15 @@ class CompensatedRequests(DeviceRequests, ABC):
         RefusedError
             If the machine is not at rest, or as for any move.
         """
+        permit = self._drawn(permit)
         check_belongs(self.robot, inverse)
         axis = inverse.model.axis
         with self._lock:
             self._refuse_unless_at_rest("putting an inverse on")
-            self._change(axis, inverse.model)
+            self._change(axis, inverse.model, permit)
             self._inverses = MappingProxyType({**self._inverses, axis: inverse})
 
-    def uncompensate(self, axis: str) -> None:
+    def uncompensate(self, axis: str, *, permit: Permit | None = None) -> None:
         """Take the inverse off an axis; it stays where it is.
 
         Raises
@@ -92,11 +94,12 @@ class CompensatedRequests(DeviceRequests, ABC):
         RefusedError
             As :meth:`compensate`, or if there is none on.
         """
+        permit = self._drawn(permit)
         if axis not in self.compensated:
             raise RefusedError(f"axis {axis} has no inverse that could be taken off")
         with self._lock:
             self._refuse_unless_at_rest("taking an inverse off")
-            self._change(axis, None)
+            self._change(axis, None, permit)
             if not self.compensates_all:
                 left = {key: one for key, one in self._inverses.items() if key != axis}
                 self._inverses = MappingProxyType(left)
@@ -117,10 +120,10 @@ class CompensatedRequests(DeviceRequests, ABC):
         driver = self.driver
         return driver.compensated if isinstance(driver, Compensator) else {}
 
-    def _change(self, axis: str, model: InverseModel | None) -> None:
+    def _change(self, axis: str, model: InverseModel | None, permit: Permit) -> None:
         if self.compensates_all:
             with self._worker.ownership.claimed((axis,), OPERATOR):
-                self._mailbox.post(Compensate(axis, model))
+                self._mailbox.post(Compensate(axis, model), permit.owned((axis,), OPERATOR))
 
     def _check_seen(self, targets: Mapping[str, float]) -> None:
         """Refuse targets beyond what the inverse of their axis saw."""

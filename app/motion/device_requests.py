@@ -8,13 +8,19 @@ from typing import Any
 
 from rotemina.app.motion.device_session import DeviceSession
 from rotemina.app.motion.guard import Guard, Place
-from rotemina.app.motion.mailbox import LoadProfile, RefusedError, RunProfile, SetVoltage
+from rotemina.app.motion.mailbox import (
+    LoadProfile,
+    RefusedError,
+    RunProfile,
+    SetVoltage,
+    refuse_overtaken,
+)
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.drivers.abilities import Capturer, ProfileRunner, VoltageOutput
 from rotemina.drivers.capture import Captured
 from rotemina.drivers.driver import Driver
+from rotemina.drivers.gate import Epoch, Permit, Purpose
 from rotemina.drivers.profile import Profile
-from rotemina.drivers.samples import DeviceState
 from rotemina.drivers.tool import ToolOutput
 from rotemina.sim.robot.model import PiezoAxis
 from rotemina.sim.trajectory.limits import OutOfLimitsError
@@ -32,7 +38,7 @@ class DeviceRequests(DeviceSession, ABC):
         self._loaded: tuple[Profile, float] | None = None  # and where its axis was
         self._captured: deque[Captured] = deque()
         self._collecting = threading.Event()
-        self._collected_at = -1  # generation of the mailbox
+        self._collected_at: Epoch | None = None
 
     # --- reservations ---------------------------------------------------------------------------
 
@@ -72,7 +78,9 @@ class DeviceRequests(DeviceSession, ABC):
 
     # --- profiles -------------------------------------------------------------------------------
 
-    def upload_profile(self, profile: Profile, owner: str = OPERATOR) -> None:
+    def upload_profile(
+        self, profile: Profile, owner: str = OPERATOR, *, permit: Permit | None = None
+    ) -> None:
         """Hand a profile to the device, from where its axis is commanded now; nothing moves yet.
 
         Its extremes are held against range and keep-out. Within the slow zone it is refused where
@@ -88,6 +96,7 @@ class DeviceRequests(DeviceSession, ABC):
         RefusedError
             If the device runs no profiles, is not at rest, or as for any move.
         """
+        permit = self._drawn(permit)
         self._profile_runner()
         with self._lock:
             self._refuse_unless_at_rest("a profile")
@@ -95,10 +104,10 @@ class DeviceRequests(DeviceSession, ABC):
             profile.check(self.robot, start)
             self._check_profile(profile, start, owner)
             with self._worker.ownership.claimed((profile.axis,), owner):
-                self._mailbox.post(LoadProfile(profile))
+                self._mailbox.post(LoadProfile(profile), permit.owned((profile.axis,), owner))
             self._loaded = (profile, start)
 
-    def trigger_profile(self, owner: str = OPERATOR) -> None:
+    def trigger_profile(self, owner: str = OPERATOR, *, permit: Permit | None = None) -> None:
         """Let the profile that was uploaded run; stop and :meth:`abort_profile` end it.
 
         Raises
@@ -108,6 +117,7 @@ class DeviceRequests(DeviceSession, ABC):
         RefusedError
             If none was uploaded, its axis has moved since, or as :meth:`upload_profile`.
         """
+        permit = self._drawn(permit)
         self._profile_runner()
         with self._lock:
             self._refuse_unless_at_rest("a profile")
@@ -122,7 +132,8 @@ class DeviceRequests(DeviceSession, ABC):
             end = start + sum(segment.length for segment in profile.segments)
             with self._worker.ownership.claimed((profile.axis,), owner):
                 self._note_rest()
-                self._mailbox.post(RunProfile({profile.axis: end}))
+                run = RunProfile({profile.axis: end})
+                self._mailbox.post(run, permit.owned((profile.axis,), owner))
             self._loaded = None
 
     def check_thrust(self, axis: str, ends: tuple[float, float], speed: float) -> None:
@@ -163,7 +174,7 @@ class DeviceRequests(DeviceSession, ABC):
             raise RefusedError(f"driver {self.driver.name!r} cannot capture")
         wanted = tuple(axes)
 
-        def begin(driver: Driver) -> None:
+        def begin(driver: Driver, _: Permit) -> None:
             assert isinstance(driver, Capturer), "the session refuses on any other"
             driver.capture(wanted, rate_hz, count)
             self._captured.clear()
@@ -178,12 +189,12 @@ class DeviceRequests(DeviceSession, ABC):
         found = []
         while self._captured:
             found.append(self._captured.popleft())
-        generation = self._mailbox.generation
-        if self._collecting.is_set() and self._collected_at == generation:
+        epoch = self.epoch
+        if self._collecting.is_set() and self._collected_at == epoch:
             return tuple(found)
-        self._collected_at = generation  # a stop drops what was asked for before
+        self._collected_at = epoch  # a stop drops what was asked for before
 
-        def collect(driver: Driver) -> None:
+        def collect(driver: Driver, _: Permit) -> None:
             self._collecting.clear()
             if isinstance(driver, Capturer) and (part := driver.captured()) is not None:
                 self._captured.append(part)
@@ -194,7 +205,9 @@ class DeviceRequests(DeviceSession, ABC):
 
     # --- voltage and tool -----------------------------------------------------------------------
 
-    def set_voltage(self, axis: str, voltage: float, owner: str = OPERATOR) -> None:
+    def set_voltage(
+        self, axis: str, voltage: float, owner: str = OPERATOR, *, permit: Permit | None = None
+    ) -> None:
         """Put out a piezo's voltage, V; where that sends the axis is held against all limits.
 
         Raises
@@ -202,8 +215,10 @@ class DeviceRequests(DeviceSession, ABC):
         OutOfLimitsError
             If the voltage or its position is beyond a limit, or the tip might leave its bounds.
         RefusedError
-            If the device cannot, the tip is so low that it must go slowly, or as for any move.
+            If the device cannot, the machine is not at rest, the tip is so low that it must go
+            slowly, or as for any move.
         """
+        permit = self._drawn(permit)
         if not isinstance(self.driver, VoltageOutput):
             raise RefusedError(f"driver {self.driver.name!r} cannot put out a voltage")
         model = self.robot.axes.get(axis)
@@ -216,7 +231,7 @@ class DeviceRequests(DeviceSession, ABC):
             )
         targets = {axis: voltage * model.gain}
         with self._lock:
-            self._refuse_if_locked()
+            self._refuse_unless_at_rest("putting out a voltage")
             legs = self._guard.move(self._place(), targets)
             if len(legs) > 1 or legs[0].speeds:
                 raise RefusedError(
@@ -225,31 +240,34 @@ class DeviceRequests(DeviceSession, ABC):
                 )
             with self._worker.ownership.claimed((axis,), owner):
                 self._note_rest()
-                self._mailbox.post(SetVoltage(axis, voltage, targets))
+                command = SetVoltage(axis, voltage, targets)
+                self._mailbox.post(command, permit.owned((axis,), owner))
 
     @property
     def tool_on(self) -> bool | None:
         """Whether the tool is on; None where the device has none."""
         return self.driver.tool_on if isinstance(self.driver, ToolOutput) else None
 
-    def switch_tool(self, on: bool) -> None:
-        """Switch the tool; off is possible in a fault too.
+    def switch_tool(self, on: bool, *, permit: Permit | None = None) -> None:
+        """Switch the tool; off is possible in a fault and while a stop is latched too.
 
         Raises
         ------
         RefusedError
             If the device has none or is not connected; to switch on, if motion is locked.
         """
+        permit = self._drawn(permit)
         if not isinstance(self.driver, ToolOutput):
             raise RefusedError(f"driver {self.driver.name!r} has no tool that could be switched")
         if on:
             self._refuse_if_locked()
 
-        def switch(driver: Driver) -> None:
+        def switch(driver: Driver, permit: Permit) -> None:
             assert isinstance(driver, ToolOutput), "the session refuses on any other"
-            driver.switch_tool(on)
+            driver.switch_tool(on, permit=permit)
 
-        self._ask(switch)
+        # Switched on, what has come since counts; switched off, nothing does.
+        self._ask(switch, permit.meant_for(Purpose.SERVICE if on else Purpose.ENQUIRY))
 
     # --- what a motion session adds -------------------------------------------------------------
 
@@ -269,13 +287,27 @@ class DeviceRequests(DeviceSession, ABC):
     def _note_rest(self) -> None:
         """Keep where the machine rests before it begins to move."""
 
+    def _drawn(self, permit: Permit | None) -> Permit:
+        """Return the permit of a plan, which still holds, or one of now.
+
+        Raises
+        ------
+        RefusedError
+            If a stop has come since the plan began.
+        """
+        if permit is None:
+            return self.permit()
+        if not permit.valid:
+            refuse_overtaken(permit)
+        return permit
+
     def _profile_runner(self) -> None:
         if not isinstance(self.driver, ProfileRunner):
             raise RefusedError(f"driver {self.driver.name!r} cannot run profiles by itself")
 
     def _refuse_unless_at_rest(self, what: str) -> None:
         self._refuse_if_locked()
-        if self._worker.state.activity is not DeviceState.IDLE or len(self._mailbox):
+        if not self._worker.at_rest:
             raise RefusedError(f"the machine is still moving; stop it or wait before {what}")
 
     def _commanded(self, axis: str) -> float:
@@ -295,6 +327,6 @@ class DeviceRequests(DeviceSession, ABC):
         )
 
 
-def _abort(driver: Driver) -> None:
+def _abort(driver: Driver, _: Permit) -> None:
     assert isinstance(driver, ProfileRunner), "the session refuses on any other"
     driver.abort()

@@ -5,7 +5,9 @@ import threading
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from datetime import datetime
 
+from rotemina.app.motion.heartbeat import Heartbeat
 from rotemina.app.motion.history import LiveHistory
 from rotemina.app.motion.mailbox import (
     Ask,
@@ -22,17 +24,20 @@ from rotemina.app.motion.state import (
     Event,
     SessionState,
 )
+from rotemina.app.motion.stop_request import PROGRAM, StopRequest
 from rotemina.app.motion.worker import Tap, Worker
 from rotemina.drivers.abilities import Display, Parameterised, TrajectoryPlayer
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
+from rotemina.drivers.gate import Epoch, Gate, Permit, Purpose
 from rotemina.drivers.model_abilities import EffectCarrier
-from rotemina.drivers.samples import Samples
+from rotemina.drivers.samples import DeviceState, Samples
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
 
 _LOG = logging.getLogger(__name__)
+_MOVES = (DeviceState.MOVING, DeviceState.PLAYING, DeviceState.HOMING)
 
 
 class DeviceSession:
@@ -54,6 +59,8 @@ class DeviceSession:
         How many commands may wait.
     stale_after_s : float
         Motion is refused when the latest sample is older.
+    local_time : callable
+        The time of day, for what is told to people.
     """
 
     def __init__(
@@ -65,6 +72,7 @@ class DeviceSession:
         period_s: float | None = None,
         queue_size: int = 16,
         stale_after_s: float = 1.0,
+        local_time: Callable[[], datetime] = datetime.now,
     ) -> None:
         self.driver = driver
         self.robot = driver.robot
@@ -72,20 +80,32 @@ class DeviceSession:
         self._clock = clock if clock is not None else driver.clock
         self._period_s = period_s if period_s is not None else driver.service_period_s
         self._stale_after_s = stale_after_s
+        self._local_time = local_time
         self._mailbox = Mailbox(queue_size)
+        self._gate = Gate(self._clock, self._locks)
+        driver.gate = self._gate
         self._worker = Worker(
-            driver, self._mailbox, self.history, self._clock, self._emit, self._tell_samples
+            driver,
+            self._gate,
+            self._mailbox,
+            self.history,
+            self._clock,
+            self._emit,
+            self._tell_samples,
         )
         self._thread: threading.Thread | None = None
         self._closing = threading.Event()
         # Guards what follows; never held while the driver is called.
         self._lock = threading.Lock()
-        self._latched: str | None = None
         self._barred: str | None = None
         self._callbacks: list[Callback] = []
         self._taps: dict[Tap, bool] = {}  # whether it has failed
-        self._stop_latency_s: float | None = None
         self._stop_asked_s: float | None = None
+        self._stop: StopRequest | None = None
+        #: Of the thread that shows this to an operator; once it beats, nothing moves without it.
+        self.screen = Heartbeat(self._clock)
+        #: Of the worker.
+        self.pulse = Heartbeat(self._clock)
 
     def start(self) -> None:
         """Connect to the device and keep talking to it, on a thread of its own.
@@ -144,7 +164,7 @@ class DeviceSession:
 
     def disconnect(self) -> None:
         """Stop, and let go of the device; it holds."""
-        self.stop()
+        self.stop("the device is let go of")
         self._mailbox.wish(Wish(None))
 
     def use(self, driver: Driver) -> None:
@@ -160,14 +180,17 @@ class DeviceSession:
                 f"driver {driver.name!r} is for a robot with axes {', '.join(driver.axes)}; this "
                 f"one has {', '.join(self.driver.axes)}; start the program with that robot"
             )
-        self.stop()
+        self.stop("another device is connected")
+        # Until the worker has exchanged them, both drivers are stopped and neither is moved.
+        driver.gate = self._gate
         self.driver = driver
+        self._gate.reconnected()
         self._period_s = driver.service_period_s
         self._mailbox.wish(Wish(driver))
 
     def run_once(self) -> None:
         """Do one cycle of the worker's; only where no thread was started."""
-        self._worker.run_once()
+        self._cycle()
 
     def confirm_position(self) -> None:
         """Trust the position again after a lost connection: somebody has looked.
@@ -177,34 +200,23 @@ class DeviceSession:
         RefusedError
             If the session is not connected.
         """
-        self._ask(lambda _: self._worker.confirm_position())
+        self._ask(lambda _, __: self._worker.confirm_position())
 
-    def stop(self) -> None:
+    def stop(self, why: str = "", *, by: str = PROGRAM) -> None:
         """Halt every axis now; any thread, any time. Never waits and never raises.
 
-        Queued commands are dropped. The device is told from this very thread.
+        Queued commands are dropped. The device is told from this very thread. ``by`` is
+        ``ownership.OPERATOR`` only where a person asked for it.
         """
-        asked_s = self._clock()
-        self._stop_asked_s = asked_s  # first: whoever sends speeds looks at it before each
-        self._mailbox.clear()
-        failure = None
-        try:
-            self.driver.stop()
-        except Exception as error:  # told by the worker: a stop button must not raise
-            failure = error
-        latency_s = self._clock() - asked_s
-        self._worker.stopped(asked_s, failure)
-        with self._lock:
-            self._stop_latency_s = latency_s
+        self._halt(StopRequest(by, why, self._local_time()))
 
-    def emergency_stop(self, reason: str = "emergency stop") -> None:
+    def emergency_stop(self, why: str = "emergency stop", *, by: str = PROGRAM) -> None:
         """Stop, and let nothing move until :meth:`release`; any thread, never waits or raises."""
-        self._latched = reason
-        self.stop()
+        self._halt(StopRequest(by, why, self._local_time()), latch=why)
 
     def release(self) -> None:
         """Let the machine move again after an emergency stop; it stands until it is told to."""
-        self._latched = None
+        self._gate.release()
 
     def bar(self, reason: str | None) -> None:
         """Accept no motion for this reason, on any path, until None is said; what moves goes on."""
@@ -218,7 +230,13 @@ class DeviceSession:
         RefusedError
             If the device has none, or is not connected.
         """
-        self._ask_parameters(lambda driver: driver.accept_parameters())
+        self._refuse_without_parameters()
+
+        def accept(driver: Driver, _: Permit) -> None:
+            assert isinstance(driver, Parameterised), "the session refuses on any other"
+            driver.accept_parameters()
+
+        self._ask(accept)
 
     def write_parameters(self) -> None:
         """Write the robot file's parameters into the device.
@@ -228,12 +246,19 @@ class DeviceSession:
         RefusedError
             If the device has none, or is not connected.
         """
-        self._ask_parameters(lambda driver: driver.write_parameters())
+        permit = self.permit(Purpose.SERVICE)
+        self._refuse_without_parameters()
+
+        def write(driver: Driver, permit: Permit) -> None:
+            assert isinstance(driver, Parameterised), "the session refuses on any other"
+            driver.write_parameters(permit=permit)
+
+        self._ask(write, permit)
 
     def show(self, row: int, text: str) -> None:
         """Show text on the device's display; nothing happens where there is none."""
 
-        def action(driver: Driver) -> None:
+        def action(driver: Driver, _: Permit) -> None:
             if isinstance(driver, Display):
                 driver.show(row, text)
 
@@ -248,11 +273,12 @@ class DeviceSession:
         RefusedError
             If the connection failed: reconnect instead.
         """
+        permit = self.permit(Purpose.SERVICE)
         state = self._worker.state
         if state.connection is not Connection.CONNECTED:
             raise RefusedError(state.locked or "not connected")
         if state.fault is not None:
-            self._mailbox.post(ClearFault())
+            self._mailbox.post(ClearFault(), permit)
 
     @property
     def corrections(self) -> SensorCorrections:
@@ -274,6 +300,7 @@ class DeviceSession:
         RefusedError
             If the device carries no effects, is not connected, or a queue is full.
         """
+        permit = self.permit(Purpose.SERVICE)
         if not isinstance(self.driver, EffectCarrier):
             raise RefusedError(
                 f"driver {self.driver.name!r} is a real machine: its effects are its own; "
@@ -282,28 +309,24 @@ class DeviceSession:
         self.driver.check_effects(effects)
         if self._worker.state.connection is not Connection.CONNECTED:
             raise RefusedError(self._worker.state.locked or "not connected; connect first")
-        self._mailbox.post(SetEffects(tuple(effects)))
+        self._mailbox.post(SetEffects(tuple(effects)), permit)
 
     def snapshot(self) -> SessionState:
         """Return the present state; any thread."""
         state = self._worker.state
-        received_s = state.sample_host_time_s
-        age_s = None if received_s is None else self._clock() - received_s
-        locked = state.locked
-        if locked is None and age_s is not None and age_s > self._stale_after_s:
-            locked = f"the device has sent nothing for {age_s:.1f} s; wait, or reconnect"
-        locked = locked or self._barred
-        if self._latched is not None:
-            locked = f"{self._latched} is latched; release it first"
+        latched = self._gate.latched
+        locked = self._locked(state)
+        if latched is not None:
+            locked = f"{latched} is latched; release it first"
         return replace(
             state,
-            age_s=age_s,
+            age_s=self._age_s(state),
             locked=locked,
             queued=len(self._mailbox),
-            latched=self._latched,
+            stop=self._stop,
+            latched=latched,
             owners=self._worker.ownership.owners,
             stop_latency=self._worker.latency.figures(),
-            stop_latency_s=self._stop_latency_s,
         )
 
     def subscribe(self, callback: Callback) -> Callable[[], None]:
@@ -334,33 +357,85 @@ class DeviceSession:
         return end
 
     @property
+    def at_rest(self) -> bool:
+        """Whether nothing moves, waits, or was handed over since the device was looked at last."""
+        return self._worker.at_rest
+
+    @property
     def stop_asked_s(self) -> float | None:
         """Host time of the latest stop, whoever asked for it; None before the first."""
         return self._stop_asked_s
 
-    def _ask(self, action: Callable[[Driver], None]) -> None:
+    @property
+    def epoch(self) -> Epoch:
+        """How many stops, connections and releases there have been; any thread."""
+        return self._gate.epoch
+
+    def permit(self, purpose: Purpose = Purpose.MOTION) -> Permit:
+        """Return a permit of now, for a plan whose requests are to end with the next stop.
+
+        Requests take it as ``permit``; those without one draw their own before their first check.
+        """
+        return self._gate.permit(purpose)
+
+    def _halt(self, request: StopRequest, latch: str | None = None) -> None:
+        """Shut the gate on what was asked before, then tell every driver that may be open."""
+        asked_s = self._clock()
+        self._stop, self._stop_asked_s = request, asked_s
+        self._gate.stop(latch)
+        self._mailbox.clear()
+        failure = None
+        # During an exchange the worker still has the driver from before.
+        for driver in dict.fromkeys((self._worker.driver, self.driver)):
+            try:
+                driver.halt()
+            except Exception as error:  # told by the worker: a stop button must not raise
+                failure = error
+        self._worker.stopped(asked_s, failure, request)
+
+    def _locks(self, permit: Permit) -> str | None:
+        """Return what locks a permit's purpose beside a stop; under the gate's lock."""
+        state = self._worker.state
+        if permit.purpose is Purpose.MOTION:
+            locked = self._locked(state)
+        elif permit.purpose is Purpose.HOMING:
+            locked = self._unready(state)
+        else:
+            return None
+        other = permit.owner and self._worker.ownership.other_than(permit.owner, permit.axes)
+        return locked or (f"an axis is driven by {other}" if other else None)
+
+    def _locked(self, state: SessionState) -> str | None:
+        """Return why no motion is accepted, but for a latch."""
+        if self._worker.driver is not self.driver:
+            return "another device is being connected; wait"
+        age_s = self._age_s(state)
+        if state.locked is None and age_s is not None and age_s > self._stale_after_s:
+            return f"the device has sent nothing for {age_s:.1f} s; wait, or reconnect"
+        return state.locked or self._barred
+
+    def _unready(self, state: SessionState) -> str | None:
+        """Return why nothing can be done that needs a sound device, but no known position."""
+        if self._worker.driver is not self.driver:
+            return "another device is being connected; wait"
+        if state.connection is not Connection.CONNECTED or state.fault or state.silent_s > 0.0:
+            return state.locked or "not connected"
+        return self._barred
+
+    def _age_s(self, state: SessionState) -> float | None:
+        received_s = state.sample_host_time_s
+        return None if received_s is None else self._clock() - received_s
+
+    def _ask(self, action: Callable[[Driver, Permit], None], permit: Permit | None = None) -> None:
         """Have something done on the thread that talks to the driver."""
+        permit = self.permit(Purpose.ENQUIRY) if permit is None else permit
         if self._worker.state.connection is not Connection.CONNECTED:
             raise RefusedError(self._worker.state.locked or "not connected; connect first")
-        self._mailbox.post(Ask(action))
+        self._mailbox.post(Ask(action), permit)
 
-    def _ask_parameters(self, action: Callable[[Parameterised], None]) -> None:
-        def asked(driver: Driver) -> None:
-            assert isinstance(driver, Parameterised), "the session refuses on any other"
-            action(driver)
-
+    def _refuse_without_parameters(self) -> None:
         if not isinstance(self.driver, Parameterised):
             raise RefusedError(f"driver {self.driver.name!r} keeps no parameters")
-        self._ask(asked)
-
-    def _refuse_if_unready(self, state: SessionState) -> None:
-        """Refuse what needs a sound device, but not a known position."""
-        if state.connection is not Connection.CONNECTED or state.fault or state.silent_s > 0.0:
-            raise RefusedError(f"motion is locked: {state.locked}")
-        if self._latched is not None:
-            raise RefusedError(f"{self._latched} is latched; release it first")
-        if self._barred is not None:
-            raise RefusedError(f"motion is locked: {self._barred}")
 
     def _emit(self, event: Event) -> None:
         with self._lock:
@@ -384,12 +459,22 @@ class DeviceSession:
                         if callback in self._taps:  # it may have ended itself
                             self._taps[callback] = True
 
+    def _cycle(self) -> None:
+        """Do one cycle; what an operator began moves on only as long as he can see it."""
+        self.pulse.beat()
+        state = self._worker.state
+        moves = state.activity in _MOVES and not state.stopping
+        if moves and self.screen.silent:
+            self.stop("the window does not answer")
+        self._worker.run_once()
+
     def _run(self) -> None:
         next_s = time.monotonic()
         while not self._closing.is_set():
-            self._worker.run_once()
+            self._cycle()
             # By the clock, not after the work: what is late once is not late for ever.
             next_s = max(next_s + self._period_s, time.monotonic())
             self._mailbox.bell.wait(next_s - time.monotonic())
             self._mailbox.bell.clear()
+        self.pulse.end()
         self._worker.shut_down()

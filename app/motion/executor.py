@@ -13,7 +13,6 @@ from rotemina.app.motion.mailbox import (
     Drive,
     Home,
     LoadProfile,
-    Mailbox,
     Move,
     Play,
     Regulate,
@@ -32,6 +31,7 @@ from rotemina.drivers.abilities import (
 )
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
+from rotemina.drivers.gate import OvertakenError, Permit, Purpose
 from rotemina.drivers.model_abilities import Compensator, EffectCarrier, Regulator
 from rotemina.drivers.samples import DeviceState
 
@@ -44,41 +44,43 @@ class Executor:
 
     ``targets`` is where the device was last sent, of each axis that it has been sent anywhere since
     it last held; ``drives`` the speeds that axes may still go at. Both are replaced as a whole, so
-    any thread may look at them. A stop is a new generation of the ``mailbox``: what was
-    under way before it is not gone on with, and stopped again if it slipped through.
+    any thread may look at them. What a stop has overtaken is not gone on with, and halted again
+    should a driver have let it slip through.
     """
 
-    def __init__(
-        self, driver: Driver, mailbox: Mailbox, clock: Clock, corrections: SensorCorrections
-    ) -> None:
+    def __init__(self, driver: Driver, clock: Clock, corrections: SensorCorrections) -> None:
         self.targets = _NOWHERE
         self.drives: Mapping[str, Drive] = _NO_DRIVES
         self.recorder: PlaybackRecorder | None = None
         self._driver = driver
-        self._mailbox = mailbox
         self._clock = clock
         self._corrections = corrections
         self._route: deque[Leg] = deque()  # what is left of a move
-        self._generation = 0
+        self._permit: Permit | None = None  # of the command that was handed over last
 
     @property
     def between_legs(self) -> bool:
         """Whether a part of a move is still to come."""
-        return bool(self._route) and self._generation == self._mailbox.generation
+        return bool(self._route) and self._permit is not None and self._permit.valid
 
-    def do(self, command: Command, generation: int) -> None:
-        """Carry out a command that was taken from the mailbox at this generation of it.
+    def do(self, command: Command, permit: Permit) -> None:
+        """Carry out a command; what has been overtaken is dropped.
 
         Raises
         ------
         InputError, DriverError
             As the driver refuses it, or fails.
         """
-        self._generation = generation
+        # A question that comes meanwhile does not take the place of the move it comes in.
+        moves = permit.purpose in (Purpose.MOTION, Purpose.HOMING)
+        if moves:
+            self._permit = permit
         try:
-            self._hand_over(command)
-        finally:
-            self._stop_if_overtaken()
+            self._hand_over(command, permit)
+        except OvertakenError:
+            return  # nothing of it has reached the device
+        if moves:
+            self._halt_if_overtaken(permit)
 
     def go_on(self) -> None:
         """Begin the next leg of a move when the one before has ended.
@@ -94,13 +96,16 @@ class Executor:
         status = self._driver.status()
         if status.state is not DeviceState.IDLE or status.silent_s > 0.0:
             return
+        permit = self._permit
+        assert permit is not None, "a move is under way"
         try:
-            self._next_leg()
+            self._next_leg(permit)
+        except OvertakenError:
+            self._route.clear()
         except Exception:
             self._route.clear()
             raise
-        finally:
-            self._stop_if_overtaken()
+        self._halt_if_overtaken(permit)
 
     def rested(self) -> None:
         """Note that the machine is at rest: nothing goes on at a speed."""
@@ -111,85 +116,86 @@ class Executor:
         self._route.clear()
         self.targets, self.drives = _NOWHERE, _NO_DRIVES
 
-    def _stop_if_overtaken(self) -> None:
-        """Stop again: a stop that came meanwhile must not be undone by what was on its way."""
-        if self._mailbox.generation != self._generation:
+    def _halt_if_overtaken(self, permit: Permit) -> None:
+        """Halt again: a driver that passes no gate must not undo a stop that came meanwhile."""
+        if not permit.valid:
             self.forget()
-            self._driver.stop()
+            self._driver.halt()
 
-    def _hand_over(self, command: Command) -> None:
+    def _hand_over(self, command: Command, permit: Permit) -> None:
         driver = self._driver
         if isinstance(command, Move):
             self._route.clear()
             self._route.extend(command.legs)
-            self._next_leg()
+            self._next_leg(permit)
         elif isinstance(command, Drive):
-            self._drive(command)
+            self._drive(command, permit)
         elif isinstance(command, Play):
-            self._play(command)
+            self._play(command, permit)
         elif isinstance(command, LoadProfile | RunProfile | SetVoltage):
-            self._shortly(command)
+            self._shortly(command, permit)
         elif isinstance(command, Home):
             assert isinstance(driver, Homer), "the session refuses on any other"
-            driver.home(command.axes)
+            driver.home(command.axes, permit=permit)
             self.forget()
         elif isinstance(command, SetEffects | Compensate | Regulate):
-            self._change(command)
+            self._change(command, permit)
         elif isinstance(command, ClearFault):
-            driver.clear_fault()
+            driver.clear_fault(permit=permit)
             self.forget()
         elif isinstance(command, Ask):
-            command.action(driver)
+            permit.check()
+            command.action(driver, permit)
 
-    def _change(self, command: SetEffects | Compensate | Regulate) -> None:
+    def _change(self, command: SetEffects | Compensate | Regulate, permit: Permit) -> None:
         """Change what stands between commands and motion."""
         driver = self._driver
         if isinstance(command, SetEffects):
             assert isinstance(driver, EffectCarrier), "the session refuses on any other"
-            driver.set_effects(command.effects)
+            driver.set_effects(command.effects, permit=permit)
             return
         if isinstance(command, Regulate):
             assert isinstance(driver, Regulator), "the session refuses on any other"
-            driver.regulate(command.axis, command.regulation)
+            driver.regulate(command.axis, command.regulation, permit=permit)
         else:
             assert isinstance(driver, Compensator), "the session refuses on any other"
-            driver.compensate(command.axis, command.model)
+            driver.compensate(command.axis, command.model, permit=permit)
         self.forget()  # its command is another now
 
-    def _shortly(self, command: LoadProfile | RunProfile | SetVoltage) -> None:
+    def _shortly(self, command: LoadProfile | RunProfile | SetVoltage, permit: Permit) -> None:
         """Carry out what an axis does by itself, beside moves."""
         driver = self._driver
         if isinstance(command, SetVoltage):
             assert isinstance(driver, VoltageOutput), "the session refuses on any other"
-            driver.set_voltage(command.axis, command.voltage)
+            driver.set_voltage(command.axis, command.voltage, permit=permit)
             self.targets = MappingProxyType({**self.targets, **command.targets})
             return
         assert isinstance(driver, ProfileRunner), "the session refuses on any other"
         if isinstance(command, LoadProfile):
-            driver.upload(command.profile)
+            driver.upload(command.profile, permit=permit)
             return
-        driver.trigger()
+        driver.trigger(permit=permit)
         self.forget()
         self.targets = command.targets
 
-    def _next_leg(self) -> None:
+    def _next_leg(self, permit: Permit) -> None:
         leg = self._route.popleft()
-        self._driver.move_to(leg.targets, leg.speeds)
+        self._driver.move_to(leg.targets, leg.speeds, permit=permit)
         self.targets = MappingProxyType({**self.targets, **leg.targets})
 
-    def _drive(self, command: Drive) -> None:
+    def _drive(self, command: Drive, permit: Permit) -> None:
         driver = self._driver
         assert isinstance(driver, VelocityMover), "the session refuses on any other"
         left_s = command.asked_s + command.lease_s - self._clock()
         if left_s <= 0.0:
             return  # nobody vouches for it any more
         self._route.clear()
-        driver.move_velocity(command.velocities, left_s)
+        driver.move_velocity(command.velocities, left_s, permit=permit)
         axes = command.velocities.keys()
         self.targets = MappingProxyType({a: t for a, t in self.targets.items() if a not in axes})
         self.drives = MappingProxyType({**self.drives, **dict.fromkeys(axes, command)})
 
-    def _play(self, command: Play) -> None:
+    def _play(self, command: Play, permit: Permit) -> None:
         driver = self._driver
         assert isinstance(driver, TrajectoryPlayer), "the session refuses to play on any other"
         names = self._corrections.names
@@ -201,6 +207,6 @@ class Executor:
             loops=command.loops,
             rowwise=command.sent is not None,
         )
-        driver.play(command.sent or command.trajectory)
+        driver.play(command.sent or command.trajectory, permit=permit)
         self.forget()
         self.recorder = recorder

@@ -1,36 +1,49 @@
 """What stands between every request and the machine: ranges, speeds, and the tip's keep-out."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.kinematics.keep_out import SLOW_HEIGHT, SLOW_SPEED, KeepOutZone
+from rotemina.sim.kinematics.keep_out import SLOW_HEIGHT, SLOW_SPEED, Excess, KeepOutZone
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.checked import CheckedTrajectory
 from rotemina.sim.trajectory.limits import OutOfLimitsError, check_target, commands_of
 from rotemina.sim.trajectory.wording import readable
 
 MOST_THRUST = 1e-4  # m: what is beyond a piezo is no thrust into a cell
+RETURN_SPEED = SLOW_SPEED  # m/s of the tip on its way back into its bounds
 _REACTION_S = 0.05  # between a lease's end and the axis' first braking, at most
 _SCALES = tuple(0.5**halvings for halvings in range(8))
 _LIFTING = ("z", "zn")  # axes that move the tip up and down
+_CLOSER = 1e-9  # m by which each axis has to bring the tip nearer to its bounds
 
 
 class Place(NamedTuple):
-    """Where the axes may be just now: bounds (axes,) about command, reading and last target."""
+    """Where the axes may be just now: bounds (axes,) about all commands that may act.
+
+    ``deviation`` (axes,) is by how much readings differ from commands, less what is noise: the tip
+    is judged where it is told to be, and that much beside it, where it is read to be.
+    """
 
     low: FloatArray
     high: FloatArray
+    deviation: FloatArray
 
     def widened(self, columns: Mapping[int, float]) -> "Place":
         """Return the bounds with more values of some axes in them."""
         low, high = self.low.copy(), self.high.copy()
         for column, value in columns.items():
             low[column], high[column] = min(low[column], value), max(high[column], value)
-        return Place(low, high)
+        return Place(low, high, self.deviation)
+
+    def seen(self) -> Iterator[tuple[FloatArray, FloatArray]]:
+        """Yield the bounds about commands, and about readings where these are elsewhere."""
+        yield self.low, self.high
+        if self.deviation.any():
+            yield self.low + self.deviation, self.high + self.deviation
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,28 +91,32 @@ class Guard:
         Raises
         ------
         OutOfLimitsError
-            If the robot has no tip.
+            If the robot has no tip, or the height is none that it can have.
         """
         if self._zone is None:
             raise OutOfLimitsError(f"robot {self._robot.name!r} has no tip that a floor could hold")
         self._zone = self._zone.taught(floor)
 
-    def place(self, measured: Mapping[str, float], *commands: Mapping[str, float]) -> Place:
-        """Return bounds about the readings and all commands that may act; all axes are in them.
+    def place(self, deviation: FloatArray | None, *commands: Mapping[str, float]) -> Place:
+        """Return bounds about all commands that may act; all axes are in them.
 
-        An axis of which nothing is known might be anywhere in its range.
+        An axis of which nothing is known might be anywhere in its range. ``deviation`` (axes,) is
+        that of the readings, as :attr:`Place.deviation`; None: they say nothing else.
         """
         low, high = np.array([axis.range for axis in self._robot.axes.values()]).T
-        for column, (axis, offset) in enumerate(zip(self._axes, self._offset, strict=True)):
+        for column, axis in enumerate(self._axes):
             known = [float(each[axis]) for each in commands if axis in each]
-            if axis in measured:
-                known.append(float(measured[axis] - offset))
             if known:
                 low[column], high[column] = min(known), max(known)
-        return Place(low, high)
+        return Place(low, high, np.zeros(len(self._axes)) if deviation is None else deviation)
 
-    def move(self, place: Place, targets: Mapping[str, float]) -> tuple[Leg, ...]:
+    def move(
+        self, place: Place, targets: Mapping[str, float], *, confirmed: bool = False
+    ) -> tuple[Leg, ...]:
         """Return how a move is to be made: at once, or slower close above the floor.
+
+        A tip that is out of its bounds, as commanded or as read, moves only if that is
+        ``confirmed``, only by axes that each bring it nearer, and slowly.
 
         Raises
         ------
@@ -111,8 +128,10 @@ class Guard:
         zone = self._zone
         if zone is None or not zone.bounded:
             return (Leg(targets, {}),)
-        swept = place.widened({self._axes.index(axis): at for axis, at in targets.items()})
-        lowest = float(zone.check_sweep(*swept, zone.swept(*place)).low[2])
+        if (out := self._out(zone, place)) is not None:
+            return (self._back_in(zone, place, targets, out, confirmed=confirmed),)
+        end = {self._axes.index(axis): at for axis, at in targets.items()}
+        lowest = self._lowest(zone, place.widened(end))
         top = zone.low + SLOW_HEIGHT
         lowering = {
             axis: at
@@ -122,6 +141,44 @@ class Guard:
         if lowest >= top or not lowering:
             return (Leg(targets, {}),)
         return self._in_two(zone, place, targets, lowering)
+
+    def _lowest(self, zone: KeepOutZone, swept: Place) -> float:
+        """Return the least height of the tip on a way; refuse one out of the bounds."""
+        return min(float(zone.check_sweep(*bounds).low[2]) for bounds in swept.seen())
+
+    def _out(self, zone: KeepOutZone, place: Place) -> Excess | None:
+        """Return by how much the tip is out of its bounds, where it is."""
+        each = [zone.excess(zone.swept(*bounds)) for bounds in place.seen()]
+        worst = Excess(*np.max(each, axis=0).tolist())
+        return worst if worst.any else None
+
+    def _refuse_if_out(self, zone: KeepOutZone, place: Place) -> None:
+        if (out := self._out(zone, place)) is not None:
+            raise OutOfLimitsError(_out_text(out))
+
+    def _back_in(
+        self,
+        zone: KeepOutZone,
+        place: Place,
+        targets: Mapping[str, float],
+        out: Excess,
+        *,
+        confirmed: bool,
+    ) -> Leg:
+        """Return the way of a tip that is out of its bounds; refuse what leads anywhere else."""
+        if not confirmed:
+            raise OutOfLimitsError(_out_text(out))
+        end = {self._axes.index(axis): at for axis, at in targets.items()}
+        for column, at in end.items():
+            if not _nearer(zone, place, column, at, out):
+                raise OutOfLimitsError(
+                    f"{_out_text(out)}; axis {self._axes[column]} brings it no nearer that way"
+                )
+        for bounds, present in zip(place.widened(end).seen(), place.seen(), strict=True):
+            zone.beyond(zone.swept(*present)).check_sweep(*bounds)
+        slowly = RETURN_SPEED / len(targets)
+        arms = {axis: zone.chain.pin_length for axis in targets if self._robot.unit(axis) == "rad"}
+        return Leg(targets, {axis: slowly / arms.get(axis, 1.0) for axis in targets})
 
     def _in_two(
         self,
@@ -134,8 +191,7 @@ class Guard:
         slowly = dict.fromkeys(lowering, SLOW_SPEED / len(lowering))
         column = self._axes.index("z")
         end = {self._axes.index(axis): at for axis, at in targets.items()}
-        arrived = place.widened(end)
-        height = float(zone.swept(*arrived).low[2]) - zone.low
+        height = self._lowest(zone, place.widened(end)) - zone.low
         raised = targets.get("z", np.inf) + SLOW_HEIGHT - height
         if "z" not in lowering or raised >= place.low[column]:
             return (Leg(targets, slowly),)
@@ -159,9 +215,9 @@ class Guard:
         zone = self._zone
         if zone is None or not zone.bounded:
             return
+        self._refuse_if_out(zone, place)
         column = self._axes.index(axis)
-        swept = place.widened({column: ends[0]}).widened({column: ends[1]})
-        lowest = float(zone.check_sweep(*swept, zone.swept(*place)).low[2])
+        lowest = self._lowest(zone, place.widened({column: ends[0]}).widened({column: ends[1]}))
         if axis not in _LIFTING or lowest >= zone.low + SLOW_HEIGHT or speed <= SLOW_SPEED:
             return
         if not thrust:
@@ -189,7 +245,7 @@ class Guard:
         zone = self._zone
         if zone is None or not zone.bounded:
             return dict(velocities)
-        present = zone.swept(*place)
+        self._refuse_if_out(zone, place)
         refusal: OutOfLimitsError | None = None
         for scale in _SCALES:
             slower = {axis: scale * speed for axis, speed in velocities.items()}
@@ -198,12 +254,12 @@ class Guard:
                 for axis, speed in slower.items()
             }
             try:
-                box = zone.check_sweep(*place.widened(ends), present)
+                lowest = self._lowest(zone, place.widened(ends))
             except OutOfLimitsError as error:
                 refusal = error
                 continue
             down = -sum(min(slower.get(axis, 0.0), 0.0) for axis in _LIFTING)
-            if box.low[2] >= zone.low + SLOW_HEIGHT or down <= SLOW_SPEED:
+            if lowest >= zone.low + SLOW_HEIGHT or down <= SLOW_SPEED:
                 return slower
         if refusal is None:
             raise OutOfLimitsError("tip: too fast so close above its floor; go slower")
@@ -238,12 +294,43 @@ class Guard:
         zone = self._zone
         if zone is None or not zone.bounded:
             return
+        self._refuse_if_out(zone, place)
         commands = trajectory.commands
         signals = commands_of(self._robot, commands)
         first = {self._axes.index(axis): float(signal[0]) for axis, signal in signals.items()}
-        zone.check_sweep(*place.widened(first), zone.swept(*place))
+        self._lowest(zone, place.widened(first))
         middle = 0.5 * (place.low + place.high)
         positions = np.tile(middle, (len(commands.time_s), 1))
         for axis, signal in signals.items():
             positions[:, self._axes.index(axis)] = signal
         zone.check_path(positions, commands.time_s)
+        if place.deviation.any():
+            zone.check_path(positions + place.deviation, commands.time_s)
+
+
+def _nearer(zone: KeepOutZone, place: Place, column: int, at: float, out: Excess) -> bool:
+    """Tell whether an axis that goes there alone brings the commanded tip back, all the way."""
+    low, high = place.low.copy(), place.high.copy()
+    low[column] = high[column] = at
+    before, end, way = (
+        zone.excess(zone.swept(*bounds))
+        for bounds in ((place.low, place.high), (low, high), place.widened({column: at})[:2])
+    )
+    broken = [number for number, excess in enumerate(out) if excess > 0.0]
+    return all(way[k] <= before[k] + _CLOSER for k in broken) and any(
+        end[k] < before[k] - _CLOSER for k in broken
+    )
+
+
+def _out_text(out: Excess) -> str:
+    """Say by how much the tip is out of its bounds, and what to do."""
+    where = {
+        "below its floor": out.below,
+        "above the objective's height": out.above,
+        "outside its radius": out.aside,
+    }
+    told = ", ".join(f"{readable(much, 'm')} {how}" for how, much in where.items() if much > 0.0)
+    return (
+        f"tip: {told}, as commanded or as read: it only moves back in, slowly and confirmed, by "
+        "axes that each bring it nearer; bring it back, or mend the sensor that reads wrong"
+    )

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from rotemina.app.motion.guard import Leg
 from rotemina.drivers.driver import Driver
+from rotemina.drivers.gate import GateError, Permit
 from rotemina.drivers.profile import Profile
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.errors import InputError
@@ -18,6 +19,14 @@ from rotemina.sim.trajectory.checked import CheckedTrajectory
 
 class RefusedError(InputError):
     """A command that the session does not take now; the message says why and what to do."""
+
+
+def refuse_overtaken(permit: Permit) -> None:
+    """Raise :class:`RefusedError` where a permit would not pass the gate now."""
+    try:
+        permit.check()
+    except GateError as error:
+        raise RefusedError(str(error)) from error
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +68,7 @@ class Home:
 class Ask:
     """Something else that a driver is asked to do, on the thread that talks to it."""
 
-    action: Callable[[Driver], None]
+    action: Callable[[Driver, Permit], None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,11 +155,11 @@ class Wish:
     driver: Driver | None
 
 
-class Taken(NamedTuple):
-    """A command, and how many times the queue had been emptied by a stop before it was taken."""
+class Posted(NamedTuple):
+    """A command, and the permit that was drawn before it was first checked."""
 
     command: Command
-    generation: int
+    permit: Permit
 
 
 class Mailbox:
@@ -159,9 +168,8 @@ class Mailbox:
     def __init__(self, capacity: int) -> None:
         self.capacity = capacity
         self.bell = threading.Event()
-        self._commands: deque[Command] = deque()
-        self._in_hand: Command | None = None
-        self._generation = 0
+        self._commands: deque[Posted] = deque()
+        self._in_hand: Posted | None = None
         self._wish: Wish | None = None
         self._lock = threading.Lock()
 
@@ -169,18 +177,20 @@ class Mailbox:
         return len(self._commands)
 
     @property
-    def generation(self) -> int:
-        """How many times the queue has been emptied."""
-        return self._generation
+    def busy(self) -> bool:
+        """Whether a command waits, or is being handed over."""
+        with self._lock:
+            return bool(self._commands) or self._in_hand is not None
 
-    def post(self, command: Command) -> None:
+    def post(self, command: Command, permit: Permit) -> None:
         """Queue a command and ring.
 
         Raises
         ------
         RefusedError
-            If the queue is full.
+            If its permit would not pass the gate now, or the queue is full.
         """
+        refuse_overtaken(permit)
         with self._lock:
             if isinstance(command, Drive) and self._renews(command):
                 self._commands.pop()
@@ -189,31 +199,30 @@ class Mailbox:
                     f"{self.capacity} commands are waiting already and the device does not keep "
                     "up; wait, or stop"
                 )
-            self._commands.append(command)
+            self._commands.append(Posted(command, permit))
         self.bell.set()
 
     def _renews(self, command: Drive) -> bool:
         """Tell whether the latest command is of the same axes: only the newest speed counts."""
-        latest = self._commands[-1] if self._commands else None
+        latest = self._commands[-1].command if self._commands else None
         return isinstance(latest, Drive) and latest.velocities.keys() <= command.velocities.keys()
 
-    def take(self) -> Taken | None:
+    def take(self) -> Posted | None:
         """Return the oldest command, or None; the one taken before counts as done."""
         with self._lock:
             self._in_hand = self._commands.popleft() if self._commands else None
-            return Taken(self._in_hand, self._generation) if self._in_hand else None
+            return self._in_hand
 
     def clear(self) -> None:
-        """Drop every command, and mark those already taken as overtaken."""
+        """Drop every command."""
         with self._lock:
             self._commands.clear()
             self._in_hand = None
-            self._generation += 1
 
     def holds_play(self) -> bool:
         """Whether a trajectory waits to be played, or a profile to be run."""
         with self._lock:
-            return any(isinstance(command, Play | RunProfile) for command in self._commands)
+            return any(isinstance(one.command, Play | RunProfile) for one in self._commands)
 
     def target_of(self, axis: str) -> float | None:
         """Return where the latest move that waits, or is being handed over, sends an axis."""
@@ -221,10 +230,8 @@ class Mailbox:
 
     def pending(self) -> list[Mapping[str, float]]:
         """Return where all moves that wait, or are being handed over, send axes, oldest first."""
-        with self._lock:
-            commands = [self._in_hand, *self._commands]
         found: list[Mapping[str, float]] = []
-        for command in commands:
+        for command in self._unfinished():
             if isinstance(command, Move):
                 found += [leg.targets for leg in command.legs]
             elif isinstance(command, RunProfile | SetVoltage):
@@ -233,9 +240,12 @@ class Mailbox:
 
     def drives(self) -> list[Drive]:
         """Return the speeds that wait, or are being handed over, oldest first."""
+        return [command for command in self._unfinished() if isinstance(command, Drive)]
+
+    def _unfinished(self) -> list[Command]:
         with self._lock:
-            commands = [self._in_hand, *self._commands]
-        return [command for command in commands if isinstance(command, Drive)]
+            posted = [self._in_hand, *self._commands]
+        return [one.command for one in posted if one is not None]
 
     def wish(self, wish: Wish) -> None:
         """Ask the worker to connect or disconnect, and ring; the latest wish counts."""

@@ -123,7 +123,7 @@ class Operation:
         for ticker in self._tickers:
             ticker.close()
         if self.teleoperator.state.driving:
-            self.session.stop()
+            self.session.stop("the input devices are let go of")
         self.penetration.close()
         self.devices.close()
         if self._planning is not None:
@@ -201,6 +201,7 @@ class Operation:
         """
         if self._planning is not None and self._planning.is_alive():
             raise RefusedError("re-centring is being planned; wait")
+        permit = self.session.permit()
         state = self.session.snapshot()
         if state.locked is not None:
             raise RefusedError(f"motion is locked: {state.locked}")
@@ -215,7 +216,7 @@ class Operation:
                 now = self.session.snapshot().command
                 if any(now[axis] != state.command[axis] for axis in JOINTS):
                     raise RefusedError("the machine has moved meanwhile; ask once more")
-                self.session.play(planned.trajectory)
+                self.session.play(planned.trajectory, permit=permit)
             except InputError as error:
                 self._told(f"Re-centring: {error}")
 

@@ -20,6 +20,7 @@ class Ownership:
     """
 
     def __init__(self) -> None:
+        # Replaced as a whole: the gate looks without the lock, which a claim holds for longer.
         self._owners: dict[str, str] = {}
         self._reserved: dict[str, str] = {}
         self._lock = threading.RLock()
@@ -29,6 +30,11 @@ class Ownership:
         """The owner of each axis that has one."""
         with self._lock:
             return MappingProxyType(dict(self._owners))
+
+    def other_than(self, owner: str, axes: Iterable[str]) -> str | None:
+        """Return who else drives one of these axes now; any thread, without a lock."""
+        owners = self._owners
+        return next((owners[a] for a in axes if owners.get(a, owner) != owner), None)
 
     @contextmanager
     def claimed(self, axes: Iterable[str], owner: str) -> Iterator[None]:
@@ -44,8 +50,8 @@ class Ownership:
         wanted = tuple(axes)
         with self._lock:
             self.check(wanted, owner)
-            before = dict(self._owners)
-            self._owners.update(dict.fromkeys(wanted, owner))
+            before = self._owners
+            self._owners = {**self._owners, **dict.fromkeys(wanted, owner)}
             try:
                 yield
             except BaseException:
@@ -72,7 +78,7 @@ class Ownership:
         """Make axes an owner's, whoever had them."""
         wanted = tuple(axes)
         with self._lock:
-            self._owners.update(dict.fromkeys(wanted, owner))
+            self._owners = {**self._owners, **dict.fromkeys(wanted, owner)}
             for axis in wanted:
                 if self._reserved.get(axis, owner) != owner:
                     del self._reserved[axis]

@@ -13,6 +13,8 @@ from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.retiming import Piece, check_speed, piece
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import Connection, Event, PlaybackFinished, StateChanged
+from rotemina.app.motion.stop_request import PROGRAM
+from rotemina.drivers.gate import Permit
 from rotemina.drivers.samples import DeviceState, Samples
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.records.record import Record, Tap
@@ -112,6 +114,7 @@ class Playback:
         *,
         speed: float = 1.0,
         bounds: Mapping[str, float] = MappingProxyType({}),
+        permit: Permit | None = None,
     ) -> None:
         """Play a trajectory from its first row.
 
@@ -123,21 +126,24 @@ class Playback:
             Times as fast as it says, 0.01 to 10; another pace than 1 is checked against all limits.
         bounds : mapping axis -> float
             The greatest deviation of readings from the model, m or rad, beyond which it is stopped.
+        permit : Permit, optional
+            Of the request, where that was made before this call.
 
         Raises
         ------
         InputError
             If speed or bounds are none, or as :meth:`MotionSession.play`.
         """
+        permit = self._session.permit() if permit is None else permit
         commands = trajectory.commands
         watch = DeviationWatch(self._session.robot, bounds)
         state = PlaybackState(
             rows=len(commands.time_s), duration_s=commands.duration_s, speed=check_speed(speed)
         )
-        self._begin(trajectory, 0, state, watch)
+        self._begin(trajectory, 0, state, watch, permit)
 
-    def pause(self) -> None:
-        """Bring the axes to rest, to go on later.
+    def pause(self, *, by: str = PROGRAM) -> None:
+        """Bring the axes to rest, to go on later; ``by`` as of :meth:`MotionSession.stop`.
 
         Raises
         ------
@@ -148,7 +154,7 @@ class Playback:
             if self._state.phase is not PlaybackPhase.PLAYING:
                 raise RefusedError("nothing plays that could be paused")
             self._pausing = True
-        self._session.stop()
+        self._session.stop("the playback is paused", by=by)
 
     def resume(self, *, speed: float | None = None) -> None:
         """Go on from the last row that began, at the speed of before or at another one.
@@ -158,10 +164,11 @@ class Playback:
         RefusedError
             If nothing is paused, or as :meth:`MotionSession.play`.
         """
+        permit = self._session.permit()
         whole, watch, state = self._paused("go on with")
         pace = state.speed if speed is None else check_speed(speed)
         row = min(max(state.row, 0), state.rows - 1)
-        self._begin(whole, row, replace(state, speed=pace, excess=None), watch)
+        self._begin(whole, row, replace(state, speed=pace, excess=None), watch, permit)
 
     def step(self, rows: int = 1) -> None:
         """Go some rows on, or back, and rest there; at the axes' own speed, without a record.
@@ -202,9 +209,9 @@ class Playback:
                 PlaybackPhase.PAUSED, rows=len(commands.time_s), duration_s=commands.duration_s
             )
 
-    def end(self) -> None:
-        """Stop, and forget what was paused."""
-        self._session.stop()
+    def end(self, *, by: str = PROGRAM) -> None:
+        """Stop, and forget what was paused; ``by`` as of :meth:`MotionSession.stop`."""
+        self._session.stop("the playback is ended", by=by)
         with self._lock:
             self._state = replace(self._state, phase=PlaybackPhase.IDLE)
 
@@ -215,7 +222,12 @@ class Playback:
             return self._whole, self._watch, self._state
 
     def _begin(
-        self, whole: CheckedTrajectory, row: int, state: PlaybackState, watch: DeviationWatch
+        self,
+        whole: CheckedTrajectory,
+        row: int,
+        state: PlaybackState,
+        watch: DeviationWatch,
+        permit: Permit,
     ) -> None:
         period_s = self._session.setpoint_period_s
         played: Record | CheckedTrajectory = whole
@@ -230,7 +242,7 @@ class Playback:
             self._state = replace(state, phase=PlaybackPhase.PLAYING)
             self._pausing = False
         try:
-            self._session.play(played)
+            self._session.play(played, permit=permit)
         except BaseException:
             with self._lock:
                 self._whole, self._piece, self._watch, self._state = before
@@ -248,7 +260,7 @@ class Playback:
                 return
             self._state = replace(self._state, excess=excess)
             self._pausing = True
-        self._session.stop()
+        self._session.stop(excess.text)
         self._exceeded(excess)
 
     def _on_event(self, event: Event) -> None:

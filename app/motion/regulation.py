@@ -14,6 +14,7 @@ from rotemina.app.motion.compensation import CompensatedRequests
 from rotemina.app.motion.mailbox import RefusedError, Regulate
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.drivers.driver import Driver
+from rotemina.drivers.gate import Permit
 from rotemina.drivers.model_abilities import Regulator
 from rotemina.sim.feedback.errors import FeedbackError
 from rotemina.sim.feedback.regulation import Regulation
@@ -64,7 +65,7 @@ class RegulatedRequests(CompensatedRequests, ABC):
             "for one; use feed-forward, or the simulator"
         )
 
-    def regulate(self, loop: NamedRegulation) -> None:
+    def regulate(self, loop: NamedRegulation, *, permit: Permit | None = None) -> None:
         """Close a loop around its axis, which stays where it is.
 
         Its command becomes the position that its sensor tells. An inverse that is on goes over
@@ -75,16 +76,18 @@ class RegulatedRequests(CompensatedRequests, ABC):
         RefusedError
             If the device cannot, the machine is not at rest, or as for any move.
         """
+        permit = self._drawn(permit)
         if self.no_regulation is not None:
             raise RefusedError(self.no_regulation)
         axis = loop.regulation.axis
         with self._lock:
             self._refuse_unless_at_rest("closing a loop")
             with self._worker.ownership.claimed((axis,), OPERATOR):
-                self._mailbox.post(Regulate(axis, loop.regulation))
+                command = Regulate(axis, loop.regulation)
+                self._mailbox.post(command, permit.owned((axis,), OPERATOR))
             self._regulations = MappingProxyType({**self._regulations, axis: loop})
 
-    def unregulate(self, axis: str) -> None:
+    def unregulate(self, axis: str, *, permit: Permit | None = None) -> None:
         """Open the loop of an axis, which stays where it is.
 
         Raises
@@ -92,12 +95,13 @@ class RegulatedRequests(CompensatedRequests, ABC):
         RefusedError
             As :meth:`regulate`, or if there is none.
         """
+        permit = self._drawn(permit)
         if axis not in self.regulated:
             raise RefusedError(f"axis {axis} is under no loop that could be taken off")
         with self._lock:
             self._refuse_unless_at_rest("opening a loop")
             with self._worker.ownership.claimed((axis,), OPERATOR):
-                self._mailbox.post(Regulate(axis, None))
+                self._mailbox.post(Regulate(axis, None), permit.owned((axis,), OPERATOR))
 
     def use(self, driver: Driver) -> None:
         """Stop, let go of the device, and connect to another one, without any loop.

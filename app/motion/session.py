@@ -29,11 +29,12 @@ from rotemina.drivers.abilities import (
     VelocityMover,
 )
 from rotemina.drivers.driver import Driver
+from rotemina.drivers.gate import Permit, Purpose
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.kinematics.keep_out import KeepOutZone
 from rotemina.sim.records.record import Record
 from rotemina.sim.trajectory.checked import CheckedTrajectory, accepted
-from rotemina.sim.trajectory.limits import OutOfLimitsError, check_target
+from rotemina.sim.trajectory.limits import OutOfLimitsError, check_speeds, check_target
 
 LEASE_S = 0.15  # of a speed that nobody renews
 
@@ -58,11 +59,16 @@ class MotionSession(RegulatedRequests):
         targets: Mapping[str, float],
         owner: str = OPERATOR,
         speeds: Mapping[str, float] = MappingProxyType({}),
+        *,
+        confirmed: bool = False,
+        permit: Permit | None = None,
     ) -> None:
         """Send axes to positions, m or rad; also in mid-move.
 
         Each goes as fast as it may, or as ``speeds`` (m/s or rad/s) says, where that is slower.
-        Close above the tip's floor the move slows down by itself.
+        Close above the tip's floor the move slows down by itself. A ``permit`` is that of the plan
+        that this is a part of: a stop since then ends it. A tip that is out of its bounds moves
+        only if somebody has ``confirmed`` that, slowly, by axes that each bring it back.
 
         Raises
         ------
@@ -72,11 +78,17 @@ class MotionSession(RegulatedRequests):
             If no motion is possible now: not connected, a fault, a playback, a full queue, an axis
             that another owner drives.
         """
+        permit = self._drawn(permit)
         with self._lock:
-            self._post_move(dict(targets), owner, speeds)
+            self._post_move(dict(targets), owner, speeds, permit, confirmed=confirmed)
 
     def move_velocity(
-        self, velocities: Mapping[str, float], lease_s: float = LEASE_S, owner: str = OPERATOR
+        self,
+        velocities: Mapping[str, float],
+        lease_s: float = LEASE_S,
+        owner: str = OPERATOR,
+        *,
+        permit: Permit | None = None,
     ) -> dict[str, float]:
         """Let axes go at speeds, m/s or rad/s, until the lease runs out; renew it to go on.
 
@@ -90,6 +102,7 @@ class MotionSession(RegulatedRequests):
         RefusedError
             If the device cannot, or as :meth:`go_to`.
         """
+        permit = self._drawn(permit)
         driver = self.driver
         if not isinstance(driver, VelocityMover):
             raise RefusedError(f"driver {driver.name!r} cannot move at a speed; send targets")
@@ -101,7 +114,11 @@ class MotionSession(RegulatedRequests):
             ways, braking = guard.ways(used, lease_s), guard.ways(used, 0.0)
             with self._worker.ownership.claimed(velocities, owner):
                 self._note_rest()
-                self._mailbox.post(Drive(used, lease_s, self._clock(), ways, braking))
+                asked_s = self._clock()
+                self._mailbox.post(
+                    Drive(used, lease_s, asked_s, ways, braking),
+                    permit.owned(velocities, owner).until(asked_s + lease_s),
+                )
         return used
 
     def home(self, axes: Sequence[str] | None = None) -> None:
@@ -112,20 +129,23 @@ class MotionSession(RegulatedRequests):
         RefusedError
             If the device has none, or is not at rest.
         """
+        permit = self.permit(Purpose.HOMING)
         driver = self.driver
         if not isinstance(driver, Homer):
             raise RefusedError(f"driver {driver.name!r} has no switches to be found")
         wanted = driver.homing_axes if axes is None else tuple(axes)
         with self._lock:
             state = self.snapshot()
-            self._refuse_if_unready(state)
+            why = self._unready(state)
+            if why is not None:
+                raise RefusedError(f"motion is locked: {why}")
             if state.activity is not DeviceState.IDLE or len(self._mailbox):
                 raise RefusedError("the machine is still moving; stop it or wait before homing")
             with self._worker.ownership.claimed(wanted, HOMING):
-                self._mailbox.post(Home(wanted))
+                self._mailbox.post(Home(wanted), permit.owned(wanted, HOMING))
             self._undo.forget()
 
-    def undo(self) -> None:
+    def undo(self, *, permit: Permit | None = None) -> None:
         """Go back to where the axes rested before the latest move: up, across, down.
 
         Raises
@@ -133,15 +153,20 @@ class MotionSession(RegulatedRequests):
         OutOfLimitsError, RefusedError
             As :meth:`go_to`, or if there is no move to take back.
         """
+        permit = self._drawn(permit)
         with self._lock:
             self._refuse_if_locked()
             self._refuse_in_motion("going back")
             legs = self._legs(self._undo.back(dict(self._worker.state.command)))
             with self._worker.ownership.claimed(_axes(legs), OPERATOR):
-                self._mailbox.post(Move(legs))
+                self._mailbox.post(Move(legs), permit.owned(_axes(legs), OPERATOR))
 
     def go_safely(
-        self, goal: Mapping[str, float], speeds: Mapping[str, float] = MappingProxyType({})
+        self,
+        goal: Mapping[str, float],
+        speeds: Mapping[str, float] = MappingProxyType({}),
+        *,
+        permit: Permit | None = None,
     ) -> None:
         """Send axes to a place by a safe way: up, across, down; ``speeds`` as in :meth:`go_to`.
 
@@ -150,6 +175,7 @@ class MotionSession(RegulatedRequests):
         OutOfLimitsError, RefusedError
             As :meth:`go_to`, or if the machine is not at rest; then no axis moves.
         """
+        permit = self._drawn(permit)
         with self._lock:
             self._refuse_if_locked()
             self._refuse_in_motion("going there")
@@ -160,7 +186,7 @@ class MotionSession(RegulatedRequests):
             legs = tuple(leg.no_faster(speeds) for leg in self._legs(ways))
             with self._worker.ownership.claimed(_axes(legs), OPERATOR):
                 self._note_rest()
-                self._mailbox.post(Move(legs))
+                self._mailbox.post(Move(legs), permit.owned(_axes(legs), OPERATOR))
 
     @property
     def undoable(self) -> bool:
@@ -168,7 +194,7 @@ class MotionSession(RegulatedRequests):
         with self._lock:
             return self._undo.leads_from(dict(self._worker.state.command))
 
-    def compensate(self, inverse: NamedInverse) -> None:
+    def compensate(self, inverse: NamedInverse, *, permit: Permit | None = None) -> None:
         """Put an inverse on its axis, which stays where it is; no way leads back from there.
 
         Raises
@@ -176,11 +202,11 @@ class MotionSession(RegulatedRequests):
         CompensationError, RefusedError
             As :meth:`CompensatedRequests.compensate`.
         """
-        super().compensate(inverse)
+        super().compensate(inverse, permit=permit)
         with self._lock:
             self._undo.forget()
 
-    def uncompensate(self, axis: str) -> None:
+    def uncompensate(self, axis: str, *, permit: Permit | None = None) -> None:
         """Take the inverse off an axis; it stays where it is, and no way leads back from there.
 
         Raises
@@ -188,11 +214,11 @@ class MotionSession(RegulatedRequests):
         RefusedError
             As :meth:`CompensatedRequests.uncompensate`.
         """
-        super().uncompensate(axis)
+        super().uncompensate(axis, permit=permit)
         with self._lock:
             self._undo.forget()
 
-    def regulate(self, loop: NamedRegulation) -> None:
+    def regulate(self, loop: NamedRegulation, *, permit: Permit | None = None) -> None:
         """Close a loop around its axis, which stays where it is; no way leads back from there.
 
         Raises
@@ -200,11 +226,11 @@ class MotionSession(RegulatedRequests):
         RefusedError
             As :meth:`RegulatedRequests.regulate`.
         """
-        super().regulate(loop)
+        super().regulate(loop, permit=permit)
         with self._lock:
             self._undo.forget()
 
-    def unregulate(self, axis: str) -> None:
+    def unregulate(self, axis: str, *, permit: Permit | None = None) -> None:
         """Open the loop of an axis, which stays where it is; no way leads back from there.
 
         Raises
@@ -212,7 +238,7 @@ class MotionSession(RegulatedRequests):
         RefusedError
             As :meth:`RegulatedRequests.unregulate`.
         """
-        super().unregulate(axis)
+        super().unregulate(axis, permit=permit)
         with self._lock:
             self._undo.forget()
 
@@ -238,27 +264,33 @@ class MotionSession(RegulatedRequests):
         distance: float,
         owner: str = OPERATOR,
         speeds: Mapping[str, float] = MappingProxyType({}),
+        *,
+        confirmed: bool = False,
+        permit: Permit | None = None,
     ) -> None:
         """Move one axis by a distance (m or rad) from where it was last sent.
 
-        ``speeds`` as in :meth:`go_to`.
+        ``speeds`` and ``confirmed`` as in :meth:`go_to`.
 
         Raises
         ------
         OutOfLimitsError, RefusedError
             As :meth:`go_to`.
         """
+        permit = self._drawn(permit)
         if axis not in self.robot.axes:
             check_target(self.robot, axis, 0.0)
         with self._lock:
             self._refuse_if_locked()
-            self._post_move({axis: self._target_of(axis) + distance}, owner, speeds)
+            target = self._target_of(axis) + distance
+            self._post_move({axis: target}, owner, speeds, permit, confirmed=confirmed)
 
-    def play(self, trajectory: Record | CheckedTrajectory) -> None:
+    def play(self, trajectory: Record | CheckedTrajectory, *, permit: Permit | None = None) -> None:
         """Play a trajectory; events tell how it ends, with the record.
 
         A bare record is checked on the caller's thread, which takes half a second for a million
-        rows; what a dry run allowed (``dry_run(…).require()``) is not checked again.
+        rows; what a dry run allowed (``dry_run(…).require()``) is not checked again. The tip's path
+        is checked on that thread too, seconds long where it is bounded: a window asks from another.
 
         Raises
         ------
@@ -267,21 +299,31 @@ class MotionSession(RegulatedRequests):
         RefusedError
             If the device cannot play or is not at rest, or as :meth:`go_to`.
         """
+        permit = self._drawn(permit)
         if not isinstance(self.driver, TrajectoryPlayer):
             raise RefusedError(f"driver {self.driver.name!r} cannot play trajectories")
         checked = accepted(self.robot, trajectory, self.setpoint_period_s)
         sent, compensations = self._sent(checked)
         with self._lock:
             self._refuse_if_locked()
-            if self._worker.state.activity is not DeviceState.IDLE or len(self._mailbox):
-                raise RefusedError("the machine is still moving; stop it or wait before playing")
-            self._guard.play(self._place(), checked)
-            if sent is not None:
-                self._guard.play(self._place(), sent)
+            self._refuse_in_motion("playing")
+            place, checked_for = self._place(), self._standing()
+        # Neither a stop nor a request waits for a check of the path: no lock is held.
+        self._guard.play(place, checked)
+        if sent is not None:
+            self._guard.play(place, sent)
+        with self._lock:
+            self._refuse_if_locked()
+            self._refuse_in_motion("playing")
+            if self._standing() != checked_for:
+                raise RefusedError("the machine or the tip's bounds have changed; play once more")
             with self._worker.ownership.claimed(self.driver.axes, PLAYBACK):
                 self._note_rest()
                 loops = {axis: one.name for axis, one in self.regulated.items()}
-                self._mailbox.post(Play(checked, sent, compensations, loops))
+                self._mailbox.post(
+                    Play(checked, sent, compensations, loops),
+                    permit.owned(self.driver.axes, PLAYBACK),
+                )
 
     # --- bounds and parameters --------------------------------------------------------------------
 
@@ -296,22 +338,38 @@ class MotionSession(RegulatedRequests):
         Raises
         ------
         OutOfLimitsError
-            If the robot has no tip.
+            If the robot has no tip, or the height is none that the tip can have.
         RefusedError
-            If the position is not known.
+            If the machine is not at rest, or motion is locked.
         """
-        self._refuse_if_locked()
         zone = self._guard.zone
         if zone is None:
             raise OutOfLimitsError(f"robot {self.robot.name!r} has no tip that a floor could hold")
-        command = self._worker.state.command
-        tip = zone.tip(np.array([command[axis] for axis in self.driver.axes]))
-        self._guard.teach_floor(float(tip[2]) - clearance)
-        return float(tip[2]) - clearance
+        if not 0.0 <= clearance < float("inf"):
+            raise OutOfLimitsError(
+                f"tip: a floor {clearance:g} m below the tip: must be a finite number, 0 or more"
+            )
+        with self._lock:
+            self._refuse_unless_at_rest("teaching the floor")
+            command = self._worker.state.command
+            tip = zone.tip(np.array([command[axis] for axis in self.driver.axes]))
+            floor = float(tip[2]) - clearance
+            self._guard.teach_floor(floor)
+        return floor
 
     def clear_floor(self) -> None:
-        """Take the tip's floor away."""
-        self._guard.teach_floor(None)
+        """Take the tip's floor away; the objective stays a bound.
+
+        Raises
+        ------
+        OutOfLimitsError
+            If the robot has no tip.
+        RefusedError
+            If the machine is not at rest, or motion is locked.
+        """
+        with self._lock:
+            self._refuse_unless_at_rest("removing the floor")
+            self._guard.teach_floor(None)
 
     def snapshot(self) -> SessionState:
         """Return the present state; any thread."""
@@ -322,14 +380,19 @@ class MotionSession(RegulatedRequests):
         self,
         targets: dict[str, float],
         owner: str,
-        speeds: Mapping[str, float] = MappingProxyType({}),
+        speeds: Mapping[str, float],
+        permit: Permit,
+        *,
+        confirmed: bool,
     ) -> None:
         self._refuse_if_locked()
         self._check_seen(targets)
-        legs = tuple(leg.no_faster(speeds) for leg in self._guard.move(self._place(), targets))
+        check_speeds(targets, speeds)
+        ways = self._guard.move(self._place(), targets, confirmed=confirmed)
+        legs = tuple(leg.no_faster(speeds) for leg in ways)
         with self._worker.ownership.claimed(targets, owner):
             self._note_rest()
-            self._mailbox.post(Move(legs))
+            self._mailbox.post(Move(legs), permit.owned(targets, owner))
 
     def _place(self, driven: Container[str] = ()) -> Place:
         """Return where the axes may be by what they have been told and said last.
@@ -344,7 +407,7 @@ class MotionSession(RegulatedRequests):
             way = (drive.braking if axis in driven else drive.ways).get(axis, 0.0)
             if axis in command:
                 ends.append({axis: command[axis] + way})
-        return self._guard.place(worker.state.measured, *ends)
+        return self._guard.place(worker.deviation.now, *ends)
 
     def _legs(self, ways: Sequence[Mapping[str, float]]) -> tuple[Leg, ...]:
         """Return how places are gone to, one after the other, from where the machine rests."""
@@ -353,11 +416,15 @@ class MotionSession(RegulatedRequests):
         for targets in ways:
             legs += self._guard.move(place, targets)
             reached |= targets
-            place = self._guard.place({}, reached)
+            place = self._guard.place(place.deviation, reached)
         return tuple(legs)
 
+    def _standing(self) -> tuple[object, ...]:
+        """Return what a check of a path rests on, while the machine rests."""
+        return dict(self._worker.state.command), self._guard.zone, dict(self.compensated)
+
     def _refuse_in_motion(self, before: str) -> None:
-        if self._worker.state.activity is not DeviceState.IDLE or len(self._mailbox):
+        if not self._worker.at_rest:
             raise RefusedError(f"the machine is still moving; stop it or wait before {before}")
 
     def _note_rest(self) -> None:

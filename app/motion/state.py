@@ -6,6 +6,7 @@ from enum import StrEnum
 from types import MappingProxyType
 
 from rotemina.app.motion.stop_latency import Latency
+from rotemina.app.motion.stop_request import StopRequest
 from rotemina.drivers.link import LinkQuality
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.records.record import Record
@@ -66,6 +67,8 @@ class SessionState:
         For how long the device has said nothing though it should have.
     stopping : bool
         Whether a stop was asked for and the device has not been seen at rest since.
+    stop : StopRequest or None
+        The latest stop: who asked, why and when.
     latched : str or None
         Why the emergency stop is latched, until it is released.
     owners : mapping axis -> str
@@ -79,7 +82,7 @@ class SessionState:
     stop_latency : Latency or None
         How long a stop takes to be out on the line, as of all the time.
     stop_latency_s : float or None
-        How long the latest stop took to be handed to the device (host time).
+        How long the device took to confirm the latest stop (host time).
     standstill_s : float or None
         From that stop until the device was seen at rest (host time); None while it still halts.
     """
@@ -100,6 +103,7 @@ class SessionState:
     unhomed: tuple[str, ...] = ()
     silent_s: float = 0.0
     stopping: bool = False
+    stop: StopRequest | None = None
     latched: str | None = None
     owners: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
     differences: tuple[str, ...] = ()
@@ -135,8 +139,22 @@ class StateChanged:
 
 
 @dataclass(frozen=True, slots=True)
+class Stopped:
+    """A stop was asked for."""
+
+    request: StopRequest
+
+
+@dataclass(frozen=True, slots=True)
 class Faulted:
     """Motion is locked for this reason, until it is cleared or the device reconnected."""
+
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class Alarmed:
+    """A reading is where it should not be; motion goes on."""
 
     message: str
 
@@ -156,5 +174,5 @@ class PlaybackFinished:
     completed: bool
 
 
-Event = StateChanged | Faulted | CommandRefused | PlaybackFinished
+Event = StateChanged | Stopped | Faulted | Alarmed | CommandRefused | PlaybackFinished
 Callback = Callable[[Event], None]

@@ -4,6 +4,7 @@ It is stepped, not timed: :meth:`Worker.run_once` is one cycle, called by the se
 without any thread, by a test.
 """
 
+from collections import deque
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import replace
@@ -12,10 +13,22 @@ from types import MappingProxyType
 from rotemina.app.motion.executor import Executor
 from rotemina.app.motion.history import LiveHistory
 from rotemina.app.motion.live_model import LiveModel
-from rotemina.app.motion.mailbox import ClearFault, Drive, Mailbox
+from rotemina.app.motion.mailbox import (
+    ClearFault,
+    Drive,
+    Home,
+    Mailbox,
+    Move,
+    Play,
+    RunProfile,
+    SetVoltage,
+)
 from rotemina.app.motion.ownership import Ownership
+from rotemina.app.motion.position_watch import PositionWatch
+from rotemina.app.motion.reading_deviation import ReadingDeviation
 from rotemina.app.motion.sensor_corrections import SensorCorrections
 from rotemina.app.motion.state import (
+    Alarmed,
     CommandRefused,
     Connection,
     Event,
@@ -23,12 +36,15 @@ from rotemina.app.motion.state import (
     PlaybackFinished,
     SessionState,
     StateChanged,
+    Stopped,
 )
 from rotemina.app.motion.stop_latency import StopLatency
+from rotemina.app.motion.stop_request import StopRequest
 from rotemina.drivers.abilities import Linked, Parameterised
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.errors import DriverError, StateError
+from rotemina.drivers.gate import Gate
 from rotemina.drivers.link import LinkQuality
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.sim.arrays import FloatArray
@@ -50,6 +66,7 @@ class Worker:
     def __init__(
         self,
         driver: Driver,
+        gate: Gate,
         mailbox: Mailbox,
         history: LiveHistory,
         clock: Clock,
@@ -61,22 +78,36 @@ class Worker:
         self.state = SessionState(locked=_NOT_CONNECTED)
         self.ownership = Ownership()
         self.latency = StopLatency()
-        self._driver = driver
+        #: The one that is open, or was open last; exchanged on this worker's thread.
+        self.driver = driver
+        self._gate = gate
         self._mailbox = mailbox
         self._history = history
         self._clock = clock
         self._emit = emit
         self._tell = tell
         self._model = LiveModel(driver.robot)
-        self._executor = Executor(driver, mailbox, clock, self.corrections)
+        self._watch = PositionWatch(driver.robot)
+        #: What the tip's bounds are judged on beside commands.
+        self.deviation = ReadingDeviation(driver.robot)
+        self._executor = Executor(driver, clock, self.corrections)
         self._next = self.state
         self._unread: list[Samples] = []
         self._worked_up_s = float("-inf")
         self._received_s = float("-inf")
         self._distrust: str | None = None
+        self._stirred = False  # since the state was published
         # Set by other threads, each in one assignment.
         self._stop_asked_s: float | None = None
+        self._stop_unconfirmed_s: float | None = None
         self._stop_failure: Exception | None = None
+        self._stops_to_tell: deque[StopRequest] = deque(maxlen=_MOST_STOPS)
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether nothing moves, waits, or was handed over since the device was looked at last."""
+        resting = self.state.activity is DeviceState.IDLE
+        return resting and not self._mailbox.busy and not self._stirred
 
     @property
     def targets(self) -> Mapping[str, float]:
@@ -88,16 +119,19 @@ class Worker:
         """The speed that was last given to each axis that may still go at one."""
         return self._executor.drives
 
-    def stopped(self, host_time_s: float, failure: Exception | None) -> None:
+    def stopped(self, host_time_s: float, failure: Exception | None, request: StopRequest) -> None:
         """Note, from any thread, that a stop was handed to the device, or failed to be."""
         self._executor.forget()
-        self._stop_asked_s = host_time_s
+        self._stop_asked_s = self._stop_unconfirmed_s = host_time_s
         if failure is not None:  # a later stop that succeeds does not mend what this one found
             self._stop_failure = failure
+        self._stops_to_tell.append(request)
         self._mailbox.bell.set()
 
     def run_once(self) -> None:
         """Do one cycle. Whatever the driver raises ends in the failed state, never in here."""
+        while self._stops_to_tell:
+            self._emit(Stopped(self._stops_to_tell.popleft()))
         try:
             self._cycle()
         except Exception as error:  # a driver may raise anything; motion must lock and say so
@@ -109,6 +143,7 @@ class Worker:
     def confirm_position(self) -> None:
         """Trust the device's position again after a lost connection; on the worker's thread."""
         self._distrust = None
+        self._watch.restart()
 
     def shut_down(self) -> None:
         """Stop and let go of the device."""
@@ -116,26 +151,27 @@ class Worker:
         self._publish()
 
     def _let_go(self) -> None:
+        self._gate.reconnected()
         self._mailbox.clear()
         self._executor.forget()
         self.ownership.release()
         with suppress(Exception):  # the link may be gone; there is nobody left to tell
-            self._driver.stop()
+            self.driver.stop()
         self._end_recording(completed=False)
         with suppress(Exception):
-            self._driver.close()
+            self.driver.close()
         self._set_disconnected(Connection.DISCONNECTED, self._next.fault)
 
     def _use(self, driver: Driver) -> None:
-        if driver is not self._driver:
-            self._driver = driver
-            self._executor = Executor(driver, self._mailbox, self._clock, self.corrections)
+        if driver is not self.driver:
+            self.driver = driver
+            self._executor = Executor(driver, self._clock, self.corrections)
             self._distrust = None  # another device vouches for itself
 
     def _cycle(self) -> None:
         wish = self._mailbox.take_wish()
         if wish is not None:
-            if wish.driver is not self._driver:
+            if wish.driver is not self.driver:
                 self._let_go()
             if wish.driver is not None:
                 self._use(wish.driver)
@@ -159,17 +195,22 @@ class Worker:
         self._unread.clear()
         self.corrections.restart()
         self._model.prepare()
-        self._driver.open()
+        self.driver.open()
+        self._gate.reconnected()
         self._worked_up_s = float("-inf")
         self._history.clear()
         self._model.restart()
+        self._watch.restart()
+        self.deviation.restart()
+        self._stirred = False
         self._next = replace(self._next, connection=Connection.CONNECTED)
 
     def _execute(self) -> None:
-        while (taken := self._mailbox.take()) is not None:
+        while (posted := self._mailbox.take()) is not None:
+            self._stirred |= isinstance(posted.command, _STIRRING)
             try:
-                self._executor.do(taken.command, taken.generation)
-                if isinstance(taken.command, ClearFault):
+                self._executor.do(posted.command, posted.permit)
+                if isinstance(posted.command, ClearFault) and posted.permit.valid:
                     self._model.restart()
                     self._next = replace(self._next, fault=None)
             except (InputError, StateError) as error:
@@ -180,24 +221,27 @@ class Worker:
             self._emit(CommandRefused(str(error)))
 
     def _take_samples(self) -> None:
-        samples = self.corrections.corrected(self._driver.read())
+        samples = self.corrections.corrected(self.driver.read())
         now_s = self._clock()
         if len(samples):
             self._unread.append(samples)
             self._received_s = now_s
+        self._note_confirmation(now_s)
         since_s = now_s - self._worked_up_s
         if not len(samples) and since_s < _PORTION_S:
             return
-        status = self._driver.status()
+        status = self.driver.status()
         news = status.state is not self._next.activity and not self._executor.between_legs
         # A cycle that has just read a portion leaves the work to the next one, which has the time.
         if news or since_s >= _LATEST_S or (since_s >= _PORTION_S and not len(samples)):
             self._worked_up_s = now_s
             parts, self._unread = self._unread, []
-            self._work_up(Samples.joined(parts, len(self._driver.axes)), status)
+            self._work_up(Samples.joined(parts, len(self.driver.axes)), status)
 
     def _work_up(self, samples: Samples, status: DeviceStatus) -> None:
+        found = self._supervised(samples, status)
         model = self._model.follow(samples)
+        self.deviation.follow(samples, model)
         self._history.append(samples, model)
         self._next = self._updated(samples, model, status)
         self._note_standstill(status)
@@ -208,6 +252,7 @@ class Worker:
             self._executor.forget()
         # Published before events tell of it: a subscriber may answer with the next command.
         self._publish()
+        self._stirred = False
         if len(samples):
             self._tell(samples, model)
         if self._executor.recorder is not None:
@@ -216,6 +261,24 @@ class Worker:
                 self._end_recording(completed=True)
         if faulted:
             self._emit(Faulted(self._next.fault or ""))
+        for event in found:
+            self._emit(event)
+
+    def _supervised(self, samples: Samples, status: DeviceStatus) -> list[Event]:
+        """Stop and lock motion where an axis is not where it was sent; return what to tell."""
+        if not status.position_known or status.state is DeviceState.HOMING:
+            self._watch.restart()
+            return []
+        lock, alarms = self._watch.judge(samples)
+        found: list[Event] = [Alarmed(alarm) for alarm in alarms]
+        if lock is not None and self._distrust is None:
+            self._distrust = lock
+            self._gate.stop()
+            self._mailbox.clear()
+            self._executor.forget()
+            self.driver.halt()
+            found.append(Faulted(f"stopped: {lock}"))
+        return found
 
     def _note_rest(self, status: DeviceStatus) -> None:
         """Free the axes when nothing moves and nobody waits."""
@@ -244,7 +307,7 @@ class Worker:
             differences=self._differences(),
         )
         if len(samples):
-            axes = self._driver.axes
+            axes = self.driver.axes
             state = replace(
                 state,
                 measured=_by_axis(axes, samples.measured),
@@ -258,7 +321,7 @@ class Worker:
         return replace(state, locked=self._lock_reason(state))
 
     def _link(self) -> LinkQuality | None:
-        driver = self._driver
+        driver = self.driver
         if not isinstance(driver, Linked):
             return None
         quality = driver.link_quality()
@@ -266,13 +329,20 @@ class Worker:
         return quality
 
     def _differences(self) -> tuple[str, ...]:
-        driver = self._driver
+        driver = self.driver
         if not isinstance(driver, Parameterised):
             return ()
         return tuple(str(one) for one in driver.differences)
 
     def _lock_reason(self, state: SessionState) -> str | None:
         return _lock_reason(state, self._distrust)
+
+    def _note_confirmation(self, now_s: float) -> None:
+        """Note how long the device took to confirm the latest stop."""
+        asked_s = self._stop_unconfirmed_s
+        if asked_s is not None and not self.driver.stop_pending:
+            self._stop_unconfirmed_s = None
+            self._next = replace(self._next, stop_latency_s=now_s - asked_s)
 
     def _note_standstill(self, status: DeviceStatus) -> None:
         asked_s = self._stop_asked_s
@@ -293,13 +363,14 @@ class Worker:
 
     def _fail(self, message: str) -> None:
         """Lock motion; only an explicit reconnection ends this."""
+        self._gate.reconnected()
         self._mailbox.clear()
         self._executor.forget()
         self.ownership.release()
         with suppress(Exception):  # best effort: the device is expected not to answer
-            self._driver.stop()
+            self.driver.stop()
         with suppress(Exception):
-            self._driver.close()
+            self.driver.close()
         self._set_disconnected(Connection.FAILED, message)
         self._publish()
         self._end_recording(completed=False)
@@ -323,9 +394,11 @@ class Worker:
             self._emit(StateChanged(self.state))
 
 
+_STIRRING = (Move, Drive, Play, Home, RunProfile, SetVoltage)
 _NOT_CONNECTED = "not connected; connect first"
 _PORTION_S = 0.016  # between two times that samples are worked up
 _LATEST_S = 0.019
+_MOST_STOPS = 16  # that wait to be told
 
 
 def _lock_reason(state: SessionState, distrust: str | None) -> str | None:

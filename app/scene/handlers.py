@@ -73,7 +73,7 @@ class Guarded(RequestHandler):
         origins = self.request.headers.get_list("Origin")
         if any(each != origin for each in origins) or (self.needs_origin and not origins):
             return 403
-        given = self.request.path.split("/")[1]
+        given = self.request.path.removeprefix("/").split("/")[0]
         if not compare_digest(given.encode(), self.settings["secret"].encode()):
             return 403
         return None

@@ -36,6 +36,16 @@ SAYINGS = (
     marked("shell", "emergency stop"),
     marked("shell", "the joystick's emergency stop"),
     marked("shell", "the connection was lost"),
+    # why somebody stopped
+    marked("shell", "the joystick's stop"),
+    marked("shell", "the window does not answer"),
+    marked("shell", "the device is let go of"),
+    marked("shell", "another device is connected"),
+    marked("shell", "the input devices are let go of"),
+    marked("shell", "the playback is paused"),
+    marked("shell", "the playback is ended"),
+    marked("shell", "the calibration is given up"),
+    marked("shell", "it was stopped"),
 )
 _FIELD = re.compile(r"\\\{(\w+)\\\}")
 

@@ -7,6 +7,7 @@ _FAULTS = "faults.md#what-a-message-means"
 
 #: Module, or class in it -> page. The longest name counts, and a class before those it is made of.
 PAGES = {
+    "rotemina.app.bench": "gap-diagnosis.md",
     "rotemina.app.blind": "blind-test.md",
     "rotemina.app.calibration": "calibration.md",
     "rotemina.app.calibration.health_book": "calibration.md#health-card",
@@ -20,6 +21,7 @@ PAGES = {
     "rotemina.app.motion.playback": "motion.md#playing-by-hand",
     "rotemina.app.motion.recording": "recording.md",
     "rotemina.app.motion.saved_positions": "control.md#the-file-of-positions",
+    "rotemina.app.motion.state.Alarmed": _LIMITS,
     "rotemina.app.motion.state.CommandRefused": _LIMITS,
     "rotemina.app.motion.state.Faulted": _FAULTS,
     "rotemina.app.motion.teleoperation": "teleoperation.md",

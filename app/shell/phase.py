@@ -6,7 +6,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
 from rotemina.app.display import label
+from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.state import Connection, Phase, SessionState
+from rotemina.app.motion.stop_request import StopRequest
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.drivers.samples import DeviceState
@@ -73,7 +75,18 @@ def doing(state: SessionState) -> str:
     if state.locked is not None:
         reason = spoken(state.locked)
         return reason[:1].upper() + reason[1:]
-    return driven(state)
+    return driven(state) or (stopped(state.stop) if state.stop is not None else "")
+
+
+def stopped(request: StopRequest) -> str:
+    """Return who asked for a stop, when and why."""
+    by_operator = request.by == OPERATOR
+    text = (
+        translate("shell", "Stopped by the operator at {time}")
+        if by_operator
+        else translate("shell", "Stopped by the program at {time}")
+    ).format(time=f"{request.at:%H:%M:%S}")
+    return f"{text}: {spoken(request.why)}" if request.why else text
 
 
 def driven(state: SessionState) -> str:

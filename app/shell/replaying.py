@@ -113,7 +113,7 @@ def opened(path: Path, robot: Robot) -> Replay:
                 "--robot-file {path} > {file} && rotemina --robot {file}",
             ).format(
                 name=path.name,
-                robot=recording.metadata["robot"],
+                robot=recording.metadata.get("robot", ""),
                 axes=", ".join(recording.axes),
                 here=", ".join(robot.axes),
                 path=shlex.quote(str(path)),
@@ -125,7 +125,7 @@ def opened(path: Path, robot: Robot) -> Replay:
 
 def remark(replay: Replay, robot: Robot) -> str | None:
     """Return what is to be known of a replay on this robot; None for nothing."""
-    if replay.recording.metadata["robot_file"] == robot_text(robot):
+    if replay.recording.metadata.get("robot_file", "") == robot_text(robot):
         return None
     return translate(
         "shell",

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 from PySide6.QtCore import QObject, Signal
 
+from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.shell.help_topics import explained
 from rotemina.app.shell.language import translate
@@ -45,11 +46,11 @@ class Requests(QObject):
 
     def stop(self) -> None:
         """Stop all motion now; this waits for nothing."""
-        self.session.stop()
+        self.session.stop(by=OPERATOR)
 
     def emergency_stop(self) -> None:
         """Stop all motion now, and let nothing move until :meth:`release`."""
-        self.session.emergency_stop()
+        self.session.emergency_stop(by=OPERATOR)
 
     def release(self) -> None:
         """Let the machine move again after an emergency stop."""

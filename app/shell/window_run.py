@@ -9,10 +9,11 @@ from pathlib import Path
 import pyqtgraph as pg
 from platformdirs import user_data_path
 from pyqtgraph.util.garbage_collector import GarbageCollector
-from PySide6.QtCore import QTimer
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QIcon, QImage, QPixmap
 from PySide6.QtWidgets import QApplication
 
+from rotemina.app.motion.heartbeat import PERIOD_S
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.plugin_kit.panel_watch import PanelWatch
 from rotemina.app.settings import Settings
@@ -23,6 +24,7 @@ from rotemina.app.shell.layouts import OPERATE
 from rotemina.app.shell.main_window import MainWindow
 from rotemina.app.shell.preloading import preload
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.watchdog.watched import Watched
 
 DEFAULT_THEME = "dark"
 # How long another thread may go on once the window's, or the session's, wants to: both do so often.
@@ -31,6 +33,8 @@ SWITCH_S = 0.001
 
 def make_application() -> QApplication:
     """Return the one application object, made if there is none."""
+    # A dialog of the desktop's own would take Esc for itself, and nothing would stop.
+    QApplication.setAttribute(Qt.ApplicationAttribute.AA_DontUseNativeDialogs)
     application = QApplication.instance() or QApplication(["rotemina"])
     assert isinstance(application, QApplication)
     application.setApplicationName("RoTeMiNa")
@@ -78,6 +82,16 @@ def run(session: MotionSession, settings: Settings) -> int:
     window.late_panels.done.connect(gc.freeze)  # no look before: the machine is connected by then
     window.late_panels.done.connect(lambda: preload())
     window.loop_watch.start()
+    beat = QTimer(application, interval=round(1e3 * PERIOD_S))
+    beat.timeout.connect(session.screen.beat)
+    beat.start()
+    session.screen.beat()
+    watched = Watched(
+        session, user_data_path("rotemina", appauthor=False) / "watchdog.log", screen=True
+    )
+    window.workbench.closing.connect(beat.stop)
+    window.workbench.closing.connect(session.screen.end)  # what closing waits for is no hang
+    watched.start()
     window.late_panels.done.connect(window.loop_watch.restart)  # what it measures is use, no start
     window.workbench.start()
     # Only asked for here: a handler may interrupt anything, a lock that closing needs as well.
@@ -87,6 +101,7 @@ def run(session: MotionSession, settings: Settings) -> int:
     wake.timeout.connect(lambda: None)
     wake.start()
     status = application.exec()
+    watched.close()
     watch.remove()
     collector.timer.stop()
     return status

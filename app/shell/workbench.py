@@ -13,10 +13,18 @@ from PySide6.QtCore import QTimer, Signal
 from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.motion.deviation import Excess
 from rotemina.app.motion.operation import Operation
+from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.playback import Playback, PlaybackPhase
 from rotemina.app.motion.recording.replay import Replay
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.motion.state import CommandRefused, Event, Faulted, PlaybackFinished
+from rotemina.app.motion.state import (
+    Alarmed,
+    CommandRefused,
+    Event,
+    Faulted,
+    PlaybackFinished,
+    Stopped,
+)
 from rotemina.app.settings import Settings
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.engine_words import spoken
@@ -26,6 +34,7 @@ from rotemina.app.shell.progress import Progress
 from rotemina.app.shell.replaying import Replaying, opened, remark
 from rotemina.app.shell.requests import Requests
 from rotemina.app.shell.theme import Theme
+from rotemina.drivers.gate import Permit
 from rotemina.sim.comparison.comparison import Comparison, compare
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
@@ -96,6 +105,7 @@ class Workbench(Requests):
     run_changed(Run) : a record was opened or a playback ended, and model and real are compared.
     busy_changed(str) : what is being worked on in the background, or "".
     noticed(Level, Explained) : something to tell the operator, a text with its page of the help.
+    stopped() : somebody asked for a stop; what waits for an answer is withdrawn.
     theme_changed(Theme)
     closing() : the window goes; what a panel has under way must end before this returns.
     """
@@ -107,6 +117,7 @@ class Workbench(Requests):
     busy_changed = Signal(str)
     noticed = Signal(object, object)
     theme_changed = Signal(object)
+    stopped = Signal()
     closing = Signal()
     _happened = Signal(object)
     _exceeded = Signal(object)
@@ -198,8 +209,11 @@ class Workbench(Requests):
 
     # --- motion -----------------------------------------------------------------------------------
 
-    def play(self) -> None:
-        """Play the planned trajectory; a refusal becomes a notice."""
+    def play(self, permit: Permit | None = None) -> None:
+        """Play the planned trajectory; a refusal becomes a notice.
+
+        A ``permit`` is that of the wish, where it waited: nothing plays if a stop came since.
+        """
         plan = self.plan
         if plan is None:
             text = translate("shell", "There is no trajectory to play: load one first.")
@@ -207,7 +221,7 @@ class Workbench(Requests):
         else:
             self.ask(
                 lambda: self.playback.play(
-                    plan.dry_run.require(), speed=self.pace, bounds=self.bounds
+                    plan.dry_run.require(), speed=self.pace, bounds=self.bounds, permit=permit
                 )
             )
 
@@ -215,7 +229,7 @@ class Workbench(Requests):
         """Play, pause, or go on, whichever comes next."""
         phase = self.playback.state.phase
         if phase is PlaybackPhase.PLAYING:
-            self.ask(self.playback.pause)
+            self.ask(lambda: self.playback.pause(by=OPERATOR))
         elif phase is PlaybackPhase.PAUSED:
             self.ask(lambda: self.playback.resume(speed=self.pace))
         else:
@@ -233,7 +247,7 @@ class Workbench(Requests):
 
     def end_playback(self) -> None:
         """Stop, and begin anew the next time."""
-        self.playback.end()
+        self.playback.end(by=OPERATOR)
 
     # --- files ------------------------------------------------------------------------------------
 
@@ -406,6 +420,11 @@ class Workbench(Requests):
     def _on_event(self, event: Event) -> None:
         if isinstance(event, Faulted | CommandRefused):
             self.notify(Level.ERROR, event.message, about=event)
+        elif isinstance(event, Alarmed):
+            self.notify(Level.WARNING, event.message, about=event)
+        elif isinstance(event, Stopped):
+            logger.info("%s", event.request)
+            self.stopped.emit()
         elif isinstance(event, PlaybackFinished):
             self._compare_played(event.record, event.completed)
 

@@ -13,8 +13,10 @@ from rotemina.drivers.cameras.pace import Pace
 from rotemina.drivers.cameras.pixels import pixel_type_of
 from rotemina.drivers.cameras.settings import CameraDescription, CameraSettings, PixelType, Trigger
 from rotemina.drivers.cameras.source import CameraSource
+from rotemina.sim.input_files import open_file
 
 _KINDS = (".tif", ".tiff", ".png")
+_MOST_BYTES = 4_000_000_000
 _USUAL_HZ, _RATES_HZ = 10.0, (0.1, 1000.0)
 _DIGITS = re.compile(r"(\d+)")
 
@@ -98,7 +100,9 @@ class ImageSequence(Camera):
 def _pages(path: Path) -> tuple[tuple[Path, int], ...]:
     """Return the files, with the page of each, that belong to a folder or file."""
     if path.is_dir():
-        files = [file for file in path.iterdir() if file.suffix.lower() in _KINDS]
+        files = [
+            file for file in path.iterdir() if file.suffix.lower() in _KINDS and file.is_file()
+        ]
         if not files:
             raise CameraRefusedError(
                 f"{path}: there is no TIFF or PNG file in this folder; choose another one"
@@ -119,6 +123,9 @@ def _natural(path: Path) -> list[tuple[bool, int, str]]:
 
 
 def _read(file: Path, page: int) -> Pixels:
+    open_file(
+        file, CameraRefusedError, most_bytes=_MOST_BYTES, advice="is it cut off, or gone?"
+    ).close()
     try:
         there, pages = cv2.imreadmulti(str(file), page, 1, flags=cv2.IMREAD_UNCHANGED)
     except cv2.error as error:

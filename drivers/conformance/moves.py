@@ -1,7 +1,11 @@
 """Checks of single moves and of stopping them."""
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+
 import numpy as np
 
+from rotemina.drivers.abilities import LONGEST_LEASE_S, VelocityMover
 from rotemina.drivers.conformance.bench import Bench
 from rotemina.drivers.conformance.check import check
 from rotemina.drivers.conformance.findings import (
@@ -14,6 +18,7 @@ from rotemina.drivers.conformance.findings import (
 )
 from rotemina.drivers.conformance.subject import CATCH_S, Motion, Subject, interval_of
 from rotemina.drivers.errors import LimitError
+from rotemina.drivers.gate import Gate, GateError, Permit
 from rotemina.drivers.samples import DeviceState, Samples
 from rotemina.sim.trajectory.limits import RATE_SLACK
 
@@ -243,6 +248,35 @@ def stop_at_rest(bench: Bench) -> None:
         demand(subject.state is state, f"a stop made it {subject.state}", f"{state} as before")
 
 
+class _StoppedOnceAsked(Gate):
+    """A gate to which a stop comes right after a request has been checked."""
+
+    @contextmanager
+    def passing(self, permit: Permit, *, begins: bool) -> Iterator[None]:
+        with super().passing(permit, begins=begins):
+            yield
+        self.stop()
+
+
+@check()
+def stop_overtakes(bench: Bench) -> None:
+    """What was checked before a stop does not reach the device after it."""
+    with bench.opened() as subject:
+        driver, axis = subject.driver, subject.slow
+        target = axis.far_end(float(subject.command()[axis.index]))
+        requests: list[Callable[[], None]] = [lambda: driver.move_to({axis.name: target})]
+        if isinstance(driver, VelocityMover):
+            speed = {axis.name: _SLOWLY * axis.speed}
+            requests.append(lambda: driver.move_velocity(speed, LONGEST_LEASE_S))
+        gate = driver.gate
+        for request in requests:
+            driver.gate = _StoppedOnceAsked(driver.clock)
+            with suppress(GateError):
+                request()
+            subject.holds()
+        driver.gate = gate
+
+
 @check()
 def stop_before_a_move(bench: Bench) -> None:
     """A stop does not undo a move that was asked for after it."""
@@ -274,5 +308,6 @@ CHECKS = (
     stop_distance,
     stop_when_called,
     stop_at_rest,
+    stop_overtakes,
     stop_before_a_move,
 )

@@ -2,12 +2,15 @@
 
 import csv
 from dataclasses import dataclass
+from io import StringIO
 from math import isfinite
 from pathlib import Path
 from typing import Self
 
 from rotemina.sim.errors import InputError
+from rotemina.sim.input_files import read_text
 
+_MOST_BYTES = 16_000_000
 _TIME, _PLUGGED, _AXIS, _BUTTON = "time_s", "plugged", "axis ", "button "
 
 
@@ -68,17 +71,15 @@ class Script:
         ScriptError
             With file, line and column.
         """
+        text = read_text(path, ScriptError, _MOST_BYTES, advice="name a CSV file")
         try:
-            with path.open(encoding="utf-8-sig", newline="") as file:
-                reader = csv.reader(file)
-                columns = [name.strip() for name in next(reader, [])]
-                _check(path, columns)
-                moments = tuple(
-                    _moment(f"{path}, line {reader.line_num}", columns, row)
-                    for row in reader
-                    if row
-                )
-        except (OSError, UnicodeDecodeError, csv.Error) as error:
+            reader = csv.reader(StringIO(text, newline=""))
+            columns = [name.strip() for name in next(reader, [])]
+            _check(path, columns)
+            moments = tuple(
+                _moment(f"{path}, line {reader.line_num}", columns, row) for row in reader if row
+            )
+        except csv.Error as error:
             raise ScriptError(f"{path}: cannot be read: {error}") from error
         try:
             return cls(_named(columns, _AXIS), _named(columns, _BUTTON), moments)

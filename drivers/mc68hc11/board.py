@@ -60,6 +60,7 @@ class Board:
         self.grid: Grid | None = None
         self.identity: Identity | None = None
         self.rates: Rates | None = None
+        self.telemetry_ms = 0  # the period that it has acknowledged
         self.latest: Telemetry | None = None
         self.latest_us = 0
         self.telemetry_s = 0.0  # host time of the latest

@@ -13,7 +13,7 @@ from rotemina.sim.arrays import FloatArray
 _TURN = 1 << 16  # steps: only the low bits are sent
 _HALF = _TURN >> 1
 _INDICES = 1 << 16
-_QUIET = 3  # telemetry samples without a capture: no more of it comes
+_QUIET = 3  # periods of telemetry without a capture: no more of it comes
 
 
 class Capturing:
@@ -27,6 +27,8 @@ class Capturing:
     period_us : int
     count : int
         Of samples.
+    telemetry_ms : int
+        Between two samples of telemetry meanwhile.
     on_clock : callable
         Turn unwrapped times (n,) of the board into the device time of the samples, s.
     """
@@ -37,6 +39,7 @@ class Capturing:
         names: Sequence[str],
         period_us: int,
         count: int,
+        telemetry_ms: int,
         on_clock: Callable[[FloatArray], FloatArray],
     ) -> None:
         self.board = board
@@ -45,14 +48,16 @@ class Capturing:
         self._order = tuple(sorted(names, key=numbers.__getitem__))  # as the board sends them
         self._axes = [board.axes[numbers[name]] for name in self._order]
         self._period_us, self._count = period_us, count
+        self.telemetry_ms = telemetry_ms
+        self._patience_us = 1000 * _QUIET * telemetry_ms
         self._on_clock = on_clock
         self._asked_us: int | None = None
+        self._heard_us = 0  # the latest time at which there was a capture, or was to be one soon
         self._begin_us: int | None = None
         self._reference = [0] * len(names)
         self._received: list[tuple[int, list[int]]] = []
         self._early: list[Report] = []
         self._next = self._had = 0
-        self._quiet = 0
         self._told = False
 
     @property
@@ -77,7 +82,7 @@ class Capturing:
 
     def granted(self, time_us: int) -> None:
         """Note that the board knows of it since this unwrapped time."""
-        self._asked_us = time_us
+        self._asked_us = self._heard_us = time_us
 
     def refused(self) -> None:
         """Note that nothing will come."""
@@ -94,20 +99,19 @@ class Capturing:
             else self._reference
         )
         if board.state & State.CAPTURING:
-            self._quiet = 0
+            self._heard_us = board.latest_us
             if self._begin_us is None:
                 self._begin_us = board.latest_us
                 early, self._early = self._early, []
                 for report in early:
                     self.heard(report)
-        else:
-            self._quiet += 1
-            if self._quiet > _QUIET:
-                self._next = self._count  # the last samples were lost
+        elif board.latest_us - self._heard_us > self._patience_us:
+            # By time, not by samples: until the first one is due a board that is polled tells more.
+            self._next = self._count  # the last samples were lost
 
     def heard(self, report: Report) -> None:
         """Take captured samples."""
-        self._quiet = 0
+        self._heard_us = self.board.latest_us
         if self._begin_us is None:
             self._early.append(report)
             return

@@ -9,8 +9,10 @@ from typing import ClassVar
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.errors import ConnectionLostError, DriverError
+from rotemina.drivers.gate import Permit
 from rotemina.drivers.mc68hc11.axes import board_axes
 from rotemina.drivers.mc68hc11.board import Board
+from rotemina.drivers.mc68hc11.dialogue import Urgency
 from rotemina.drivers.mc68hc11.port import OpenPort, open_port
 from rotemina.drivers.mc68hc11.session import Session
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
@@ -68,8 +70,17 @@ class Connected(Driver):
 
     @property
     def setpoint_period_s(self) -> float:
-        """The interval of telemetry and set-points, s: that of the boards once they were opened."""
+        """The interval of set-points, s: that of the boards once they were opened."""
         return self._period_s
+
+    @property
+    def stop_pending(self) -> bool:
+        """Whether a board has yet to acknowledge a stop."""
+        session = self._session
+        return session is not None and (
+            self._asked_stop != self._seen_stop
+            or any(board.orders.dialogue.has(Urgency.STOP) for board in session.boards)
+        )
 
     def _open(self) -> None:
         try:
@@ -97,7 +108,7 @@ class Connected(Driver):
             pause=self._pause,
             open_port=self._open_port,
         )
-        self._period_s = self._session.period_s
+        self._period_s = self._session.setpoint_period_s
 
     def _close(self) -> None:
         session, self._session = self._session, None
@@ -158,7 +169,7 @@ class Connected(Driver):
         if failures:
             raise failures[0]
 
-    def _clear_fault(self) -> None:
+    def _clear_fault(self, permit: Permit) -> None:
         session = self._running
         if session.lost is not None:
             raise DriverError(f"{self.name}: {session.lost}")
@@ -166,7 +177,7 @@ class Connected(Driver):
         for board in session.boards:
             board.orders.forget()
             if board.fault is not None:
-                board.orders.clear_fault()
+                board.orders.clear_fault(permit)
         self._serve()
 
     def _read(self) -> Samples:
@@ -202,6 +213,7 @@ class Connected(Driver):
     def _note_faults(self, session: Session) -> None:
         """End what goes on where a board has halted or refused."""
         refused = [b.orders.refusal for b in session.boards if b.orders.refusal is not None]
+        refused += session.held_back()
         player = session.player
         if player is not None and player.failure is not None:
             refused.append(player.failure)

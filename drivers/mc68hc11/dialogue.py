@@ -8,8 +8,10 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import NamedTuple
 
 from rotemina.drivers.errors import StateError
+from rotemina.drivers.gate import Permit
 from rotemina.drivers.mc68hc11.framing import RESYNC, Frame, encoded
 from rotemina.drivers.mc68hc11.message import Message
 from rotemina.drivers.mc68hc11.reports import Done, Refused
@@ -45,6 +47,8 @@ class Request:
         Called with the answer, or with the reason of a refusal (None: nobody answered in time).
     expires_s : float
         Host time after which it is said no more.
+    permit : Permit or None
+        What its frame passes the gate with; None for what moves nothing.
     """
 
     message: Message
@@ -54,6 +58,15 @@ class Request:
     answered: Answered = lambda _message, _at_s: None
     refused: Callable[[int | None], None] = lambda _: None
     expires_s: float = float("inf")
+    permit: Permit | None = None
+
+
+class Offered(NamedTuple):
+    """The bytes of a frame, and what they pass the gate with."""
+
+    data: bytes
+    permit: Permit | None
+    begins: bool = True  # False where a motion that has begun goes on
 
 
 @dataclass(slots=True)
@@ -123,6 +136,12 @@ class Dialogue:
         if self._said is not None and self._said.request.urgency is not Urgency.STOP:
             self._said = None
 
+    def give_up(self) -> None:
+        """Forget the request that was taken last: it is never said."""
+        said, self._said = self._said, None
+        if said is not None:
+            said.request.refused(None)
+
     def offer(self, now_s: float) -> Urgency | None:
         """Return the urgency of what there is to say now, or None."""
         said = self._said
@@ -140,20 +159,20 @@ class Dialogue:
                 queue.popleft().refused(None)
         return None
 
-    def take(self, now_s: float, number: int, out_s: float) -> bytes:
-        """Return the bytes of what `offer` had; ``out_s`` from the call each of 32 bytes is out."""
+    def take(self, now_s: float, number: int, out_s: float) -> Offered:
+        """Return what `offer` had; ``out_s`` from the call each of 32 bytes is out."""
         said = self._said
         if said is not None:
             self.repeated += 1
             said.times += 1
             said.due_s = now_s + out_s + self.answer_s
-            return RESYNC + said.frame
+            return Offered(RESYNC + said.frame, said.request.permit)
         queue = next(queue for queue in self._queues.values() if queue)
         request = queue.popleft()
         message = request.message
         frame = encoded(Frame(self.address, number, message.TYPE, message.packed()))
         self._said = _Said(request, number, frame, now_s, now_s + out_s + self.answer_s)
-        return frame
+        return Offered(frame, request.permit)
 
     def heard(self, message: Message, now_s: float) -> bool:
         """Take a message as the answer if it is one; return whether it was."""

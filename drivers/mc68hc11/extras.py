@@ -13,6 +13,7 @@ from rotemina.drivers.abilities import (
 )
 from rotemina.drivers.capture import Captured, CaptureRates
 from rotemina.drivers.errors import LimitError, StateError
+from rotemina.drivers.gate import Permit
 from rotemina.drivers.link import LinkQuality
 from rotemina.drivers.mc68hc11.capturing import Capturing
 from rotemina.drivers.mc68hc11.codes import AXES, Ability
@@ -82,16 +83,17 @@ class Extras(Connected, Capturer, ProfileRunner, AnalogInputs, Display, Paramete
                 f"{self.name}: a capture at {rate_hz:g} Hz: {1e6 / _MOST_PERIOD_US:.3g} Hz at least"
             )
         on_clock = session.sampling.time_s if board is session.boards[0] else session.second_time_s
-        run = Capturing(board, axes, period_us, count, on_clock)
         dialogue = board.link.dialogues[board.address]
         if session.capturing is not None:
             old = session.capturing.board
             old.link.dialogues[old.address].ask(
                 Request(message=Capture(0, 0, 0), urgency=Urgency.BACKGROUND)
             )
-        session.capturing = run
+        telemetry_ms = session.period_ms
         if board.rates is not None and board.rates.telemetry_while_capturing:
-            session.slow_down(board, 1000 // board.rates.telemetry_while_capturing)
+            telemetry_ms = session.slow_down(board, 1000 // board.rates.telemetry_while_capturing)
+        run = Capturing(board, axes, period_us, count, telemetry_ms, on_clock)
+        session.capturing = run
         dialogue.ask(
             Request(
                 message=Capture(run.mask, period_us, count),
@@ -106,22 +108,23 @@ class Extras(Connected, Capturer, ProfileRunner, AnalogInputs, Display, Paramete
         board, own = self._running.board_of(axis)
         return own.value(board.commanded()[own.number])
 
-    def _upload(self, profile: Profile) -> None:
+    def _upload(self, profile: Profile, permit: Permit) -> None:
         self._prepare("take a profile")
         board, axis = self._running.board_of(profile.axis)
         if not board.able(Ability.PROFILE):
             raise StateError(f"{self.name}: {board.where} cannot run profiles")
         for index, message in enumerate(profile_messages(profile, axis)):
-            board.orders.give(("profile", index), partial(said, message))
+            board.orders.give(("profile", index), partial(said, message), permit=permit)
         self._profile = board
         self._serve()
 
-    def _trigger(self) -> None:
+    def _trigger(self, permit: Permit) -> None:
         self._follow_stop(self._running)
         if self._profile is None:
             raise StateError(f"{self.name}: there is no profile to run; upload one first")
         orders = self._profile.orders
-        orders.give("trigger", partial(said, TriggerProfile()), DeviceState.PLAYING)
+        message = partial(said, TriggerProfile())
+        orders.give("trigger", message, DeviceState.PLAYING, permit=permit)
         self._profile = None
         self._serve()
 
@@ -131,7 +134,7 @@ class Extras(Connected, Capturer, ProfileRunner, AnalogInputs, Display, Paramete
         for board in self._running.boards:
             if board.able(Ability.PROFILE):
                 board.orders.forget()
-                board.orders.give("abort", partial(said, AbortProfile()))
+                board.orders.give("abort", partial(said, AbortProfile()), permit=None)
         self._serve()
 
     def _show(self, row: int, text: str) -> None:
@@ -147,6 +150,6 @@ class Extras(Connected, Capturer, ProfileRunner, AnalogInputs, Display, Paramete
     def _accept_parameters(self) -> None:
         self._running.trust.accept()
 
-    def _write_parameters(self) -> None:
-        self._running.trust.write()
+    def _write_parameters(self, permit: Permit) -> None:
+        self._running.trust.write(permit)
         self._serve()

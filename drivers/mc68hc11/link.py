@@ -5,12 +5,14 @@ shared bus the host stays silent until the boards that it asked have answered.
 """
 
 from collections.abc import Callable, Sequence
+from contextlib import nullcontext
 
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import ProtocolError
+from rotemina.drivers.gate import GateError
 from rotemina.drivers.link import LinkQuality
 from rotemina.drivers.mc68hc11.budget import Line
-from rotemina.drivers.mc68hc11.dialogue import Dialogue, Urgency
+from rotemina.drivers.mc68hc11.dialogue import Dialogue, Offered, Urgency
 from rotemina.drivers.mc68hc11.framing import (
     BROADCAST,
     MAX_FRAME,
@@ -81,7 +83,10 @@ class Link:
         self._free_s = float("-inf")
         self._awaited: set[int] = set()
         self._awaited_until_s = float("-inf")
+        self._polled = False  # by what was said last
         self._sent = self._refused = self._repeated = 0
+        #: Why the gate held a frame back; whoever serves the link takes it.
+        self.held_back: GateError | None = None
         self._bytes = [0, 0]  # out, in
         self._load, self._load_since_s = 0.0, clock()
 
@@ -147,8 +152,17 @@ class Link:
         said = self._next(now_s)
         if said is None:
             return
-        address, data = said
-        self._port.write(data)
+        address, (data, permit, begins) = said
+        try:
+            with permit.passing(begins=begins) if permit is not None else nullcontext():
+                self._port.write(data)
+        except GateError as error:
+            if begins:
+                self.dialogues[address].give_up()
+            else:
+                self.end_stream(address)
+            self.held_back = error
+            return
         self._sent += 1
         self._bytes[0] += len(data)
         self._free_s = max(self._free_s, now_s) + self._line.seconds(len(data))
@@ -204,8 +218,8 @@ class Link:
         early_s = 0.0 if self.half_duplex else _EARLY_S
         return now_s >= self._free_s - early_s and not self._port.waiting()
 
-    def _next(self, now_s: float) -> tuple[int, bytes] | None:
-        """Return the address and the bytes of what is said next."""
+    def _next(self, now_s: float) -> tuple[int, Offered] | None:
+        """Return the address and the frame of what is said next."""
         offers = []
         for address, dialogue in self.dialogues.items():
             urgency = dialogue.offer(now_s)
@@ -215,12 +229,18 @@ class Link:
             if window is not None and not dialogue.waiting and window.offer(now_s):
                 offers.append((Urgency.STREAM, self.said_s[address], address, True))
         urgency, _, address, streams = min(offers, default=(Urgency.BACKGROUND, 0.0, 0, False))
-        if urgency is Urgency.BACKGROUND and self.half_duplex:
+        # Polls and requests without haste take turns: there may always be something to poll for.
+        yields = bool(offers) and self._polled
+        self._polled = False
+        if urgency is Urgency.BACKGROUND and self.half_duplex and not yields:
             # A board may repeat its last answer only: nothing comes between a request and it.
             polled = None if any(d.waiting for d in self.dialogues.values()) else self._poll(now_s)
             if polled is not None:
+                self._polled = True
                 number = self._counted()
-                return polled, encoded(Frame(polled, number, Poll.TYPE, Poll().packed()))
+                return polled, Offered(
+                    encoded(Frame(polled, number, Poll.TYPE, Poll().packed())), None
+                )
         if not offers:
             return None
         teller = self.windows[address] if streams else self.dialogues[address]

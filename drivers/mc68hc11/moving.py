@@ -7,6 +7,7 @@ from math import ceil
 from rotemina.drivers.abilities import Homer, TrajectoryPlayer, VelocityMover, VoltageOutput
 from rotemina.drivers.axes import AxisDescription
 from rotemina.drivers.errors import StateError
+from rotemina.drivers.gate import Permit
 from rotemina.drivers.mc68hc11.axes import BoardAxis
 from rotemina.drivers.mc68hc11.codes import Ability
 from rotemina.drivers.mc68hc11.connected import Connected
@@ -28,7 +29,7 @@ class Moving(Connected, TrajectoryPlayer, VelocityMover, Homer, VoltageOutput):
 
     @property
     def setpoint_period_s(self) -> float:
-        """The interval of telemetry and set-points, s: that of the boards once they were opened."""
+        """The interval of set-points, s: that of the boards once they were opened."""
         return self._period_s
 
     @property
@@ -41,7 +42,7 @@ class Moving(Connected, TrajectoryPlayer, VelocityMover, Homer, VoltageOutput):
         """The steppers; a piezo's sensor always knows where it is."""
         return tuple(n for n, axis in self.robot.axes.items() if isinstance(axis, StepperAxis))
 
-    def _move_to(self, targets: dict[str, float], speeds: dict[str, float]) -> None:
+    def _move_to(self, targets: dict[str, float], speeds: dict[str, float], permit: Permit) -> None:
         self._prepare("move")
         for name, target in targets.items():
             board, axis = self._running.board_of(name)
@@ -51,10 +52,10 @@ class Moving(Connected, TrajectoryPlayer, VelocityMover, Homer, VoltageOutput):
             if name in speeds:
                 most = min(max(axis.steps(speeds[name]), 1), most)
             message = MoveTo(axis.number, steps, most)
-            board.orders.give(("axis", axis.number), partial(said, message))
+            board.orders.give(("axis", axis.number), partial(said, message), permit=permit)
         self._serve()
 
-    def _move_velocity(self, velocities: dict[str, float], lease_s: float) -> None:
+    def _move_velocity(self, velocities: dict[str, float], lease_s: float, permit: Permit) -> None:
         self._prepare("move")
         now_s = self.clock()
         for name, velocity in velocities.items():
@@ -64,10 +65,11 @@ class Moving(Connected, TrajectoryPlayer, VelocityMover, Homer, VoltageOutput):
             # What is said late is vouched for by no longer than it was asked; a halt always is.
             expires_s = now_s + 0.5 * lease_s if speed else float("inf")
             make = partial(_velocity, axis.number, speed, now_s + lease_s)
-            board.orders.give(("axis", axis.number), make, expires_s=expires_s)
+            key = ("axis", axis.number)
+            board.orders.give(key, make, expires_s=expires_s, permit=permit)
         self._serve()
 
-    def _home(self, axes: tuple[str, ...]) -> None:
+    def _home(self, axes: tuple[str, ...], permit: Permit) -> None:
         self._prepare("home")
         self._searched = set(axes)
         self._distrusted |= self._searched
@@ -76,10 +78,10 @@ class Moving(Connected, TrajectoryPlayer, VelocityMover, Homer, VoltageOutput):
             own = [axis.number for axis in board.axes if axis.name in axes]
             if own:
                 message = Home(sum(1 << number for number in own))
-                board.orders.give("home", partial(said, message), DeviceState.HOMING)
+                board.orders.give("home", partial(said, message), DeviceState.HOMING, permit=permit)
         self._serve()
 
-    def _set_voltage(self, axis: str, voltage: float) -> None:
+    def _set_voltage(self, axis: str, voltage: float, permit: Permit) -> None:
         self._prepare("put out a voltage")
         board, own = self._running.board_of(axis)
         trust = self._running.trust
@@ -87,10 +89,10 @@ class Moving(Connected, TrajectoryPlayer, VelocityMover, Homer, VoltageOutput):
         last = 1e-3 * trust.value(board, PER_AXIS * own.number + _LAST_MV)
         code = min(max(round((voltage - first) / (last - first) * CODES), 0), CODES)
         message = SetVoltage(own.number, code)
-        board.orders.give(("axis", own.number), partial(said, message))
+        board.orders.give(("axis", own.number), partial(said, message), permit=permit)
         self._serve()
 
-    def _play(self, trajectory: Record) -> None:
+    def _play(self, trajectory: Record, permit: Permit) -> None:
         self._prepare("play")
         session = self._running
         for board in session.boards:
@@ -99,7 +101,13 @@ class Moving(Connected, TrajectoryPlayer, VelocityMover, Homer, VoltageOutput):
         speeds = {name: self._speed(name) for name in self.axes}
         ends = {name: self._ends(name) for name in self.axes}
         session.player = session.playback = Player(
-            trajectory, session.boards, speeds, ends, self._settle_s
+            trajectory,
+            session.boards,
+            speeds,
+            ends,
+            self._settle_s,
+            permit,
+            session.setpoint_every,
         )
         self._progress = 0.0
         self._serve()

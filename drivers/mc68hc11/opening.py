@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from functools import partial
+from math import ceil
 
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import DriverError, DriverTimeoutError, ProtocolError
@@ -76,6 +77,7 @@ class Opening:
         self._pause = pause
         self._exchange = exchange
         self.period_ms = 0
+        self.setpoint_every = 1
 
     def run(self) -> Trust:
         """Go through all of it; return what is thought of the boards' parameters.
@@ -207,7 +209,7 @@ class Opening:
         self._wait(self._quiet, _ASK_S, "to forget its fault")
 
     def _begin_telemetry(self) -> None:
-        self.period_ms = self._period_ms()
+        self.period_ms, self.setpoint_every = self._periods()
         period_us = 1000 * self.period_ms
         begin_s = self._clock() + 2.0 * max(board.link.answer_s for board in self._boards)
         for board in self._boards:
@@ -223,20 +225,21 @@ class Opening:
             "to send telemetry",
         )
 
-    def _period_ms(self) -> int:
-        """Return the shortest period at which telemetry and set-points fit on the lines."""
+    def _periods(self) -> tuple[int, int]:
+        """Return the period of telemetry, ms, and of how many samples one has a set-point.
+
+        On a shared bus set-points go between the samples: there are fewer of both meanwhile.
+        """
         announced = min(board.rates.telemetry for board in self._boards if board.rates is not None)
         if announced <= 0:
             raise ProtocolError(f"{self._boards[0].where} announces no rate of telemetry")
-        half_duplex = self._boards[0].link.half_duplex
-        line = Line(self._baud, half_duplex)
-        for rate in _RATES_HZ:
-            load = line.load(rate)
-            if half_duplex:
-                load += line.seconds(rate * len(self._boards) * (_EXCHANGE + _SLOTS))
-            if rate <= announced and load <= _MOST:
-                return 1000 // rate
-        return 1000 // announced
+        line = Line(self._baud, self._boards[0].link.half_duplex)
+        fits = (one for one in _RATES_HZ if one <= announced and line.load(one) <= _MOST)
+        rate = next(fits, announced)
+        load = line.load(rate)
+        if line.half_duplex:
+            load += line.seconds(rate * len(self._boards) * (_EXCHANGE + _SLOTS))
+        return 1000 // rate, ceil(load / _MOST) if line.half_duplex else 1
 
     def _poll_all(self) -> None:
         for board in self._boards:

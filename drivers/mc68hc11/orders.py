@@ -7,6 +7,7 @@ board holds a fault until it is cleared: that is done here, once it rests and th
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 
+from rotemina.drivers.gate import Permit
 from rotemina.drivers.mc68hc11.board_clock import BoardClock
 from rotemina.drivers.mc68hc11.codes import Fault, Refusal, State
 from rotemina.drivers.mc68hc11.dialogue import Dialogue, Request, Urgency
@@ -32,6 +33,7 @@ class _Order:
     make: Callable[[float], Message]
     expected: DeviceState
     expires_s: float
+    permit: Permit | None
 
 
 class Orders:
@@ -89,13 +91,16 @@ class Orders:
         key: Hashable,
         make: Callable[[float], Message],
         expected: DeviceState = DeviceState.MOVING,
+        *,
         expires_s: float = float("inf"),
+        permit: Permit | None,
     ) -> None:
         """Queue an order, in place of an earlier one with the same key that was not said yet.
 
-        ``make`` returns the message at the host time when it is said.
+        ``make`` returns the message at the host time when it is said; ``permit`` is None for what
+        halts.
         """
-        self._pending[key] = _Order(make, expected, expires_s)
+        self._pending[key] = _Order(make, expected, expires_s, permit)
 
     def stop(self) -> None:
         """Forget all orders, also what is under way, and say stop until it is acknowledged."""
@@ -120,11 +125,11 @@ class Orders:
         self._pending.clear()
         self.refusal = None
 
-    def clear_fault(self) -> None:
+    def clear_fault(self, permit: Permit) -> None:
         """Tell the board to forget its fault."""
         self.forget()
         if not self._clearing:
-            self._clear()
+            self._clear(permit)
 
     def pump(self, now_s: float) -> None:
         """Say the next order if the board is ready for it."""
@@ -133,9 +138,10 @@ class Orders:
         told = self._told()
         if not self._pending or told is None:
             return
-        if self._stopped and not self._released(told):
+        key, order = next(iter(self._pending.items()))
+        if self._stopped and not self._released(told, order.permit):
             return
-        order = self._pending.pop(next(iter(self._pending)))
+        del self._pending[key]
         if now_s >= order.expires_s:
             return
         self._expected = order.expected
@@ -145,6 +151,7 @@ class Orders:
                 answered=self._done,
                 refused=self._refused,
                 expires_s=order.expires_s,
+                permit=order.permit,
             )
         )
 
@@ -155,12 +162,16 @@ class Orders:
         if self._cleared_us is not None and time_us > self._cleared_us:
             self._cleared_us = None
 
-    def _released(self, told: Telemetry) -> bool:
-        """Whether the host's own stop no longer holds the board; clear it as soon as it rests."""
+    def _released(self, told: Telemetry, permit: Permit | None) -> bool:
+        """Whether the host's own stop no longer holds the board.
+
+        It is cleared as soon as the board rests, by the permit of the order that waits: one that
+        was drawn after the stop.
+        """
         if self._unseen_us is not None or told.state & State.MOVING:
             return False
         if told.fault == Fault.STOPPED:
-            self._clear()
+            self._clear(permit)
             return False
         self._stopped = False
         if told.fault != Fault.NONE:
@@ -168,11 +179,16 @@ class Orders:
             return False
         return True
 
-    def _clear(self) -> None:
+    def _clear(self, permit: Permit | None) -> None:
         self._clearing = True
         self._expected = DeviceState.MOVING
         self.dialogue.ask(
-            Request(message=ClearFault(), answered=self._cleared, refused=self._not_cleared)
+            Request(
+                message=ClearFault(),
+                answered=self._cleared,
+                refused=self._not_cleared,
+                permit=permit,
+            )
         )
 
     def _cleared(self, _answer: Message, now_s: float) -> None:

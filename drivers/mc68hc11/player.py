@@ -6,6 +6,7 @@ from functools import lru_cache, partial
 
 import numpy as np
 
+from rotemina.drivers.gate import Permit
 from rotemina.drivers.mc68hc11.board import Board, BoardSample
 from rotemina.drivers.mc68hc11.orders import said
 from rotemina.drivers.mc68hc11.requests import MoveTo
@@ -43,6 +44,10 @@ class Player:
         First and last step of each axis.
     settle_s : float
         How long to rest at the first row.
+    permit : Permit
+        What all that it sends passes the gate with.
+    every : int
+        Of how many sampling instants one is that of a set-point.
     """
 
     def __init__(
@@ -52,14 +57,18 @@ class Player:
         speeds: Mapping[str, int],
         ends: Mapping[str, tuple[int, int]],
         settle_s: float,
+        permit: Permit,
+        every: int = 1,
     ) -> None:
+        self._permit = permit
         self._boards = tuple(boards)
         self._ends = ends
         self._places = [(b, axis) for b, board in enumerate(boards) for axis in board.axes]
         names = tuple(axis.name for _, axis in self._places)
         grid = boards[0].grid
         assert grid is not None, "telemetry is on"
-        self._schedule = Schedule(trajectory, names, 1e-6 * grid.period_us, on_ticks=True)
+        self._every = every
+        self._schedule = Schedule(trajectory, names, 1e-6 * grid.period_us * every, on_ticks=True)
         self._first = {
             index: self._steps_of(index, at) for index, at in self._schedule.first.items()
         }
@@ -75,7 +84,8 @@ class Player:
         for index, target in self._first.items():
             b, axis = self._places[index]
             message = MoveTo(axis.number, target, speeds[axis.name])
-            self._boards[b].orders.give(("axis", axis.number), partial(said, message))
+            key = ("axis", axis.number)
+            self._boards[b].orders.give(key, partial(said, message), permit=permit)
 
     @property
     def over(self) -> bool:
@@ -108,8 +118,10 @@ class Player:
         A row counts only if every board says that it acts on it.
         """
         told = tuple(part.commands for part in row)
-        instant = -1 if self._begin is None else number - self._begin
-        if not 0 <= instant < self._schedule.count:
+        if self._begin is None:
+            return -1, told
+        instant, between = divmod(number - self._begin, self._every)
+        if between or not 0 <= instant < self._schedule.count:
             return -1, told
         steps, numbers = self._chunk(instant // _CHUNK)
         at = instant % _CHUNK
@@ -135,7 +147,9 @@ class Player:
 
     def _begin_rows(self, now_s: float) -> None:
         self._held = [step for board in self._boards for step in board.commanded()]
-        self._begin = max(board.number_at(now_s) for board in self._boards) + _LEAD
+        latest = max(board.number_at(now_s) for board in self._boards)
+        # Telemetry that is slowed down meanwhile is of these instants.
+        self._begin = latest - latest % self._every + _LEAD * self._every
         moved = {self._places[index][0] for index in self._first}
         self._streaming = tuple(self._boards[b] for b in sorted(moved))
         for b in sorted(moved):
@@ -145,6 +159,7 @@ class Player:
                 self._schedule.count,
                 partial(self._due, b),
                 board.link.answer_s,
+                self._permit,
             )
             board.link.begin_stream(board.address, window)
         self._phase = _Phase.ROWS
@@ -155,14 +170,19 @@ class Player:
             window = board.link.windows.get(board.address)
             if window is None:
                 continue
-            window.release(board.number_at(now_s) + _AHEAD - self._begin + 1)
+            window.release(self._instants(board.number_at(now_s)) + _AHEAD)
             if window.refusal is not None:
                 self.failure = f"board {board.address} refused a set-point ({window.refusal})"
                 self.give_up()
                 return
-        self._instant = min(max(settled - self._begin + 1, 0), self._schedule.count)
+        self._instant = min(max(self._instants(settled), 0), self._schedule.count)
         if self._instant == self._schedule.count:
             self.give_up()
+
+    def _instants(self, number: int) -> int:
+        """Return how many set-points have acted at a sampling instant; negative before."""
+        assert self._begin is not None, "the rows have begun"
+        return (number - self._begin) // self._every + 1
 
     def _due(self, b: int, instant: int) -> Due:
         grid = self._boards[b].grid
@@ -170,7 +190,7 @@ class Player:
         assert self._begin is not None, "the rows have begun"
         steps, _ = self._chunk(instant // _CHUNK)
         own = tuple(int(one) for one in steps[b][instant % _CHUNK])
-        return Due(grid.time_us(self._begin + instant), own)
+        return Due(grid.time_us(self._begin + instant * self._every), own)
 
     def _chunk_of(self, chunk: int) -> tuple[list[IntArray], IntArray]:
         """Return the steps (n, axes) of each board and the rows (n,), -1 between two rows."""

@@ -5,6 +5,7 @@ from functools import partial
 
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import ConnectionLostError
+from rotemina.drivers.gate import OvertakenError
 from rotemina.drivers.mc68hc11.axes import BoardAxis
 from rotemina.drivers.mc68hc11.board import Board
 from rotemina.drivers.mc68hc11.capturing import Capturing
@@ -58,10 +59,10 @@ class Session:
     ) -> None:
         self._clock = clock
         self._watch_ms = watch_ms
+        self.period_ms = 1  # until the boards have told their rates
         self.player: Player | None = None
         self.playback: Player | None = None  # the latest, over or not: samples are named by it
         self.capturing: Capturing | None = None
-        self._slowed: Board | None = None  # whose telemetry is slower for a capture
         self.lost: ConnectionLostError | None = None
         self.served_s = clock()
         self._polled_s = float("-inf")
@@ -98,15 +99,18 @@ class Session:
             for link in self.links:
                 link.close()
             raise
-        self.period_ms = opening.period_ms
+        self.period_ms = opening.period_ms  # between two samples
+        self.setpoint_every = opening.setpoint_every  # samples
+        for board in self.boards:
+            board.telemetry_ms = self.period_ms
         self.sampling = Sampling(self.boards, self._named)
         self._open = True
         self.served_s = clock()
 
     @property
-    def period_s(self) -> float:
-        """Between two samples, and two set-points."""
-        return 1e-3 * self.period_ms
+    def setpoint_period_s(self) -> float:
+        """Between two set-points."""
+        return 1e-3 * self.period_ms * self.setpoint_every
 
     @property
     def silent_s(self) -> float:
@@ -137,6 +141,16 @@ class Session:
             link.hush()
         for board in self.boards:
             board.stop()
+        self.trust.cut_off()
+
+    def held_back(self) -> list[str]:
+        """Return why the gate has held motion back since the last call, other than for a stop."""
+        found = []
+        for link in self.links:
+            error, link.held_back = link.held_back, None
+            if error is not None and not isinstance(error, OvertakenError):
+                found.append(f"a motion was not sent: {error}")
+        return found
 
     def serve(self) -> None:
         """Do one round: receive, decide, send.
@@ -182,11 +196,15 @@ class Session:
         shift_us = first.grid.time_us(number) - second.grid.time_us(number)
         return self.sampling.time_s(time_us + shift_us)
 
-    def slow_down(self, board: Board, period_ms: int) -> None:
-        """Let a board send telemetry less often, on instants that both boards share."""
-        if period_ms > self.period_ms:
-            self._slowed = board
-            self._telemetry(board, -(-period_ms // self.period_ms) * self.period_ms)
+    def slow_down(self, board: Board, period_ms: int) -> int:
+        """Let a board send telemetry less often, on instants that both boards share.
+
+        Return the period that it has then, ms.
+        """
+        slower_ms = -(-period_ms // self.period_ms) * self.period_ms
+        if slower_ms > board.telemetry_ms:
+            self._telemetry(board, slower_ms)
+        return slower_ms
 
     def _exchange(self) -> None:
         for link in self.links:
@@ -198,18 +216,16 @@ class Session:
             self.player.step(now_s, self.sampling.settled)
             if self.player.over and self.player.failure is None:
                 self.player = None
-        if self._slowed is not None and (self.capturing is None or self.capturing.over):
-            board, self._slowed = self._slowed, None
-            self._telemetry(board, self.period_ms)
         for board in self.boards:
+            self._keep_rate(board)
             board.orders.pump(now_s)
             self._keep_alive(board, now_s)
         self._keep_in_step(now_s)
 
     @property
     def _short_s(self) -> float:
-        slowest_s = self.period_s * (4.0 if self._slowed is not None else 1.0)
-        return max(_SHORT_S, _SHORT_PERIODS * slowest_s)
+        slowest_ms = max(board.telemetry_ms for board in self.boards)
+        return max(_SHORT_S, _SHORT_PERIODS * 1e-3 * slowest_ms)
 
     def _judge(self) -> None:
         for board in self.boards:
@@ -245,7 +261,9 @@ class Session:
         """Begin another board's samples anew when the quartzes have run apart, at rest only."""
         first = self.boards[0]
         assert first.grid is not None, "telemetry is on"
-        if self.player is not None or self._slowed is not None or self.silent_s:
+        if self.player is not None or self.silent_s:
+            return
+        if any(board.telemetry_ms != self.period_ms for board in self.boards):
             return
         for board in self.boards[1:]:
             assert board.grid is not None, "telemetry is on"
@@ -255,7 +273,7 @@ class Session:
             wanted_s = first.clock.host_time_s(first.grid.time_us(number))
             apart_s = board.clock.host_time_s(board.grid.time_us(number)) - wanted_s
             most = _APART_ON_BUS if board.link.half_duplex else _APART
-            if abs(apart_s) > most * self.period_s:
+            if abs(apart_s) > most * 1e-3 * self.period_ms:
                 board.grid.move(board.clock.time_us(wanted_s), number)
                 self._telemetry(board, self.period_ms, number)
 
@@ -267,8 +285,25 @@ class Session:
             number += -number % every
         begin_us = board.grid.time_us(number) % (1 << 32)
         board.link.dialogues[board.address].ask(
-            Request(message=SetTelemetry(period_ms, begin_us), urgency=Urgency.BACKGROUND)
+            Request(
+                message=SetTelemetry(period_ms, begin_us),
+                urgency=Urgency.BACKGROUND,
+                answered=lambda _message, _at_s: setattr(board, "telemetry_ms", period_ms),
+            )
         )
+
+    def _keep_rate(self, board: Board) -> None:
+        """Let a board send less telemetry while it captures, or set-points share the bus with it.
+
+        Asked until it is acknowledged, whatever stop comes between.
+        """
+        wanted_ms = self.period_ms * (1 if self.player is None else self.setpoint_every)
+        capturing = self.capturing
+        if capturing is not None and capturing.board is board and not capturing.over:
+            wanted_ms = max(wanted_ms, capturing.telemetry_ms)
+        dialogue = board.link.dialogues[board.address]
+        if wanted_ms != board.telemetry_ms and not dialogue.has(Urgency.BACKGROUND):
+            self._telemetry(board, wanted_ms)
 
     def _heard(self, address: int, message: Message, now_s: float) -> None:
         board = self.boards[address - 1]
@@ -287,8 +322,9 @@ class Session:
         for board in boards:
             if board.grid is None:
                 return None
-            waits = board.grid.number(board.latest_us)
-            if waits is None or board.number_at(now_s) > waits:
+            told, newest = board.grid.number(board.latest_us), board.number_at(now_s)
+            newest -= newest % max(board.telemetry_ms // self.period_ms, 1)
+            if told is None or newest > told:
                 late.append(board)
             elif self.capturing is not None and self.capturing.board is board:
                 late += [] if self.capturing.over else [board]

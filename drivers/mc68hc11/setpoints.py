@@ -3,7 +3,9 @@
 from collections.abc import Callable
 from typing import NamedTuple
 
+from rotemina.drivers.gate import Permit
 from rotemina.drivers.mc68hc11.codes import Refusal
+from rotemina.drivers.mc68hc11.dialogue import Offered
 from rotemina.drivers.mc68hc11.framing import RESYNC, Frame, encoded
 from rotemina.drivers.mc68hc11.message import Message
 from rotemina.drivers.mc68hc11.reports import Done, Refused
@@ -38,11 +40,19 @@ class SetpointWindow:
         Return a set-point by its number.
     answer_s : float
         After what time an answer is missing.
+    permit : Permit
+        Of the playback: every set-point passes the gate with it.
     """
 
     def __init__(
-        self, address: int, count: int, due: Callable[[int], Due], answer_s: float
+        self,
+        address: int,
+        count: int,
+        due: Callable[[int], Due],
+        answer_s: float,
+        permit: Permit,
     ) -> None:
+        self._permit = permit
         self._address = address
         self._count = count
         self._due = due
@@ -75,8 +85,8 @@ class SetpointWindow:
             self._go_back()
         return self._next < self._released and self._next - self._taken < UNDER_WAY
 
-    def take(self, now_s: float, number: int, out_s: float) -> bytes:
-        """Return the bytes of the next set-point; ``out_s`` from now they are out."""
+    def take(self, now_s: float, number: int, out_s: float) -> Offered:
+        """Return the next set-point; ``out_s`` from now its bytes are out."""
         index, due = self._next, self._due(self._next)
         steps = (*due.steps, 0, 0, 0)
         message = SetPoint(
@@ -91,8 +101,8 @@ class SetpointWindow:
         self._said = max(self._said, self._next)
         if self._back:
             self._back = False
-            return RESYNC + frame
-        return frame
+            return Offered(RESYNC + frame, self._permit, begins=False)
+        return Offered(frame, self._permit, begins=False)
 
     def heard(self, message: Message, now_s: float) -> bool:
         """Take a message as the answer to a set-point if it is one; return whether it was."""

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from functools import partial
 
 from rotemina.drivers.errors import StateError
+from rotemina.drivers.gate import Permit
 from rotemina.drivers.mc68hc11.board import Board
 from rotemina.drivers.mc68hc11.codes import VERSION
 from rotemina.drivers.mc68hc11.dialogue import Request, Urgency
@@ -63,7 +64,7 @@ class Trust:
         """Take the boards' own for good."""
         self._accepted = True
 
-    def write(self) -> None:
+    def write(self, permit: Permit) -> None:
         """Begin to write what differs; the boards are read again afterwards."""
         self.failure = None
         for difference in self.differences:
@@ -77,8 +78,15 @@ class Trust:
                     urgency=Urgency.BACKGROUND,
                     answered=partial(self._written, board, message),
                     refused=partial(self._refused, board, message),
+                    permit=permit,
                 )
             )
+
+    def cut_off(self) -> None:
+        """Note that a stop has ended what was being written: no answers come any more."""
+        if self._writing:
+            self._writing = 0
+            self.failure = "a stop cut the writing off"
 
     def demand(self, name: str, action: str) -> None:
         """Refuse to move while parameters differ and nobody has accepted that.

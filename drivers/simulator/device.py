@@ -19,6 +19,7 @@ from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.feedback.regulation import Regulation
 from rotemina.sim.plant.chance import Chance
 from rotemina.sim.plant.plant import Plant
+from rotemina.sim.plant.state import PlantState
 from rotemina.sim.plant.takeover import taken_over
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import AxisEffect, Robot, StepperAxis
@@ -79,6 +80,8 @@ class SimulatedDevice:
         self._setpoints = SetpointGenerator(SetpointLimits.of(robot), tick_s, position)
         self._compensating = Compensating(SetpointLimits.of(robot), tick_s)
         self._regulating = Regulating(tick_s)
+        # How far a loop that holds a stopped axis may lead its output away.
+        self._holding = np.array([axis.following for axis in axes])
         self._command = np.array(position, dtype=np.float64)
         self._sent = self._command
         self._tick_s = tick_s
@@ -163,11 +166,14 @@ class SimulatedDevice:
             return self._profile.progress
         return self._playing.progress if self._playing is not None else 0.0
 
-    def set_effects(self, effects: tuple[AxisEffect, ...]) -> None:
-        """Go on with other effects, from where the axes are and as fast as they are."""
+    def with_effects(self, effects: tuple[AxisEffect, ...]) -> tuple[Plant, PlantState]:
+        """Return a plant with other effects, where the axes are and as fast as they are."""
         plant = Plant.of(replace(self._robot, effects=effects), closed_loop=True)
-        self._state = taken_over(plant, self._plant, self._state)
-        self._plant = plant
+        return plant, taken_over(plant, self._plant, self._state)
+
+    def use(self, plant: Plant, state: PlantState) -> None:
+        """Go on with another plant at a state of its own."""
+        self._plant, self._state = plant, state
 
     def compensate(self, index: int, model: InverseModel | None) -> None:
         """Send an axis, by its number, through an inverse, or as it is told; it is at rest.
@@ -231,18 +237,20 @@ class SimulatedDevice:
 
     def move_to(self, index: int, target: float, most_speed: float | None = None) -> None:
         """Send an axis, by its number, to a target, no faster than this."""
+        self._regulating.lead(index)
         self._setpoints.retarget({index: target}, most_speed)
 
     def drive(self, index: int, velocity: float) -> None:
         """Let an axis, by its number, go at a speed, m/s or rad/s; 0 brings it to a halt."""
+        if velocity:
+            self._regulating.lead(index)
         self._setpoints.drive(index, velocity)
 
-    def play(self, trajectory: Record) -> None:
-        """Approach the first row, settle, then play."""
-        self._profile = None
+    def playing_of(self, trajectory: Record) -> Playing:
+        """Return a trajectory as the machine would play it now; nothing changes."""
         # Loops and inverses live at the ticks.
         on_ticks = any(self._plant.loops) or bool(self._compensating.beyond or self._regulating)
-        self._playing = Playing(
+        return Playing(
             trajectory,
             self._plant.axes,
             self._tick_s,
@@ -250,12 +258,19 @@ class SimulatedDevice:
             on_ticks=on_ticks,
             smooth=bool(self._regulating),
         )
+
+    def play(self, playing: Playing) -> None:
+        """Approach the first row, settle, then play."""
+        self._profile = None
+        self._regulating.lead()
+        self._playing = playing
         self._settled = 0
-        self._setpoints.retarget(self._playing.first)
+        self._setpoints.retarget(playing.first)
         self._phase = _Phase.APPROACH
 
     def run(self, profile: ProfileMotion) -> None:
         """Run a profile of an axis from the next tick on; all axes are at rest."""
+        self._regulating.lead(profile.index)
         self._profile = profile
         self._phase = _Phase.PROFILE
 
@@ -271,6 +286,7 @@ class SimulatedDevice:
         if self._phase is _Phase.ROWS and self._playing is not None and self._playing.begun:
             self._end_rows(self._command, self._playing)
         self._setpoints.stop()
+        self._regulating.hold(self._holding)
         self._phase = _Phase.HOLD
 
     def advance(self, until_s: float) -> list[Samples]:

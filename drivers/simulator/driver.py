@@ -2,7 +2,8 @@
 
 import time
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import replace
 from types import MappingProxyType
 from typing import ClassVar
@@ -20,6 +21,7 @@ from rotemina.drivers.abilities import (
 from rotemina.drivers.capture import Captured, CaptureRates
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import LimitError, StateError
+from rotemina.drivers.gate import Permit
 from rotemina.drivers.model_abilities import Compensator, EffectCarrier, Regulator
 from rotemina.drivers.profile import Profile
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
@@ -127,6 +129,11 @@ class Simulator(
         return self._tick_s
 
     @property
+    def stop_pending(self) -> bool:
+        """Whether a stop was asked for that the simulated time has not come to."""
+        return bool(self._stops_s)
+
+    @property
     def effects(self) -> tuple[AxisEffect, ...]:
         """The effects in place, those that are switched off among them."""
         return self._effects
@@ -143,10 +150,12 @@ class Simulator(
         rate_hz = 1.0 / self._tick_s
         return CaptureRates(rate_hz, rate_hz, len(self.axes), MAX_CAPTURE)
 
-    def _set_effects(self, effects: tuple[AxisEffect, ...]) -> None:
+    def _set_effects(self, effects: tuple[AxisEffect, ...], permit: Permit) -> None:
         self._catch_up()
-        self._running.set_effects(effects)
-        self._effects = effects
+        plant, state = self._running.with_effects(effects)
+        with permit.passing():
+            self._running.use(plant, state)
+            self._effects = effects
 
     @property
     def compensated(self) -> Mapping[str, Beyond]:
@@ -168,22 +177,18 @@ class Simulator(
         device = self._device
         return () if device is None else tuple(self.axes[index] for index in device.limited)
 
-    def _compensate(self, axis: str, model: InverseModel | None) -> None:
+    def _compensate(self, axis: str, model: InverseModel | None, permit: Permit) -> None:
         index = self._open_loop_piezo(axis, "an inverse")
         self._catch_up()
-        try:
+        with permit.passing(), _as_limit():
             self._running.compensate(index, model)
-        except InputError as error:
-            raise LimitError(str(error)) from error
 
-    def _regulate(self, axis: str, regulation: Regulation | None) -> None:
+    def _regulate(self, axis: str, regulation: Regulation | None, permit: Permit) -> None:
         index = self._open_loop_piezo(axis, "a loop")
         self._catch_up()
         self._profile = None  # it was made for the ticks before
-        try:
+        with permit.passing(), _as_limit():
             self._running.regulate(index, regulation)
-        except InputError as error:
-            raise LimitError(str(error)) from error
 
     def _open_loop_piezo(self, axis: str, what: str) -> int:
         """Return the number of an axis that may have an inverse, or a loop."""
@@ -248,28 +253,31 @@ class Simulator(
             state = DeviceState.HOMING
         return DeviceStatus(state, device.progress, self._fault, not unhomed, unhomed)
 
-    def _move_to(self, targets: dict[str, float], speeds: dict[str, float]) -> None:
+    def _move_to(self, targets: dict[str, float], speeds: dict[str, float], permit: Permit) -> None:
         self._catch_up()
-        for axis, target in targets.items():
-            index = self.axes.index(axis)
-            self._leases_s.pop(index, None)
-            self._running.move_to(index, target, speeds.get(axis))
+        with permit.passing():
+            for axis, target in targets.items():
+                index = self.axes.index(axis)
+                self._leases_s.pop(index, None)
+                self._running.move_to(index, target, speeds.get(axis))
 
-    def _move_velocity(self, velocities: dict[str, float], lease_s: float) -> None:
+    def _move_velocity(self, velocities: dict[str, float], lease_s: float, permit: Permit) -> None:
         self._catch_up()
         ends_s = self.clock() - self._opened_at_s + lease_s
-        for axis, velocity in velocities.items():
-            index = self.axes.index(axis)
-            self._running.drive(index, velocity)
-            self._leases_s.pop(index, None)
-            if velocity:
-                self._leases_s[index] = ends_s
+        with permit.passing():
+            for axis, velocity in velocities.items():
+                index = self.axes.index(axis)
+                self._running.drive(index, velocity)
+                self._leases_s.pop(index, None)
+                if velocity:
+                    self._leases_s[index] = ends_s
 
-    def _home(self, axes: tuple[str, ...]) -> None:
+    def _home(self, axes: tuple[str, ...], permit: Permit) -> None:
         self._catch_up()
-        self._running.home(tuple(self.axes.index(axis) for axis in axes))
+        with permit.passing():
+            self._running.home(tuple(self.axes.index(axis) for axis in axes))
 
-    def _set_voltage(self, axis: str, voltage: float) -> None:
+    def _set_voltage(self, axis: str, voltage: float, permit: Permit) -> None:
         model = self.robot.axes[axis]
         if not isinstance(model, PiezoAxis) or model.controller is not None:
             raise LimitError(
@@ -289,7 +297,7 @@ class Simulator(
             check_target(self.robot, axis, voltage * model.gain)
         except InputError as error:
             raise LimitError(str(error)) from error
-        self._move_to({axis: voltage * model.gain}, {})
+        self._move_to({axis: voltage * model.gain}, {}, permit)
 
     def captured(self) -> Captured | None:
         """Return what the reads since it was last asked for have brought, or None: nothing."""
@@ -305,13 +313,13 @@ class Simulator(
         self._catch_up()
         return float(self._running.command[self.axes.index(axis)])
 
-    def _upload(self, profile: Profile) -> None:
+    def _upload(self, profile: Profile, permit: Permit) -> None:
         index = self.axes.index(profile.axis)
-        self._profile = ProfileMotion(
-            profile, index, self._commanded(profile.axis), self._running.tick_s
-        )
+        made = ProfileMotion(profile, index, self._commanded(profile.axis), self._running.tick_s)
+        with permit.passing():
+            self._profile = made
 
-    def _trigger(self) -> None:
+    def _trigger(self, permit: Permit) -> None:
         self._catch_up()
         profile, device = self._profile, self._running
         if profile is None:
@@ -322,7 +330,8 @@ class Simulator(
                 "upload the profile again"
             )
         self._profile = None
-        device.run(profile)
+        with permit.passing():
+            device.run(profile)
 
     def _abort(self) -> None:
         self._catch_up()
@@ -330,7 +339,7 @@ class Simulator(
         if self._running.running_profile:
             self._running.stop()
 
-    def _play(self, trajectory: Record) -> None:
+    def _play(self, trajectory: Record, permit: Permit) -> None:
         if len(trajectory.time_s) > 1:
             rate_hz = 1.0 / float(np.diff(trajectory.time_s).min())
             if rate_hz > MAX_RATE_HZ * (1.0 + 1e-6):
@@ -339,18 +348,21 @@ class Simulator(
                     f"{MAX_RATE_HZ:g} Hz at most; resample the trajectory"
                 )
         self._catch_up()
-        self._running.play(trajectory)
+        playing = self._running.playing_of(trajectory)
+        with permit.passing():
+            self._running.play(playing)
 
     def _stop(self) -> None:
         self._tool_on = False
         self._stops_s.append(self.clock() - self._opened_at_s)
 
-    def _clear_fault(self) -> None:
-        device = self._running
-        self._stops_s.clear()
-        self._leases_s.clear()
-        self._device = self._made(device.sent, self.clock() - self._opened_at_s)
-        self._fault = None
+    def _clear_fault(self, permit: Permit) -> None:
+        device = self._made(self._running.sent, self.clock() - self._opened_at_s)
+        with permit.passing():
+            self._stops_s.clear()
+            self._leases_s.clear()
+            self._device = device
+            self._fault = None
 
     def _read(self) -> Samples:
         # A portion costs as much as a single sample: it is worth while to wait for one.
@@ -403,3 +415,12 @@ class Simulator(
         for index in [index for index, end_s in self._leases_s.items() if end_s <= at_s]:
             del self._leases_s[index]
             device.drive(index, 0.0)
+
+
+@contextmanager
+def _as_limit() -> Iterator[None]:
+    """Tell what a model does not allow as a limit of the device."""
+    try:
+        yield
+    except InputError as error:
+        raise LimitError(str(error)) from error

@@ -110,6 +110,20 @@ class Regulating:
         left = {key: one for key, one in self.regulations.items() if key != index}
         self.regulations = MappingProxyType(left)
 
+    def hold(self, bounds: FloatArray) -> None:
+        """Keep every loop's output within bounds (axes,), m or rad, of what it is now.
+
+        So a loop that holds a stopped axis cannot lead it away, whatever its sensor says.
+        """
+        for index, controller in self._controllers.items():
+            controller.hold(float(bounds[index]))
+
+    def lead(self, index: int | None = None) -> None:
+        """End :meth:`hold` for an axis that is to move, or for all."""
+        for each, controller in self._controllers.items():
+            if index is None or each == index:
+                controller.lead()
+
     def limited(self, index: int) -> bool:
         """Whether a limit cuts the output of an axis' loop off just now."""
         return index in self._controllers and self._controllers[index].limited

@@ -4,6 +4,7 @@ from abc import ABC
 from collections.abc import Mapping
 
 from rotemina.drivers.clock import Clock
+from rotemina.drivers.gate import Permit
 from rotemina.drivers.tool import ToolOutput
 from rotemina.sim.robot.model import Robot
 
@@ -22,5 +23,6 @@ class SimulatedTool(ToolOutput, ABC):
         """Whether the tool is on."""
         return self._tool_on
 
-    def _switch_tool(self, on: bool) -> None:
-        self._tool_on = on
+    def _switch_tool(self, on: bool, permit: Permit) -> None:
+        with permit.passing():
+            self._tool_on = on

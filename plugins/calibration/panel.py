@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 from rotemina.app.calibration.files import Source, kept, source_of
 from rotemina.app.calibration.run import CalibrationRun, Phase, RunState
 from rotemina.app.calibration.store import Stored
+from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.language import marked, translate
@@ -106,7 +107,7 @@ class CalibrationPanel(Panel):
     def stop(self) -> None:
         """Stop the machine; nothing of the run is kept."""
         if self._run is not None:
-            self._run.stop()
+            self._run.stop(by=OPERATOR)
 
     # --- fit and store ----------------------------------------------------------------------------
 

@@ -168,7 +168,8 @@ class Acting:
 
     def _play(self, motion: Callable[[], Record]) -> bool:
         session = self._workbench.session
-        return self._workbench.ask(lambda: session.play(motion()))
+        permit = session.permit()  # making the motion takes a while
+        return self._workbench.ask(lambda: session.play(motion(), permit=permit))
 
     @property
     def _unit(self) -> str:

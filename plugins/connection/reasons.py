@@ -125,8 +125,12 @@ def against_teaching(state: SessionState, zone: KeepOutZone | None) -> str | Non
     return state.locked if state.locked is not None else in_motion(state)
 
 
-def against_removing(zone: KeepOutZone | None) -> str | None:
-    """Why not take the tip's floor away."""
+def against_removing(zone: KeepOutZone | None, state: SessionState | None = None) -> str | None:
+    """Why not take the tip's floor away; without a state, whether there is one to take away."""
     if zone is None:
         return translate("connection", "this robot has no tip that a floor could hold")
-    return None if zone.low > float("-inf") else "there is no floor"
+    if zone.floor == float("-inf"):
+        return translate("connection", "there is no floor")
+    if state is None or state.locked is not None:
+        return None if state is None else state.locked
+    return in_motion(state)

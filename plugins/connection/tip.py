@@ -92,7 +92,7 @@ class TipSection(Section):
         )
         allow(
             self.remove,
-            reasons.against_removing(zone),
+            reasons.against_removing(zone, state),
             translate("connection", "Let the tip go as low as its axes can"),
         )
         self._withdraw(why)
@@ -115,7 +115,7 @@ class TipSection(Section):
 
     def _floor(self) -> float | None:
         zone = self._workbench.session.keep_out
-        return zone.low if zone is not None and isfinite(zone.low) else None
+        return zone.floor if zone is not None and isfinite(zone.floor) else None
 
     def _ask_teach(self) -> None:
         if self._height is None:

@@ -2,6 +2,10 @@
 
 from dataclasses import dataclass
 
+from rotemina.app.motion.session import MotionSession
+from rotemina.app.shell.pending import Pending
+from rotemina.drivers.gate import Permit
+
 LARGE = 0.1  # of the range; beyond it a move is asked for twice
 SETTLE_S = 0.5  # a double click is no answer
 
@@ -16,31 +20,43 @@ class Asked:
 
 
 class Confirmation:
-    """Whether a target may be gone to now; for one axis of a range ``span``, m or rad."""
+    """Whether a target may be gone to now; for one axis of a range ``span``, m or rad.
 
-    def __init__(self, span: float) -> None:
-        self._span = span
-        self.asked: Asked | None = None
+    A stop withdraws the question.
+    """
 
-    def take(self, target: float, command: float, now_s: float) -> bool:
-        """Return whether to go; a large move has to be asked for once more."""
+    def __init__(self, span: float, session: MotionSession) -> None:
+        self._span, self._session = span, session
+        self._pending: Pending[Asked] = Pending(session)
+
+    @property
+    def asked(self) -> Asked | None:
+        """The move that waits to be confirmed."""
+        return self._pending.what
+
+    def take(self, target: float, command: float, now_s: float) -> Permit | None:
+        """Return the permit to go, or None: a large move has to be asked for once more.
+
+        It is that of the question: no stop that came after it lets the answer count.
+        """
         if abs(target - command) <= LARGE * self._span:
-            self.asked = None
-            return True
+            self._pending.withdraw()
+            return self._session.permit()
         asked = self.asked
         if asked is None or (asked.target, asked.command) != (target, command):
-            self.asked = Asked(target, command, now_s)
-            return False
+            self._pending.put(Asked(target, command, now_s))
+            return None
         if now_s - asked.since_s < SETTLE_S:
-            return False
-        self.asked = None
-        return True
+            return None
+        self._pending.withdraw()
+        return self._pending.permit
 
     def withdraw(self) -> None:
         """Wait for nothing any more."""
-        self.asked = None
+        self._pending.withdraw()
 
     def follow(self, command: float | None) -> None:
         """Withdraw the question where the axis is not where it was asked."""
-        if self.asked is not None and command != self.asked.command:
-            self.asked = None
+        asked = self.asked
+        if asked is not None and command != asked.command:
+            self._pending.withdraw()

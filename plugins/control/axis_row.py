@@ -54,7 +54,7 @@ class AxisRow(QFrame):
         self._described = workbench.robot.axes[axis]
         self._scale: Scale = axis_scale(self._described)
         self._command: float | None = None
-        self.confirmation = Confirmation(self._described.span)
+        self.confirmation = Confirmation(self._described.span, workbench.session)
         self.holding = Holding(workbench, axis, self)
         self._bar = RangeBar(workbench, axis)
         self._readout = Readout(
@@ -128,6 +128,7 @@ class AxisRow(QFrame):
         button.clicked.connect(lambda _: self._step(sign))
         button.pressed.connect(lambda: self._hold(button, sign))
         button.released.connect(self.holding.end)
+        self.holding.watch(button)
         return button
 
     def _target_field(self) -> TargetField:
@@ -199,9 +200,10 @@ class AxisRow(QFrame):
             return  # it is being locked, for the reason in the tooltip
         if not self._workbench.ask(lambda: check_target(self._workbench.robot, axis, target)):
             return  # nobody is asked about a move that cannot be made
-        if self.confirmation.take(target, self._command, self._clock()):
+        permit = self.confirmation.take(target, self._command, self._clock())
+        if permit is not None:
             session, speeds = self._workbench.session, self._speed.speeds((axis,))
-            self._workbench.ask(lambda: session.go_to({axis: target}, speeds=speeds))
+            self._workbench.ask(lambda: session.go_to({axis: target}, speeds=speeds, permit=permit))
 
     # --- what is shown ----------------------------------------------------------------------------
 

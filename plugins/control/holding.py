@@ -1,29 +1,36 @@
 """Hold-to-jog: an axis goes while its button is held, and by nothing else."""
 
+import time
 from contextlib import suppress
 
-from PySide6.QtCore import QObject, Qt, QTimer
+from PySide6.QtCore import QEvent, QObject, Qt, QTimer
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QPushButton
+from PySide6.QtWidgets import QApplication, QPushButton
 
 from rotemina.app.shell.workbench import Workbench
+from rotemina.drivers.clock import Clock
 from rotemina.sim.errors import InputError
 
 RENEW_MS = 50  # well within the lease of a speed
+REPEATED_S = 1.0  # a key that repeats no more for so long is let go of, whoever saw that
 
 
 class Holding(QObject):
     """Renews the speed of one axis while a button is down.
 
-    Release, loss of focus, another window, a modifier key, a dock that is hidden or a button that
-    is locked end it; and so does a window that hangs, because nobody renews the lease then.
+    Release, loss of focus, another window, a menu or dialog, a modifier key, a dock that is hidden
+    or a button that is locked end it; so does a key that stops repeating, for its release may be
+    lost, and a window that hangs, because nobody renews the lease then.
     """
 
-    def __init__(self, workbench: Workbench, axis: str, parent: QObject) -> None:
+    def __init__(
+        self, workbench: Workbench, axis: str, parent: QObject, clock: Clock = time.monotonic
+    ) -> None:
         super().__init__(parent)
         self._workbench, self._axis = workbench, axis
         self._button: QPushButton | None = None
-        self._speed = 0.0
+        self._speed, self._clock = 0.0, clock
+        self._key_s: float | None = None  # when the key said last that it is down
         self._modifiers = Qt.KeyboardModifier.NoModifier
         self._renewing = QTimer(self, interval=RENEW_MS)
         self._renewing.timeout.connect(self._renew)
@@ -32,6 +39,18 @@ class Holding(QObject):
     def busy(self) -> bool:
         """Whether the axis is being driven."""
         return self._button is not None
+
+    def watch(self, button: QPushButton) -> None:
+        """Tell presses by a key from those by the mouse; once for each button."""
+        button.installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
+        """Note how the button is held; a key says so again and again."""
+        if event.type() == QEvent.Type.KeyPress:
+            self._key_s = self._clock()
+        elif event.type() == QEvent.Type.MouseButtonPress:
+            self._key_s = None
+        return False
 
     def begin(self, button: QPushButton, speed: float) -> None:
         """Go at a speed, m/s or rad/s, while the button is held."""
@@ -66,4 +85,7 @@ class Holding(QObject):
             # A dock behind another one is not hidden for Qt, only moved away.
             and not button.visibleRegion().isEmpty()
             and QGuiApplication.keyboardModifiers() == self._modifiers
+            and QApplication.activePopupWidget() is None
+            and QApplication.activeModalWidget() is None
+            and (self._key_s is None or self._clock() - self._key_s <= REPEATED_S)
         )

@@ -10,6 +10,7 @@ from rotemina.app.motion.saved_positions import LONGEST_NAME, SavedPositions
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import translate
+from rotemina.app.shell.pending import Pending
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.connection.reasons import against_going_back, against_homing, in_motion
 from rotemina.plugins.control.parts import SteadyChoice, button, text_label
@@ -23,7 +24,8 @@ class PositionsPage(QWidget):
         super().__init__()
         self._workbench, self._speed = workbench, speed
         self.positions = SavedPositions(workbench.settings.folder, workbench.robot)
-        self._again: str | None = None  # what the next press replaces or deletes
+        #: What the next press replaces or deletes.
+        self._again: Pending[str] = Pending(workbench.session)
         self.names = SteadyChoice(
             translate("control", "Saved positions"),
             translate("control", "Places of all axes, by name"),
@@ -58,7 +60,9 @@ class PositionsPage(QWidget):
             self._list()
 
     def refresh(self, state: SessionState) -> None:
-        """Lock what cannot be done now."""
+        """Lock what cannot be done now, and ask nothing that a stop has withdrawn."""
+        if self._again.what is None:
+            self._forget()
         none = None if self.names.currentText() else translate("control", "no position is chosen")
         moving = in_motion(state)
         allow(
@@ -127,15 +131,15 @@ class PositionsPage(QWidget):
 
     def _sure(self, what: str, asked: QWidget, word: str) -> bool:
         """Whether this is the second press for the same; the first one changes the button."""
-        if self._again == what:
+        if self._again.what == what:
             return True
         self._forget()
-        self._again = what
+        self._again.put(what)
         asked.setText(word)
         return False
 
     def _forget(self) -> None:
-        self._again = None
+        self._again.withdraw()
         self.keep.setText(translate("control", "Save"))
         self.delete.setText(translate("control", "Delete"))
 

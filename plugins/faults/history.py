@@ -9,6 +9,7 @@ from datetime import datetime
 from enum import StrEnum
 
 from rotemina.app.motion.state import (
+    Alarmed,
     CommandRefused,
     Connection,
     Event,
@@ -112,6 +113,8 @@ class History:
             self._note_state(at, event.state)
         elif isinstance(event, CommandRefused):
             self.add(at, Kind.REFUSED, event.message)
+        elif isinstance(event, Alarmed):
+            self.add(at, Kind.NOTE, event.message)
         elif isinstance(event, Faulted):
             failed = self._state.connection is Connection.FAILED
             kind = Kind.FAULT

@@ -21,6 +21,7 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.pending import Pending
 from rotemina.app.shell.workbench import Plan, Run, Workbench
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.identification.excitation import Prepared, Wave, Wish, prepared
@@ -52,7 +53,8 @@ class ExciteView(QWidget):
         super().__init__()
         self._workbench = workbench
         self.motion: Prepared | None = None
-        self._awaited: Record | None = None  # to be played as soon as it is in hand
+        #: To be played as soon as it is in hand.
+        self._awaited: Pending[Record] = Pending(workbench.session)
         self._last: Prepared | None = None  # what was played last
         self.axis, self.wave = QComboBox(), QComboBox()
         for name in workbench.robot.axes:
@@ -133,12 +135,12 @@ class ExciteView(QWidget):
         if self.motion is None or self.motion.digest is None:
             return
         self._last = self.motion
-        self._awaited = self.motion.made.record
-        self._workbench.plan_trajectory(self.motion.name, self._awaited)
+        self._awaited.put(self.motion.made.record)
+        self._workbench.plan_trajectory(self.motion.name, self.motion.made.record)
 
     def halt(self) -> None:
         """Stop the machine, and end the playback."""
-        self._awaited = None
+        self._awaited.withdraw()
         self._workbench.end_playback()
 
     def played(self, run: Run) -> Prepared | None:
@@ -158,11 +160,12 @@ class ExciteView(QWidget):
     def refresh(self, session: SessionState) -> None:
         """Show what can be done now, who drives the axis, and how far the motion is."""
         plan, playback = self._workbench.plan, self._workbench.playback
-        if plan is not None and self._awaited is plan.trajectory:
-            self._awaited = None
+        if plan is not None and self._awaited.what is plan.trajectory:
+            self._awaited.withdraw()
+            permit = self._awaited.permit
             # At its own pace, and without a bound of the deviation from the model: that is what
             # the motion is to show. All limits hold as ever.
-            self._workbench.ask(lambda: playback.play(plan.dry_run.require()))
+            self._workbench.ask(lambda: playback.play(plan.dry_run.require(), permit=permit))
             self.begun.emit()
         if not self.isVisible():
             return
@@ -181,7 +184,7 @@ class ExciteView(QWidget):
             self._why_not(session, state),
             translate("identification", "Play it; the record is analysed at once"),
         )
-        waits = under_way or self._awaited is not None
+        waits = under_way or self._awaited.what is not None
         allow(
             self.stop,
             None if waits else translate("identification", "it is not playing"),
@@ -196,7 +199,7 @@ class ExciteView(QWidget):
             return translate("identification", "the motion is not ready")
         if motion.digest is None:
             return motion.objection
-        if self._awaited is not None or state.phase is PlaybackPhase.PLAYING:
+        if self._awaited.what is not None or state.phase is PlaybackPhase.PLAYING:
             return translate("identification", "a trajectory is playing")
         if session.locked is not None:
             return spoken(session.locked)
@@ -236,8 +239,8 @@ class ExciteView(QWidget):
         )
 
     def _plan_changed(self, plan: Plan) -> None:
-        if plan.trajectory is not self._awaited:
-            self._awaited = None  # another trajectory was taken in hand
+        if plan.trajectory is not self._awaited.what:
+            self._awaited.withdraw()  # another trajectory was taken in hand
 
     def _connect(self) -> None:
         for choice in (self.axis, self.wave):

@@ -7,6 +7,7 @@ from rotemina.app.microscope.calibration_file import MICRO, NANO
 from rotemina.app.microscope.calibration_run import CalibrationStatus
 from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.sight import Activity, Sight
+from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import marked, translate
@@ -51,9 +52,7 @@ class CalibrationSection(Section):
         self.micro = button(translate("microscope", "Micro stage"), lambda: self._begin(MICRO))
         self.nano = button(translate("microscope", "Nano stage"), lambda: self._begin(NANO))
         self.add_row(self.micro, self.nano)
-        self.abort = button(
-            translate("microscope", "Abort"), lambda: workbench.ask(microscope.stop)
-        )
+        self.abort = button(translate("microscope", "Abort"), lambda: microscope.stop(by=OPERATOR))
         self.progress = QProgressBar()
         self.progress.setTextVisible(False)
         self.progress.setAccessibleName(translate("microscope", "Progress of the calibration"))

@@ -9,6 +9,7 @@ from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.sight import Sight
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.language import translate
+from rotemina.app.shell.pending import Pending
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.microscope.overlays import ghost_text
 from rotemina.plugins.microscope.picture_view import Hand, PictureView
@@ -33,8 +34,9 @@ class Hands(QObject):
         super().__init__(view)
         self._workbench, self._microscope, self._view = workbench, microscope, view
         self.stage: str | None = None
-        self._stop_s = workbench.session.stop_asked_s
-        self._planned = False
+        self._permit = workbench.session.permit()
+        #: Whether a move is planned; a stop ends that at once, before it is told of.
+        self._planned: Pending[bool] = Pending(workbench.session)
         self._confirmed: Callable[[], object] = lambda: None  # what a yes does
         self._begin = (0.0, 0.0)
         view.pressed.connect(self._press)
@@ -61,10 +63,10 @@ class Hands(QObject):
 
     def refresh(self, sight: Sight) -> None:
         """End the mode Move where somebody has stopped, or the picture is not live any more."""
-        stop_s = self._workbench.session.stop_asked_s
-        stopped, self._stop_s = stop_s != self._stop_s, stop_s
+        before, self._permit = self._permit, self._workbench.session.permit()
+        stopped = before.epoch != self._permit.epoch
         doubtful = against_aiming(sight) is not None
-        if stopped or (doubtful and self._planned):
+        if stopped or (doubtful and self._planned.what):
             self._forget()
         if self._view.hand is Hand.MOVE and (stopped or doubtful):
             self.choose(Hand.PAN)
@@ -79,7 +81,7 @@ class Hands(QObject):
 
     def answer(self, yes: bool) -> None:
         """Make the move that was asked about, or forget it."""
-        if yes and self._planned and self._may_move():
+        if yes and self._planned.what and self._may_move():
             self._make(self._confirmed)
         else:
             self._forget()
@@ -100,7 +102,7 @@ class Hands(QObject):
             ask(lambda: microscope.outline_cell(place))
 
     def _drag(self, column: float, row: float) -> None:
-        if self._view.hand is Hand.MOVE and self._planned:
+        if self._view.hand is Hand.MOVE and self._planned.what:
             self._plan(column, row)
         elif self._view.hand is Hand.MEASURE:
             self._view.line = (self._begin, (column, row))
@@ -108,7 +110,7 @@ class Hands(QObject):
 
     def _release(self, column: float, row: float) -> None:
         microscope = self._microscope
-        if self._view.hand is Hand.MOVE and self._planned:
+        if self._view.hand is Hand.MOVE and self._planned.what:
             self._go(microscope.go, lambda: microscope.go(confirmed=True))
         elif self._view.hand is Hand.MEASURE:
             self._view.line = None
@@ -125,9 +127,10 @@ class Hands(QObject):
         planned = self._may_move() and self._workbench.ask(
             lambda: self._microscope.plan(place, stage=self.stage)
         )
-        if self._planned and not planned:
+        if planned:
+            self._planned.put(True)
+        else:
             self._forget()
-        self._planned = planned
         return planned
 
     def _go(self, go: Callable[[], object], confirmed: Callable[[], object]) -> None:
@@ -144,7 +147,7 @@ class Hands(QObject):
             self._make(go)
 
     def _make(self, move: Callable[[], object]) -> None:
-        self._planned = False
+        self._planned.withdraw()
         self.asks.emit("")
         self._workbench.ask(move)
         self._microscope.cancel_plan()
@@ -160,6 +163,6 @@ class Hands(QObject):
 
     def _forget(self) -> None:
         self.asks.emit("")
-        if self._planned:
-            self._planned = False
+        self._planned.withdraw()
+        if self._microscope.sight.planned is not None:
             self._microscope.cancel_plan()

@@ -6,6 +6,7 @@ from PySide6.QtWidgets import QListWidget
 
 from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.sight import Activity, Sight
+from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import marked, translate
@@ -48,7 +49,7 @@ class MoveSection(Section):
         self.back = button(
             translate("microscope", "Go back"), lambda: workbench.ask(microscope.go_back)
         )
-        self.halt = button(translate("microscope", "Stop"), lambda: workbench.ask(microscope.stop))
+        self.halt = button(translate("microscope", "Stop"), lambda: microscope.stop(by=OPERATOR))
         self.add_row(self.back, self.halt)
         self.said = self.add_text()
 

@@ -125,7 +125,7 @@ def _listed(path: Path, known: Mapping[Path, Listed]) -> Listed | None:
             about.st_mtime_ns,
             _moment(recording.metadata.get("began", "")),
             recording.ended_s - recording.began_s,
-            recording.metadata["robot"],
+            recording.metadata.get("robot", ""),
             sum(one.weight is not Weight.DETAIL for one in told),
         )
     except (RecordingError, KeyError, ValueError) as error:

@@ -27,6 +27,8 @@ from rotemina.sim.plant.state import Behind, PlantState
 from rotemina.sim.plant.steps import steps_through
 from rotemina.sim.robot.model import ForceAxis, Robot, StepperAxis
 
+FASTEST_HZ = 1e6  # rate of a loop: beyond that nobody closes one about a motor or a piezo
+_LONGEST_DELAY = 1000  # intervals
 _TRIES = 60  # of the command that holds an axis at a position
 _NEAR = 1e-12  # share of the range within which it is held there
 
@@ -247,7 +249,9 @@ def _check(robot: Robot, axis: str, rate_hz: float, delay: int) -> None:
             f"axis {axis}: it is moved by a force and keeps no position by itself; give it a "
             "cascade controller in the robot file"
         )
-    if not 0.0 < rate_hz < float("inf"):
-        raise FeedbackError(f"loop rate {rate_hz} Hz: must be positive and finite")
-    if delay < 0:
-        raise FeedbackError(f"loop delay of {delay} intervals: must be 0 or more")
+    if not 0.0 < rate_hz <= FASTEST_HZ:
+        raise FeedbackError(
+            f"loop rate {rate_hz:g} Hz: must be more than 0, at most {FASTEST_HZ:g} Hz"
+        )
+    if not 0 <= delay <= _LONGEST_DELAY:
+        raise FeedbackError(f"loop delay of {delay} intervals: must be 0 to {_LONGEST_DELAY}")

@@ -45,6 +45,7 @@ class Controller:
     ) -> None:
         #: Of the recurrence, and what it remembers, which it moves on.
         self.numbers = numbers_of(gains, interval_s, limits)
+        self._limits = limits.low, limits.high
         self.memory = np.zeros(kernel.MEMORY)
         self.feed_forward = feed_forward or FeedForward()
         self.interval_s = interval_s
@@ -61,6 +62,16 @@ class Controller:
         feed = self.feed_forward.start(reference)
         self.memory[:] = rested(self.numbers, feed, feed if output is None else output)
         self.begun_at = self.integral
+
+    def hold(self, most: float) -> None:
+        """Keep the output within ``most`` (m or rad) of what it is now, until :meth:`lead`."""
+        low, high = self._limits
+        self.numbers[kernel.LOW] = max(low, self.output - most)
+        self.numbers[kernel.HIGH] = min(high, self.output + most)
+
+    def lead(self) -> None:
+        """Let the output go as far as the limits allow again."""
+        self.numbers[kernel.LOW], self.numbers[kernel.HIGH] = self._limits
 
     def step(self, reference: float, measured: float) -> float:
         """Return the output of this sample, m or rad, held until the next.

@@ -6,7 +6,7 @@ axes sweep, each on its own schedule, is bounded as a workspace is.
 """
 
 from dataclasses import dataclass, replace
-from typing import Self
+from typing import NamedTuple, Self
 
 import numpy as np
 
@@ -23,26 +23,41 @@ SLOW_SPEED = 0.5e-3  # m/s
 _SLACK = 1e-9  # m, that rounding may take
 
 
+class Excess(NamedTuple):
+    """By how much, m, a tip is beyond each bound; 0 or less where it is inside."""
+
+    below: float
+    above: float
+    aside: float
+
+    @property
+    def any(self) -> bool:
+        """Whether the tip is out."""
+        return max(self) > _SLACK
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class KeepOutZone:
     """The tip's bounds on one robot; make one by :meth:`of`.
 
-    ``floor`` is the least height of the tip; ``radius`` bounds its way from the middle; the
-    ``objective`` is above the tip where it is above the floor (the middle, without a floor), else
-    below it, as under an inverted microscope.
+    Floor and objective are bounds of their own: teaching or removing the floor leaves the other.
 
     Attributes
     ----------
     chain : Chain
-    low, high : float
-        Heights, m, between which the tip must stay; infinite where nothing bounds it.
+    floor : float
+        Least height of the tip, m; -inf: none.
+    objective : (low, high) of float
+        Heights, m, between which the objective leaves room: it is above the tip where the robot
+        file puts it above the floor (the middle, without a floor), else below it, as under an
+        inverted microscope. Infinite where nothing bounds it.
     radius : float
         Greatest distance, m, from the upright axis through the middle of the workspace.
     """
 
     chain: Chain
-    low: float
-    high: float
+    floor: float
+    objective: tuple[float, float]
     radius: float
 
     @classmethod
@@ -62,14 +77,24 @@ class KeepOutZone:
             if bounded:
                 raise ChainError(f"{error}; its [keep_out] can bound no tip") from error
             return None
-        low = -np.inf if given.floor is None else given.floor
-        high = np.inf
+        objective = (-np.inf, np.inf)
         if given.objective is not None:
             middle = float(tip_position(chain, chain.centre)[2])
             above = given.objective > (middle if given.floor is None else given.floor)
-            low, high = (low, given.objective) if above else (max(low, given.objective), high)
+            objective = (-np.inf, given.objective) if above else (given.objective, np.inf)
+        floor = -np.inf if given.floor is None else given.floor
         radius = np.inf if given.radius is None else given.radius
-        return cls(chain, float(low), float(high), float(radius))
+        return cls(chain, float(floor), objective, float(radius))
+
+    @property
+    def low(self) -> float:
+        """Least height, m, that floor and objective leave."""
+        return max(self.floor, self.objective[0])
+
+    @property
+    def high(self) -> float:
+        """Greatest height, m, that the objective leaves."""
+        return self.objective[1]
 
     @property
     def bounded(self) -> bool:
@@ -77,8 +102,23 @@ class KeepOutZone:
         return bool(np.isfinite([self.low, self.high, self.radius]).any())
 
     def taught(self, floor: float | None) -> Self:
-        """Return the bounds with another floor, m; None for none at all."""
-        return replace(self, low=-np.inf if floor is None else float(floor))
+        """Return the bounds with another floor, m; None for none at all.
+
+        Raises
+        ------
+        OutOfLimitsError
+            If the floor is no height that the tip can reach, or leaves no room to the objective.
+        """
+        if floor is None:
+            return replace(self, floor=-np.inf)
+        reach = Workspace.of(self.chain).hull
+        low, high = float(reach.low[2]), min(float(reach.high[2]), self.high)
+        if not low - _SLACK <= floor <= high + _SLACK:
+            raise OutOfLimitsError(
+                f"tip: a floor at {1e3 * floor:.6g} mm: must be between {readable(low, 'm')} and "
+                f"{readable(high, 'm')}, where the tip can be; teach it where the tip touches"
+            )
+        return replace(self, floor=float(floor))
 
     def tip(self, positions: FloatArray) -> FloatArray:
         """Return the tip (..., 3), m, of axes (..., axes) in the robot's order."""
@@ -90,10 +130,16 @@ class KeepOutZone:
         lower, upper = joints
         return Workspace.of(replace(self.chain, lower=lower, upper=upper)).hull
 
-    def check_sweep(self, low: FloatArray, high: FloatArray, present: Box | None = None) -> Box:
-        """Return :meth:`swept`; refuse what might leave the bounds on the way.
+    def excess(self, box: Box) -> Excess:
+        """Return how far a tip that is anywhere in a box may be beyond each bound."""
+        return Excess(
+            self.low - float(box.low[2]),
+            float(box.high[2]) - self.high,
+            self._farthest(box) - self.radius,
+        )
 
-        A tip that is out of them already, ``present``, may go anywhere but farther out.
+    def check_sweep(self, low: FloatArray, high: FloatArray) -> Box:
+        """Return :meth:`swept`; refuse what might leave the bounds on the way.
 
         Raises
         ------
@@ -101,9 +147,18 @@ class KeepOutZone:
             With what is left, by how much, and what to do.
         """
         box = self.swept(low, high)
-        bounds = self if present is None else self._stretched(present)
-        bounds._refuse(float(box.low[2]), float(box.high[2]), self._farthest(box), "on the way")
+        self._refuse(float(box.low[2]), float(box.high[2]), self._farthest(box), "on the way")
         return box
+
+    def beyond(self, present: Box) -> Self:
+        """Return bounds that what is there already does not break."""
+        low, high = float(present.low[2]), float(present.high[2])
+        return replace(
+            self,
+            floor=min(self.floor, low),
+            objective=(min(self.objective[0], low), max(self.objective[1], high)),
+            radius=max(self.radius, self._farthest(present)),
+        )
 
     def check_path(self, positions: FloatArray, time_s: FloatArray) -> None:
         """Refuse a path (n, axes) that leaves the bounds, or dives through the slow zone.
@@ -136,15 +191,6 @@ class KeepOutZone:
         ends = np.maximum(np.abs(box.low - self._middle), np.abs(box.high - self._middle))
         return float(np.hypot(*ends[:2]))
 
-    def _stretched(self, present: Box) -> Self:
-        """Return bounds that what is there already does not break."""
-        return replace(
-            self,
-            low=min(self.low, float(present.low[2])),
-            high=max(self.high, float(present.high[2])),
-            radius=max(self.radius, self._farthest(present)),
-        )
-
     def _check_speed(self, height: FloatArray, time_s: FloatArray) -> None:
         """Refuse to go down faster than allowed close above the floor.
 
@@ -164,10 +210,15 @@ class KeepOutZone:
             )
 
     def _refuse(self, lowest: float, highest: float, away: float, where: str) -> None:
+        if lowest < self.floor - _SLACK:
+            raise OutOfLimitsError(
+                f"tip: {readable(lowest, 'm')} high {where}: its floor is "
+                f"{readable(self.floor, 'm')}; move elsewhere first, or teach the floor"
+            )
         if lowest < self.low - _SLACK:
             raise OutOfLimitsError(
                 f"tip: {readable(lowest, 'm')} high {where}: its floor is "
-                f"{readable(self.low, 'm')}; move elsewhere first, or teach the floor"
+                f"{readable(self.low, 'm')}, where the objective is; stay above it"
             )
         if highest > self.high + _SLACK:
             raise OutOfLimitsError(

@@ -8,7 +8,15 @@ import numpy as np
 from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.effects.attachment import Attached, attached_effects
 from rotemina.sim.effects.errors import EffectError
-from rotemina.sim.effects.formulation import Change, Force, Late, Motion, Part, Skew
+from rotemina.sim.effects.formulation import (
+    Change,
+    Force,
+    Late,
+    Motion,
+    Part,
+    Skew,
+    Trait,
+)
 from rotemina.sim.plant.group import Group, PlacedPart, coupled_axes, groups_of, static_groups_of
 from rotemina.sim.plant.lead import is_led
 from rotemina.sim.plant.machine import (
@@ -38,6 +46,8 @@ class Assembly:
     delays_s : (axes,)
     skews : mapping of axis number to rate
     inner_step_s : float
+    steps_may_grow : bool
+        Whether longer steps do, once nothing rings in a hold any more.
     """
 
     robot: Robot
@@ -49,6 +59,7 @@ class Assembly:
     delays_s: FloatArray
     skews: Mapping[int, float]
     inner_step_s: float
+    steps_may_grow: bool
 
     @property
     def electronics(self) -> BoolArray:
@@ -112,7 +123,14 @@ def assemble(robot: Robot, only: Collection[str] | None = None) -> Assembly:
         _delays(axes, effects),
         _skews(axes, effects),
         min(steps, default=np.inf),
+        not any(_sticks(one) for one in effects),
     )
+
+
+def _sticks(one: Attached) -> bool:
+    """Whether a force remembers or opposes speed: it holds an axis in short steps alone."""
+    formulation = one.formulation
+    return isinstance(formulation.acts, Force) and Trait.MEMORYLESS not in formulation.traits
 
 
 def _joined(robot: Robot, effects: Sequence[Attached], only: Collection[str]) -> set[str]:

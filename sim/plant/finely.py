@@ -13,6 +13,7 @@ from rotemina.sim.plant.run import Run
 from rotemina.sim.plant.state import Behind, Motion, PlantState
 
 _ROWS_A_PERIOD = 8.0  # through which a motion can be read to about a hundredth
+_MOST = 64  # parts of a row: where it outlasts the vibration, that is soon over
 
 
 def respond(plant: Plant, state: PlantState, run: Run, behind: Behind = Behind.COMMAND) -> Motion:
@@ -43,7 +44,7 @@ def _divisions(plant: Plant, time_s: FloatArray) -> int:
     step_s = float(np.median(np.diff(time_s)))
     moving = [axis for axis in plant.robot.axes.values() if not axis.static]
     fastest_hz = max((Facts.of(axis).pace_hz for axis in moving), default=0.0)
-    return max(int(np.ceil(_ROWS_A_PERIOD * fastest_hz * step_s)), 1)
+    return min(max(int(np.ceil(_ROWS_A_PERIOD * fastest_hz * step_s)), 1), _MOST)
 
 
 def _divided(run: Run, many: int) -> Run:

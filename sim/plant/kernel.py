@@ -21,6 +21,8 @@ WHOLE, BEHIND_AMPLIFIER, BEHIND_ACTUATOR = 0, 1, 2
 
 _LONG_S = 1e9  # after which every memory of time has come to rest
 _RISES = 256  # steps of the rise from the low end of the range
+_STILL = 1e-13  # of the largest value in a hold, by which a state may change at rest
+_STILL_STEPS = 64  # for so long: more than a period, in which something may turn
 
 
 class Steps(NamedTuple):
@@ -359,6 +361,23 @@ def _follow(
 
 
 @numba.njit(cache=True, error_model="numpy", inline="always")
+def _stepped(
+    axis: TableArray, function: TableArray, numbers: FloatArray, memory: FloatArray,
+    group: TableArray, member: IntArray, within: FloatArray, state_at: IntArray, into: FloatArray,
+    input_at: IntArray, j: int, u: FloatArray, force: FloatArray, forces: bool, t: float, h: float,
+    x: FloatArray, fresh: FloatArray,
+) -> None:  # fmt: skip
+    """Step all groups by the matrices of length j."""
+    for g in range(group.shape[0]):
+        states = group[g].states
+        at = input_at[g] + j * states * (2 * group[g].axes + 1)
+        own = state_at[g] + j * states * states
+        _linear(group, member, g, within, own, into, at, u, force, x, fresh)
+        if forces:
+            _forces(axis, function, numbers, memory, group, member, g, into, at, t, h, x, fresh)
+
+
+@numba.njit(cache=True, error_model="numpy", inline="always")
 def _put(source: FloatArray, x: FloatArray) -> None:
     for n in range(x.shape[0]):
         x[n] = source[n]
@@ -385,8 +404,10 @@ def run(
     x, memory, seen = moving
     u, now = np.zeros(axis.shape[0]), np.zeros(axis.shape[0])
     shown, fresh, no_force = np.zeros(output.shape[0]), np.empty(x.shape[0]), np.zeros(0)
+    most = np.zeros(x.shape[0])
     before = np.full(axis.shape[0], -1, dtype=np.int64)
     static, forces, followed = _kinds(axis)
+    held = not axis["inner_input"].any()
     t, k = start_s, first - 1
     if first > 0:  # the sample before was taken in the piece before: its position is shown again
         _static_inputs(axis, function, numbers, memory, shown, applied[0], inputs, t, now)
@@ -410,6 +431,7 @@ def run(
         if h == 0.0:
             continue
         force = forced[k - first + 1] if forced.shape[0] > 0 else no_force
+        still = 0
         for part in range(parts[j]):
             if followed and (part > 0 or (s > 0 and not taking)):
                 _follow(
@@ -419,17 +441,28 @@ def run(
             _held_inputs(
                 axis, function, numbers, memory, shown, s, applied, hold_s, inputs, t, h, before, u
             )
-            for g in range(group.shape[0]):
-                states = group[g].states
-                at = input_at[g] + j * states * (2 * group[g].axes + 1)
-                own = state_at[g] + j * states * states
-                _linear(group, member, g, within, own, into, at, u, force, x, fresh)
-                if forces:
-                    _forces(
-                        axis, function, numbers, memory, group, member, g, into, at, t, h, x, fresh
-                    )
+            _stepped(
+                axis, function, numbers, memory, group, member, within, state_at, into, input_at,
+                j, u, force, forces, t, h, x, fresh,
+            )  # fmt: skip
+            if held and parts[j] > _STILL_STEPS:
+                still = still + 1 if _rests(fresh, x, most, part) else 0
             _put(fresh, x)
             t += h
+            if still == _STILL_STEPS:  # so it stays while the hold lasts
+                t += (parts[j] - 1 - part) * h
+                break
+
+
+@numba.njit(cache=True, error_model="numpy", inline="always")
+def _rests(fresh: FloatArray, x: FloatArray, most: FloatArray, part: int) -> bool:
+    """Tell whether a step changes nothing; ``most``, the largest values in a hold, is kept."""
+    rests = True
+    for n in range(x.shape[0]):
+        most[n] = max(most[n] if part > 0 else 0.0, abs(fresh[n]), abs(x[n]))
+        if abs(fresh[n] - x[n]) > _STILL * most[n]:
+            rests = False
+    return rests
 
 
 @numba.njit(cache=True, error_model="numpy")

@@ -347,6 +347,7 @@ class Plant:
             cut(time_s, first, tuple(sorted(set(self._stepped_delays(behind))))),
             self.assembly.all_groups,
             inner_step_s=self.assembly.inner_step_s,
+            may_grow=self.assembly.steps_may_grow,
             with_holds=bool(self.effects),
         )
 

@@ -145,7 +145,8 @@ def step_matrices(group: Group, lengths_s: FloatArray) -> tuple[FloatArray, Floa
     if len(lengths_s) <= _FEW_LENGTHS:  # a live run asks for the same few lengths again and again
         exact = np.stack([_step(group, float(length)) for length in lengths_s])
     else:
-        exact = _many_steps(group, lengths_s)
+        numbers = group.generator.tobytes(), lengths_s.tobytes()
+        exact = _many_steps(*numbers, len(group.generator), group.states)
     states = group.states
     return np.ascontiguousarray(exact[:, :, :states]), np.ascontiguousarray(exact[:, :, states:])
 
@@ -175,21 +176,26 @@ def _exponential(numbers: bytes, size: int, length_s: float) -> FloatArray:
     return np.asarray(exact * scale[:, None] / scale)
 
 
-def _many_steps(group: Group, lengths_s: FloatArray) -> FloatArray:
+@lru_cache(maxsize=16)
+def _many_steps(numbers: bytes, lengths: bytes, size: int, states: int) -> FloatArray:
     """Return the steps of uneven sampling: ``exp(A h) = exp(A h₀) exp(A (h − h₀))``.
 
     The second factor is its power series, with h₀ chosen from a grid so fine that the series
-    converges to rounding; one matrix exponential then serves many lengths.
+    converges to rounding; one matrix exponential then serves many lengths. Kept as a single step
+    is: a fit goes over the same uneven record again and again.
     """
-    balanced, _ = matrix_balance(group.generator, permute=False)
+    generator, lengths_s = np.frombuffer(numbers).reshape(size, size), np.frombuffer(lengths)
+    balanced, _ = matrix_balance(generator, permute=False)
     # A static axis without states has a rate of zero: one step serves all its lengths.
     pitch = 1.0 / max(float(np.linalg.norm(balanced, 1)), np.finfo(np.float64).tiny)
     bucket = np.rint(lengths_s / pitch).astype(np.int64)
-    series = _series(group.generator, lengths_s - bucket * pitch)
-    exact = np.empty((len(lengths_s), group.states, len(group.generator)))
+    series = _series(generator, lengths_s - bucket * pitch)
+    exact = np.empty((len(lengths_s), states, size))
     for number in np.unique(bucket):
         members = bucket == number
-        exact[members] = _step(group, float(number * pitch)) @ series[members]
+        step = _exponential(numbers, size, float(number * pitch))[:states]
+        exact[members] = step @ series[members]
+    exact.flags.writeable = False
     return exact
 
 

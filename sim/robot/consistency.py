@@ -59,6 +59,10 @@ def _ranges(axis: Axis) -> Iterator[Problem]:
         yield Problem(
             "sensor.resolution", axis.sensor.resolution, f"must be below the range's {axis.span:g}"
         )
+    if axis.following > axis.span:
+        yield Problem(
+            "following_bound", axis.following, f"must be at most the range's {axis.span:g}"
+        )
 
 
 def _dynamics(axis: Axis) -> Iterator[Problem]:

@@ -4,7 +4,6 @@ Every error names the file, the key, the value and the bound. A file is data: no
 ever executed.
 """
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import field, replace
 from importlib import resources
@@ -16,6 +15,7 @@ from pydantic.dataclasses import dataclass
 
 from rotemina.sim.effects.attachment import Attached, parse_effect
 from rotemina.sim.effects.errors import EffectError
+from rotemina.sim.input_files import parse_toml, read_text
 from rotemina.sim.robot.consistency import Problem, find_problem
 from rotemina.sim.robot.errors import RobotFileError
 from rotemina.sim.robot.model import (
@@ -83,10 +83,16 @@ def load_robot(name_or_file: str | Path) -> Robot:
     RobotFileError
         If there is no such robot, the file cannot be read, or it is not a valid description.
     """
-    if isinstance(name_or_file, str) and name_or_file in shipped_robots():
-        text = resources.files(SHIPPED).joinpath(f"{name_or_file}.toml").read_text("utf-8")
-        return parse_robot(text, source=f"{name_or_file}.toml")
-    return parse_robot(_read(Path(name_or_file)), source=str(name_or_file))
+    shipped = _is_shipped(name_or_file)
+    source = f"{name_or_file}.toml" if shipped else str(name_or_file)
+    return parse_robot(robot_file_text(name_or_file), source)
+
+
+def robot_file_text(name_or_file: str | Path) -> str:
+    """Return the text of a robot file; parameters and errors as of :func:`load_robot`."""
+    if _is_shipped(name_or_file):
+        return resources.files(SHIPPED).joinpath(f"{name_or_file}.toml").read_text("utf-8")
+    return _read(Path(name_or_file))
 
 
 def parse_robot(text: str, source: str = "robot file") -> Robot:
@@ -97,13 +103,7 @@ def parse_robot(text: str, source: str = "robot file") -> Robot:
     RobotFileError
         With file, key, value and bound.
     """
-    try:
-        table = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise RobotFileError(f"{source}: not valid TOML: {error}") from error
-    except RecursionError as error:
-        raise RobotFileError(f"{source}: tables or lists are nested too deeply") from error
-    return _build(table, source)
+    return _build(parse_toml(text, source, RobotFileError), source)
 
 
 def _build(table: dict[str, Any], source: str) -> Robot:
@@ -195,20 +195,17 @@ def _with_unit(name: str, axis: Axis) -> Axis:
     return replace(axis, unit=unit)
 
 
+def _is_shipped(name_or_file: str | Path) -> bool:
+    return isinstance(name_or_file, str) and name_or_file in shipped_robots()
+
+
 def _read(path: Path) -> str:
     try:
-        with path.open("rb") as file:
-            data = file.read(MAX_BYTES + 1)
-    except FileNotFoundError as error:
+        return read_text(path, RobotFileError, MAX_BYTES)
+    except RobotFileError as error:
+        if not isinstance(error.__cause__, FileNotFoundError):
+            raise
         known = ", ".join(shipped_robots())
         raise RobotFileError(
             f"{path}: no such robot file, and no shipped robot of that name (shipped: {known})"
         ) from error
-    except OSError as error:
-        raise RobotFileError(f"{path}: cannot be read: {error.strerror}") from error
-    if len(data) > MAX_BYTES:
-        raise RobotFileError(f"{path}: larger than {MAX_BYTES} bytes; this is no robot file")
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise RobotFileError(f"{path}: not UTF-8 text (byte {error.start})") from error

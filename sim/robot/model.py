@@ -7,7 +7,7 @@ Units are SI throughout (m, rad, kg, N, V, s). The numbers come from a robot fil
 from collections.abc import Mapping
 from dataclasses import field
 from math import pi
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, ClassVar, Literal, NamedTuple
 
 from pydantic import Field
 from pydantic.dataclasses import dataclass
@@ -80,12 +80,21 @@ class _Axis:
     max_speed: Positive | None = None
     max_acceleration: Positive | None = None
     repeatability: NotNegative = 0.0
+    following_bound: Positive | None = None
     sensor: Sensor | None = None
+
+    #: Share of the range that ``following_bound`` is where a robot file does not give it.
+    _following_share: ClassVar[float] = 0.05
 
     @property
     def span(self) -> float:
         """Length of the range, m or rad."""
         return self.range[1] - self.range[0]
+
+    @property
+    def following(self) -> float:
+        """How far the reading may be from the command before motion locks, m or rad."""
+        return self.following_bound or self._following_share * self.span
 
     @property
     def inertia(self) -> Inertia | None:
@@ -117,6 +126,8 @@ class StepperAxis(_Axis):
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
 class PiezoAxis(_Axis):
     """A piezo driven open loop with ``u = cmd / gain``; ``gain`` in m/V or rad/V."""
+
+    _following_share: ClassVar[float] = 0.35  # hysteresis, creep and a load take their part
 
     kind: Literal["piezo"]
     gain: Number

@@ -141,9 +141,9 @@ class HandsOutTwice(Cabled):
 class NamesRowsAtRest(Cabled):
     _played = False
 
-    def _play(self, trajectory):
+    def _play(self, trajectory, permit):
         self._played = True
-        super()._play(trajectory)
+        super()._play(trajectory, permit)
 
     def _read(self):
         samples = super()._read()
@@ -205,9 +205,9 @@ class StopsWhenRead(Cabled):
     def _stop(self):
         self._asked = True
 
-    def _move_to(self, targets, speeds):
+    def _move_to(self, targets, speeds, permit):
         self._asked = False
-        super()._move_to(targets, speeds)
+        super()._move_to(targets, speeds, permit)
 
     def _read(self):
         if self._asked:
@@ -223,10 +223,15 @@ class StopUndoesTheNextMove(Cabled):
         self._stopped = not self._running.moving and not self._running.playing
         super()._stop()
 
-    def _move_to(self, targets, speeds):
+    def _move_to(self, targets, speeds, permit):
         if not self._stopped:
-            super()._move_to(targets, speeds)
+            super()._move_to(targets, speeds, permit)
         self._stopped = False
+
+
+class PassesTheGateWithWhatIsNew(Cabled):
+    def _move_to(self, targets, speeds, permit):
+        super()._move_to(targets, speeds, self.gate.permit())
 
 
 class LeavesTheRange(Cabled):
@@ -234,8 +239,8 @@ class LeavesTheRange(Cabled):
 
     _over = 0.0
 
-    def _move_to(self, targets, speeds):
-        super()._move_to(targets, speeds)
+    def _move_to(self, targets, speeds, permit):
+        super()._move_to(targets, speeds, permit)
         ends = [targets.get(name) == axis.range[1] for name, axis in ROBOT.axes.items()]
         self._over = 1e-3 * np.array(ends) * [axis.span for axis in ROBOT.axes.values()]
 
@@ -256,14 +261,14 @@ class HurriesMoves(Cabled):
 
 
 class IgnoresSpeeds(Cabled):
-    def _move_to(self, targets, speeds):
-        super()._move_to(targets, {})
+    def _move_to(self, targets, speeds, permit):
+        super()._move_to(targets, {}, permit)
 
 
 class FinishesMovesFirst(Cabled):
-    def _move_to(self, targets, speeds):
+    def _move_to(self, targets, speeds, permit):
         if not self._running.moving:
-            super()._move_to(targets, speeds)
+            super()._move_to(targets, speeds, permit)
 
 
 class ReadsInMillimetres(Cabled):
@@ -275,29 +280,29 @@ class ReadsInMillimetres(Cabled):
 class ArrivesNearly(Cabled):
     """Does not go all the way where several axes move, if that is not to an end."""
 
-    def _move_to(self, targets, speeds):
+    def _move_to(self, targets, speeds, permit):
         within = len(targets) == 2 and targets["x"] < 0.055
         near = {axis: 0.999 * at for axis, at in targets.items()}
-        super()._move_to(near if within else targets, speeds)
+        super()._move_to(near if within else targets, speeds, permit)
 
 
 class IgnoresLeases(Cabled):
-    def _move_velocity(self, velocities, lease_s):
-        super()._move_velocity(velocities, 1e6)
+    def _move_velocity(self, velocities, lease_s, permit):
+        super()._move_velocity(velocities, 1e6, permit)
 
 
 class HaltsAtEachRenewal(Cabled):
-    def _move_velocity(self, velocities, lease_s):
-        super()._move_velocity(dict.fromkeys(velocities, 0.0), lease_s)
+    def _move_velocity(self, velocities, lease_s, permit):
+        super()._move_velocity(dict.fromkeys(velocities, 0.0), lease_s, permit)
         self._running.advance(0.0)
         self._device._setpoints.generate(3)
-        super()._move_velocity(velocities, lease_s)
+        super()._move_velocity(velocities, lease_s, permit)
 
 
 class GoesOnAtZero(Cabled):
-    def _move_velocity(self, velocities, lease_s):
+    def _move_velocity(self, velocities, lease_s, permit):
         if any(velocities.values()):
-            super()._move_velocity(velocities, lease_s)
+            super()._move_velocity(velocities, lease_s, permit)
         else:
             self._leases_s = {index: self.clock() - self._opened_at_s + 0.5 for index in range(2)}
 
@@ -338,9 +343,9 @@ class KnowsAfterAStoppedSearch(Cabled):
 class NeverKnows(Cabled):
     _sought = False
 
-    def _home(self, axes):
+    def _home(self, axes, permit):
         self._sought = True
-        super()._home(axes)
+        super()._home(axes, permit)
 
     def _status(self):
         status = super()._status()
@@ -352,9 +357,9 @@ class DrivesBeyond(Cabled):
 
     _driven = False
 
-    def _move_velocity(self, velocities, lease_s):
+    def _move_velocity(self, velocities, lease_s, permit):
         self._driven = True
-        super()._move_velocity(velocities, lease_s)
+        super()._move_velocity(velocities, lease_s, permit)
 
     def _read(self):
         samples = super()._read()
@@ -383,7 +388,7 @@ class LeavesTheToolOn(Cabled):
 
 
 class MistakesTheVoltage(Cabled):
-    def _set_voltage(self, axis, voltage):
+    def _set_voltage(self, axis, voltage, permit):
         at = float(self._running.command[self.axes.index(axis)])
         self._move_to({axis: at + 2.0 * (voltage * ROBOT.axes[axis].gain - at)}, {})
 
@@ -406,11 +411,11 @@ class LosesACapturedSample(Cabled):
 
 
 class StraightensProfiles(Cabled):
-    def _upload(self, profile):
+    def _upload(self, profile, permit):
         straight = [
             ProfileSegment(one.duration_s, one.length, 0.0, 0.0) for one in profile.segments
         ]
-        super()._upload(Profile(profile.axis, tuple(straight)))
+        super()._upload(Profile(profile.axis, tuple(straight)), permit)
 
 
 class KeepsAnAbortedProfile(Cabled):
@@ -419,20 +424,20 @@ class KeepsAnAbortedProfile(Cabled):
         super()._abort()
         self._profile = kept
 
-    def _upload(self, profile):
-        super()._upload(profile)
+    def _upload(self, profile, permit):
+        super()._upload(profile, permit)
         self._kept = self._profile
 
-    def _trigger(self):
+    def _trigger(self, permit):
         self._profile = self._profile or getattr(self, "_again", None)
         if self._profile is not None:
             self._profile.start = float(self._running.command[self._profile.index])
-        super()._trigger()
+        super()._trigger(permit)
 
 
 class JumpsWhenCleared(Cabled):
-    def _clear_fault(self):
-        super()._clear_fault()
+    def _clear_fault(self, permit):
+        super()._clear_fault(permit)
         self._running.move_to(0, 0.05)
 
 
@@ -482,6 +487,7 @@ MUTANTS = {
     StopWaitsForTheRead: "stop-during-a-read",
     StopsWhenRead: "stop-when-called",
     StopUndoesTheNextMove: "stop-before-a-move",
+    PassesTheGateWithWhatIsNew: "stop-overtakes",
     LeavesTheRange: "moves-stay-inside",
     HurriesMoves: "moves-keep-the-speed",
     IgnoresSpeeds: "move-at-a-speed",

@@ -42,13 +42,13 @@ class Plain(Driver):
     def _status(self):
         return self.answer
 
-    def _move_to(self, targets, speeds):
+    def _move_to(self, targets, speeds, permit):
         self.calls.append(targets)
 
     def _stop(self):
         self.calls.append("stop")
 
-    def _clear_fault(self):
+    def _clear_fault(self, permit):
         self.calls.append("clear")
 
     def _read(self):

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from rotemina.drivers import abilities, errors, model_abilities, tool
+from rotemina.drivers import abilities, errors, gate, model_abilities, tool
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.driver import Driver
 from rotemina.sim.robot.file import load_robot
@@ -36,4 +36,4 @@ def test_every_ability_is_on_the_page_and_no_other():
 
 def test_errors_on_the_page_exist():
     for name in set(re.findall(r"`(\w+Error)`", PAGE)) - {"SettingError"}:
-        assert hasattr(errors, name)
+        assert hasattr(errors, name) or hasattr(gate, name)

@@ -62,7 +62,7 @@ class Course:
         self._refusals: deque[str] = deque(maxlen=8)
         self._unwritten: deque[PenetrationRun] = deque()
         self._end = session.subscribe(self._hear)
-        self._stop_s: float | None = None  # the latest stop that is known
+        self._permit = session.permit()  # of the run, or of the button that goes on with it
         self._since_s = self._renewed_s = 0.0
         self._rested_s: float | None = None  # since when the axis rests, on the membrane
         # Whether the device was told what the phase is about, and to capture.
@@ -133,7 +133,7 @@ class Course:
             self._fail(f"no contact within {distance}; start nearer to the cell", now_s)
         elif now_s - self._renewed_s >= _RENEW_S:
             self._renewed_s = now_s
-            self._session.move_velocity({p.axis: velocity}, LEASE_S, OWNER)
+            self._session.move_velocity({p.axis: velocity}, LEASE_S, OWNER, permit=self._permit)
         self._await(now_s, _LISTEN_S + 3.0 * p.approach_distance / p.approach_speed, "no contact")
 
     def _touch(
@@ -144,7 +144,7 @@ class Course:
         attempt.thrusting.append(samples)
         pause_s = attempt.parameters.contact_pause_s
         self._await(now_s, 2.0 * (pause_s + _PATIENCE_S), "the axis did not come to rest")
-        if not _at_rest(state):
+        if not self._at_rest(state):
             self._rested_s = None
             return
         self._rested_s = now_s if self._rested_s is None else self._rested_s
@@ -152,7 +152,7 @@ class Course:
             return
         if not self._told:
             self._told = True
-            self._session.upload_profile(attempt.plan.profile, OWNER)
+            self._session.upload_profile(attempt.plan.profile, OWNER, permit=self._permit)
             return
         if not self._capturing:
             self._capturing = True
@@ -162,7 +162,7 @@ class Course:
         attempt.contact_offset = float(np.mean((recent.measured - recent.command)[-20:]))
         attempt.thrust_from = state.command[attempt.parameters.axis]
         attempt.triggered_s = state.device_time_s
-        self._session.trigger_profile(OWNER)
+        self._session.trigger_profile(OWNER, permit=self._permit)
         self._enter(Phase.THRUST, now_s)
 
     def _thrust(
@@ -174,7 +174,7 @@ class Course:
         end = attempt.thrust_from + sum(one.length for one in plan.profile.segments)
         there = abs(state.command[p.axis] - end) <= 0.01 * p.depth
         over_s = p.duration_s + 2.0 * _MARGIN_S
-        if not (_at_rest(state) and there and now_s - self._since_s > over_s):
+        if not (self._at_rest(state) and there and now_s - self._since_s > over_s):
             self._await(now_s, over_s + _PATIENCE_S, "the device did not run the thrust")
             return
         if not self._evaluated(attempt):
@@ -196,7 +196,7 @@ class Course:
         if now_s - self._since_s < attempt.parameters.hold_s:
             return
         if attempt.parameters.inject_s > 0.0:
-            self._session.switch_tool(True)
+            self._session.switch_tool(True, permit=self._permit)
             self._enter(Phase.INJECT, now_s)
         else:
             self._enter(Phase.HOLD_AFTER, now_s)
@@ -221,11 +221,12 @@ class Course:
         p = attempt.parameters
         way = abs(state.command[p.axis] - attempt.start)
         if not self._told:
-            if _at_rest(state):
+            if self._at_rest(state):
                 self._told = True
-                self._session.go_to({p.axis: attempt.start}, OWNER, {p.axis: p.retract_speed})
+                speeds = {p.axis: p.retract_speed}
+                self._session.go_to({p.axis: attempt.start}, OWNER, speeds, permit=self._permit)
             self._await(now_s, _PATIENCE_S, "the axis did not come to rest")
-        elif _at_rest(state) and way <= _SAME:
+        elif self._at_rest(state) and way <= _SAME:
             self._finish(now_s)
         else:
             most_s = (p.approach_distance + p.depth) / p.retract_speed + 2.0 * _PATIENCE_S
@@ -299,10 +300,9 @@ class Course:
 
     def _broken(self, state: SessionState) -> str | None:
         """Return why nothing may go on by itself, or None."""
-        asked_s = self._session.stop_asked_s
         if state.locked is not None:
             return state.locked
-        if asked_s != self._stop_s:
+        if not self._permit.valid:
             return "a stop was asked for"
         if not self._session.has_reserved(OWNER):
             return "somebody took an axis over"
@@ -386,10 +386,10 @@ class Course:
             self._status, way=way, deviation=attempt.deviation(), load=attempt.load()
         )
 
+    def _at_rest(self, state: SessionState) -> bool:
+        """Whether the machine rested, and nothing has been handed to it since."""
+        return state.activity is DeviceState.IDLE and self._session.at_rest
+
     def _hear(self, event: Event) -> None:
         if isinstance(event, CommandRefused):
             self._refusals.append(event.message)
-
-
-def _at_rest(state: SessionState) -> bool:
-    return state.activity is DeviceState.IDLE and state.queued == 0

@@ -1,7 +1,7 @@
 """What a penetration is to be like: parameters with bounds, and their file."""
 
 import difflib
-import tomllib
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, fields
 from enum import StrEnum
@@ -12,6 +12,7 @@ from types import MappingProxyType
 from typing import Any, NamedTuple, Self
 
 from rotemina.app.motion.penetration.errors import PenetrationError
+from rotemina.sim.input_files import parse_toml, read_text
 from rotemina.sim.trajectory.wording import readable
 from rotemina.sim.whole_files import replaced
 
@@ -164,18 +165,10 @@ class PenetrationParameters:
         PenetrationError
             With file, key, value and bound.
         """
-        name = fspath(path)
+        text, name = read_text(path, PenetrationError, MAX_BYTES), fspath(path)
+        table = parse_toml(text, name, PenetrationError)
         try:
-            with Path(name).open("rb") as file:
-                data = file.read(MAX_BYTES + 1)
-        except OSError as error:
-            raise PenetrationError(f"{name}: cannot be read: {error.strerror}") from error
-        if len(data) > MAX_BYTES:
-            raise PenetrationError(f"{name}: larger than {MAX_BYTES} bytes; this is no such file")
-        try:
-            return cls.parsed(data.decode("utf-8-sig"))
-        except UnicodeDecodeError as error:
-            raise PenetrationError(f"{name}: not UTF-8 text (byte {error.start})") from error
+            return cls._of(table)
         except PenetrationError as error:
             raise PenetrationError(f"{name}: {error}") from error
 
@@ -187,10 +180,10 @@ class PenetrationParameters:
     @classmethod
     def parsed(cls, text: str) -> Self:
         """Read parameters from the text of such a file."""
-        try:
-            table = tomllib.loads(text)
-        except (tomllib.TOMLDecodeError, RecursionError) as error:
-            raise PenetrationError(f"not valid TOML: {error}") from error
+        return cls._of(parse_toml(text, "parameters", PenetrationError))
+
+    @classmethod
+    def _of(cls, table: Mapping[str, Any]) -> Self:
         known = [field.name for field in fields(cls)]
         for key, value in table.items():
             if key not in known:

@@ -64,9 +64,10 @@ class Penetration(Course):
             if self._status.phase in UNDER_WAY | {Phase.HELD}:
                 raise RefusedError(f"a penetration is {self._status.phase}; end it first")
             self._release()
+            permit = self._session.permit()
             self._attempt = armed(self._session, parameters, OWNER)
             self._feed = AxisFeed(self._session, parameters.axis)
-            self._stop_s = self._session.stop_asked_s
+            self._permit = permit
             self._armed_until_s = now_s + parameters.armed_s
             plan = self._attempt.plan
             self._status = PenetrationStatus(
@@ -172,12 +173,13 @@ class Penetration(Course):
         self._enter(Phase.APPROACH, now_s)
 
     def _retract_held(self, now_s: float) -> None:
+        permit = self._session.permit()
         state = self._session.snapshot()
         if state.locked is not None:
             raise RefusedError(f"the held tip cannot be moved: {state.locked}")
         if not self._session.has_reserved(OWNER):
             raise RefusedError("the axes are not the penetration's any more; move them by hand")
-        self._stop_s = self._session.stop_asked_s
+        self._permit = permit
         self._outcome = (Verdict.ABORTED, f"retracted by the button; before: {self._status.reason}")
         self._refusals.clear()
         self._enter(Phase.RETRACT, now_s)

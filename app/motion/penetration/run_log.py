@@ -11,7 +11,10 @@ from typing import Any, Self
 
 from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.app.motion.penetration.thrust import ThrustMeasured
+from rotemina.sim.input_files import parse_json, read_bytes
 from rotemina.sim.whole_files import FileWriteError
+
+_MOST_BYTES = 256_000_000  # some hundred thousand runs
 
 
 class Verdict(StrEnum):
@@ -88,7 +91,7 @@ class PenetrationRun:
             If the line is none.
         """
         try:
-            table = json.loads(line)
+            table = parse_json(line, "run", PenetrationError)
             table["verdict"] = Verdict(table["verdict"])
             table["phases"] = tuple((str(name), float(at)) for name, at in table["phases"])
             if table.get("thrust") is not None:
@@ -96,7 +99,7 @@ class PenetrationRun:
             run = cls(**table)
             _require_kinds(run)
             return run
-        except (ValueError, TypeError, KeyError, RecursionError) as error:
+        except (ValueError, TypeError, KeyError) as error:
             raise PenetrationError(f"no penetration's run: {error}") from error
 
 
@@ -140,10 +143,7 @@ class RunLog:
         PenetrationError
             If the file cannot be read.
         """
-        try:
-            text = Path(self.path).read_text("utf-8", errors="replace")
-        except OSError as error:
-            raise PenetrationError(f"{self.path}: cannot be read: {error.strerror}") from error
+        text = read_bytes(self.path, PenetrationError, _MOST_BYTES).decode(errors="replace")
         runs, problems = [], []
         for number, line in enumerate(text.split("\n"), 1):
             if not line.strip():

@@ -158,8 +158,8 @@ def _metadata(recording: Recording, first: RecordedSamples) -> dict[str, str]:
         "mode": mode_of(recording.robot, recording.axes),
         # What the machine remembers from before the first row is not in the record.
         "history": "unknown",
-        "robot": recording.metadata["robot"],
-        "driver": recording.metadata["driver"],
+        "robot": recording.metadata.get("robot", ""),
+        "driver": recording.metadata.get("driver", ""),
         "recording": recording.path.name,
         "recording_id": recording.metadata["id"],
         "recording_from_s": f"{first.host_time_s[0] - recording.began_s:.6f}",

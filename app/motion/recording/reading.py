@@ -1,12 +1,13 @@
 """Recordings read back: samples, events and channels by host time, as far as they are asked for."""
 
 import json
+import mmap
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Self
+from typing import Any, BinaryIO, Self
 
 import numpy as np
 import pyarrow as pa  # type: ignore[import-untyped,unused-ignore] # it comes without types
@@ -17,16 +18,22 @@ from rotemina.app.motion.recording.merging import UNFINISHED
 from rotemina.app.motion.recording.tables import (
     CHANNEL,
     EVENTS,
+    EVENTS_SCHEMA,
     FORMAT,
     SAMPLES,
     SIGNALS,
     TIME,
     VERSION,
+    channel_schema,
     name_of,
+    samples_schema,
 )
 from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.sim.input_files import open_file
 from rotemina.sim.robot.file import parse_robot
 from rotemina.sim.robot.model import Robot
+
+_WRITTEN = ("id", "began_s", "units")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -96,20 +103,18 @@ class Recording:
         """
         if path.suffix == UNFINISHED:
             raise RecordingError(f"{path}: it was not ended; recover it first")
-        tables: dict[str, pa.Table] = {}
         try:
-            with pa.memory_map(str(path)) as file:
-                while file.tell() < file.size():
-                    table = pa.ipc.open_stream(file).read_all()
-                    tables[name_of(table.schema)] = table
-        except OSError as error:
-            raise RecordingError(f"{path}: cannot be read ({error.strerror or error})") from error
-        except (pa.ArrowException, ValueError) as error:
+            with open_file(path, RecordingError, advice="name a recording") as file:
+                tables = _tables(file)
+            _check(path, tables)
+            return cls(path, tables)
+        except RecordingError:
+            raise
+        # Arrow's errors are of many kinds, and so is what it makes of damaged bytes.
+        except (pa.ArrowException, OSError, ValueError, KeyError, TypeError) as error:
             raise RecordingError(
                 f"{path}: no recording of this program, or a damaged one ({error})"
             ) from error
-        _check(path, tables)
-        return cls(path, tables)
 
     @property
     def robot(self) -> Robot:
@@ -120,7 +125,7 @@ class Recording:
         RobotFileError
             If this program cannot read that.
         """
-        return parse_robot(self.metadata["robot_file"], f"{self.path}: robot file")
+        return parse_robot(self.metadata.get("robot_file", ""), f"{self.path}: robot file")
 
     @property
     def began_s(self) -> float:
@@ -238,9 +243,23 @@ def _time(batch: pa.RecordBatch) -> FloatArray:
     return time_s
 
 
+def _tables(file: BinaryIO) -> dict[str, pa.Table]:
+    """Return the tables of a mapped file by name."""
+    mapped = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
+    found = {}
+    with pa.BufferReader(pa.py_buffer(mapped)) as streams:
+        while streams.tell() < streams.size():
+            table = pa.ipc.open_stream(streams).read_all()
+            table.validate(full=True)  # or damaged lengths of text end the program
+            found[name_of(table.schema)] = table
+    return found
+
+
 def _check(path: Path, tables: Mapping[str, pa.Table]) -> None:
+    """Refuse what was not written by this program, and what became of it on a bad disk."""
     schema = tables[SAMPLES].schema if SAMPLES in tables else None
-    version = None if schema is None else schema.metadata.get(FORMAT.encode())
+    about = {} if schema is None else schema.metadata or {}
+    version = about.get(FORMAT.encode())
     if version is None:
         raise RecordingError(f"{path}: no recording of this program")
     if version != VERSION.encode():
@@ -248,3 +267,13 @@ def _check(path: Path, tables: Mapping[str, pa.Table]) -> None:
             f"{path}: a recording of version {version.decode('ascii', 'replace')}; this program "
             f"reads {VERSION}"
         )
+    lost = [key for key in _WRITTEN if key.encode() not in about]
+    if lost:
+        raise RecordingError(f"{path}: damaged, it no longer says its {', '.join(lost)}")
+    if not np.isfinite(float(about[b"began_s"])):
+        raise RecordingError(f"{path}: damaged, began_s is {about[b'began_s']!r:.40}")
+    known = {SAMPLES: samples_schema(json.loads(about[b"units"])), EVENTS: EVENTS_SCHEMA}
+    for name, table in tables.items():
+        wanted = known.get(name) or channel_schema(name, table.column_names)
+        if not table.schema.equals(wanted) or any(column.null_count for column in table.columns):
+            raise RecordingError(f"{path}: damaged, table {name[:40]!r} is none of a recording")

@@ -3,9 +3,11 @@
 import json
 from bisect import bisect_right
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from itertools import pairwise
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 
@@ -13,6 +15,7 @@ from rotemina.app.motion.history import LiveHistory
 from rotemina.app.motion.recording.backlog import RecordedEvent
 from rotemina.app.motion.recording.reading import RecordedSamples, Recording
 from rotemina.app.motion.state import (
+    Alarmed,
     Callback,
     CommandRefused,
     Connection,
@@ -135,15 +138,13 @@ class Replay:
     def _again(self, recorded: RecordedEvent) -> Event | None:
         """Return the session's event that was recorded; None for what it has none for."""
         if recorded.kind == "state":
-            details = json.loads(recorded.details)
-            details["connection"] = Connection(details["connection"])
-            details["activity"] = DeviceState(details["activity"])
-            for name in ("unhomed", "differences"):
-                details[name] = tuple(details[name])
-            self._state = replace(self._state, **details)
+            with suppress(ValueError, KeyError, TypeError):  # details that the disk has spoilt
+                self._state = replace(self._state, **_recorded_state(recorded.details))
             return StateChanged(self.snapshot())
         if recorded.kind == "fault":
             return Faulted(recorded.text)
+        if recorded.kind == "alarm":
+            return Alarmed(recorded.text)
         return CommandRefused(recorded.text) if recorded.kind == "refused" else None
 
     def _by_axis(self, values: FloatArray) -> MappingProxyType[str, float]:
@@ -152,6 +153,15 @@ class Replay:
     def _emit(self, event: Event) -> None:
         for callback in tuple(self._callbacks):
             callback(event)
+
+
+def _recorded_state(details: str) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads(details)
+    found["connection"] = Connection(found["connection"])
+    found["activity"] = DeviceState(found["activity"])
+    for name in ("unhomed", "differences"):
+        found[name] = tuple(found[name])
+    return found
 
 
 def _by_connection(piece: RecordedSamples) -> list[RecordedSamples]:

@@ -17,6 +17,7 @@ from typing import BinaryIO, NamedTuple, Self
 
 from rotemina.app.motion.recording.errors import RecordingError
 from rotemina.app.motion.recording.locking import locked
+from rotemina.sim.input_files import open_file
 
 MAGIC = b"RTMSEG01"
 _PROGRAM = MAGIC[:6]
@@ -163,6 +164,7 @@ class WholeSegments:
     """
 
     def __init__(self, path: Path) -> None:
+        open_file(path, RecordingError).close()  # a pipe would be waited for
         try:
             self._file = path.open("r+b")
         except OSError as error:

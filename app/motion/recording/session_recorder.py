@@ -14,6 +14,7 @@ from rotemina.app.motion.recording.segments import Opener, new_file
 from rotemina.app.motion.recording.tables import units_of
 from rotemina.app.motion.recording.writer import RecorderNotice, RecordingWriter
 from rotemina.app.motion.state import (
+    Alarmed,
     CommandRefused,
     Connection,
     Event,
@@ -76,7 +77,7 @@ class SessionRecorder:
         units = units_of(session.robot)
         self.writer = RecordingWriter(path, units, metadata, clock=clock, tell=tell, opener=opener)
         self._seen: SessionState | None = None
-        self._stop_asked_s = session.stop_asked_s
+        self._stops = session.epoch.stops
         self._intent = Intent(0.0)
         self._calibrations = session.corrections.names
         self._lock = threading.Lock()
@@ -154,6 +155,8 @@ class SessionRecorder:
             self._note_state(event.state)
         elif isinstance(event, Faulted):
             self.writer.event("fault", event.message)
+        elif isinstance(event, Alarmed):
+            self.writer.event("alarm", event.message)
         elif isinstance(event, CommandRefused):
             self.writer.event("refused", event.message)
         elif isinstance(event, PlaybackFinished):
@@ -184,10 +187,11 @@ class SessionRecorder:
             self.writer.event("calibration", text or "none", names)
 
     def _note_stop(self, state: SessionState) -> None:
-        asked_s = self._session.stop_asked_s
-        if asked_s is not None and asked_s != self._stop_asked_s:
-            self._stop_asked_s = asked_s
-            self.writer.event("stop", state.latched or "stop", host_time_s=asked_s)
+        stops, asked_s = self._session.epoch.stops, self._session.stop_asked_s
+        if asked_s is not None and stops != self._stops:
+            self._stops = stops
+            about = {} if state.stop is None else {"by": state.stop.by, "why": state.stop.why}
+            self.writer.event("stop", str(state.stop or "stop"), about, host_time_s=asked_s)
 
 
 class _LogLines(logging.Handler):

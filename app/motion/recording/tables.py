@@ -19,7 +19,7 @@ TIME = "host_time_s"
 SIGNALS = ("cmd", "u", "model", "meas")
 
 _NAME = b"table"
-_EVENTS = pa.schema(
+EVENTS_SCHEMA = pa.schema(
     [
         pa.field(TIME, pa.float64(), metadata={"unit": "s"}),
         ("kind", pa.string()),
@@ -43,6 +43,12 @@ def samples_schema(units: Mapping[str, str]) -> pa.Schema:
             of = {"unit": "V" if signal == "u" else unit}
             fields.append(pa.field(f"{axis}.{signal}", pa.float64(), metadata=of))
     return pa.schema(fields, metadata={_NAME: SAMPLES})
+
+
+def channel_schema(name: str, columns: Sequence[str]) -> pa.Schema:
+    """Return the schema of a further table; ``columns`` begin with the time."""
+    fields = [(column, pa.float64()) for column in (TIME, *columns[1:])]
+    return pa.schema(fields, metadata={_NAME: name})
 
 
 def units_of(robot: Robot) -> dict[str, str]:
@@ -127,7 +133,7 @@ def _events(events: Sequence[RecordedEvent]) -> pa.RecordBatch:
             pa.array([event.text for event in events], pa.string()),
             pa.array([event.details for event in events], pa.string()),
         ],
-        schema=_EVENTS,
+        schema=EVENTS_SCHEMA,
     )
 
 
@@ -136,5 +142,5 @@ def _channel(name: str, rows: Sequence[Row]) -> pa.RecordBatch:
     arrays: dict[str, FloatArray] = {TIME: np.array([row.host_time_s for row in rows])}
     for column in columns:
         arrays[column] = np.array([row.values.get(column, np.nan) for row in rows], np.float64)
-    schema = pa.schema([(key, pa.float64()) for key in arrays], metadata={_NAME: CHANNEL + name})
+    schema = channel_schema(CHANNEL + name, list(arrays))
     return pa.record_batch([pa.array(array) for array in arrays.values()], schema=schema)

@@ -4,7 +4,6 @@ Every error names the file, the key, the value and the bound.
 """
 
 import difflib
-import tomllib
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
 from pathlib import Path
@@ -16,6 +15,7 @@ from pydantic_core import ErrorDetails
 
 from rotemina.app.files import write_text
 from rotemina.sim.errors import InputError
+from rotemina.sim.input_files import parse_toml, read_text
 from rotemina.sim.whole_files import FileWriteError
 
 MAX_BYTES = 1_000_000
@@ -67,29 +67,15 @@ class Format(Generic[T]):
 
     def parse(self, text: str, source: str) -> T:
         """Return what a text describes; ``source`` names it in errors."""
+        table = parse_toml(text, source, self._error)
         try:
-            return self._adapter.validate_python(tomllib.loads(text))
-        except tomllib.TOMLDecodeError as error:
-            raise self._error(f"{source}: not valid TOML: {error}") from error
-        except RecursionError as error:
-            raise self._error(f"{source}: tables or lists are nested too deeply") from error
+            return self._adapter.validate_python(table)
         except ValidationError as error:
             raise self._error(f"{source}: {self._describe(error)}") from error
 
     def load(self, path: Path) -> T:
         """Return what a file describes."""
-        try:
-            with path.open("rb") as file:
-                data = file.read(MAX_BYTES + 1)
-        except OSError as error:
-            raise self._error(f"{path}: it cannot be read ({error.strerror})") from error
-        if len(data) > MAX_BYTES:
-            raise self._error(f"{path}: larger than {MAX_BYTES} bytes; it is another kind of file")
-        try:
-            text = data.decode("utf-8-sig")
-        except UnicodeDecodeError as error:
-            raise self._error(f"{path}: not UTF-8 text (byte {error.start})") from error
-        return self.parse(text, str(path))
+        return self.parse(read_text(path, self._error, MAX_BYTES), str(path))
 
     def text(self, value: T) -> str:
         """Return the text of a value; keys without one are left out."""

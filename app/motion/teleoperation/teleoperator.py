@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from math import isfinite, nan
 
 from rotemina.app.motion.mailbox import RefusedError
+from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import SessionState
 from rotemina.app.motion.teleoperation.following import Following, Lag
@@ -68,7 +69,7 @@ class Teleoperator:
         self._preset = 1.0
         self._arms: dict[str, _Arm] = {}
         self._before_s: float | None = None
-        self._stop_seen_s = session.stop_asked_s
+        self._permit = session.permit()  # of the latest step
         self._refused: str | None = None
         self._reason: str | None = None
         self._intent = Intent(0.0)
@@ -137,11 +138,11 @@ class Teleoperator:
         self._before_s, self._intent = now_s, intent
         stopped = self._stop_if_asked(intent)
         self._take_requests(intent)
+        before, self._permit = self._permit, self._session.permit()
         state = self._session.snapshot()
         self._reason = stopped or self._why_not(state, intent)
         # A stop may come and be over between two looks, or find everything at rest.
-        if self._stopped_meanwhile:
-            self._stop_seen_s = self._session.stop_asked_s
+        if before.epoch != self._permit.epoch:
             self._reason = self._reason or _STOPPED
         if self._reason is not None:
             self._let_go(None)
@@ -162,17 +163,15 @@ class Teleoperator:
     def _stop_if_asked(self, intent: Intent) -> str | None:
         """Stop where that is asked for, or what drove is gone; return why nothing is to move."""
         if Action.EMERGENCY_STOP in intent.pressed:
-            self._session.emergency_stop("the joystick's emergency stop")
-        elif Action.STOP in intent.pressed or (intent.lost is not None and self.state.driving):
-            self._session.stop()
+            self._session.emergency_stop("the joystick's emergency stop", by=OPERATOR)
+        elif Action.STOP in intent.pressed:
+            self._session.stop("the joystick's stop", by=OPERATOR)
+        elif intent.lost is not None and self.state.driving:
+            self._session.stop(intent.lost)
         else:
             return None
         self._refused = intent.lost
         return _STOPPED
-
-    @property
-    def _stopped_meanwhile(self) -> bool:
-        return self._session.stop_asked_s != self._stop_seen_s
 
     def _take_requests(self, intent: Intent) -> None:
         with self._lock:
@@ -243,12 +242,12 @@ class Teleoperator:
         if lost is not None:
             self._let_go(f"axis {lost} does not follow the stick")
             return
-        if self._stopped_meanwhile:
-            self._let_go(None)
-            return
         try:
-            used = self._session.move_velocity(speeds, LEASE_S, JOYSTICK)
+            used = self._session.move_velocity(speeds, LEASE_S, JOYSTICK, permit=self._permit)
         except InputError as error:
+            if not self._permit.valid:  # the next step says that a stop has come
+                self._let_go(None)
+                return
             self._refused = str(error)
             arm.steering.hold_back(before, 0.0)
             arm.following.forget()

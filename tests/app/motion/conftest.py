@@ -40,9 +40,9 @@ class Unruly(Simulator):
         self._run_before("open")
         super()._open()
 
-    def _move_to(self, targets, speeds):
+    def _move_to(self, targets, speeds, permit):
         self._run_before("move_to")
-        super()._move_to(targets, speeds)
+        super()._move_to(targets, speeds, permit)
 
     def _read(self):
         self._run_before("read")

@@ -226,3 +226,14 @@ def test_sessions_without_an_inverse_send_what_is_wanted(make_stepped):
     assert isinstance(machine.session, MotionSession)
     assert machine.session.compensated == {}
     assert machine.session._sent(machine.session.driver.accept(trajectory())) == (None, {})
+
+
+def test_while_a_stop_is_latched_none_is_put_on_or_taken_off(machine):
+    machine.session.emergency_stop()
+    for request in (
+        lambda: machine.session.compensate(NAMED),
+        lambda: machine.session.uncompensate("zn"),
+    ):
+        with pytest.raises(RefusedError, match="latched"):
+            request()
+    assert set(machine.session.compensated) == {"zn"}

@@ -172,3 +172,15 @@ def test_what_does_not_fit_is_refused_before_anything_moves():
     slow = NamedRegulation(Regulation(ROBOT, "zn", Gains(integral=5.0), 1500.0), "slow")
     with pytest.raises(InputError, match="must be a whole multiple"):
         play_offline(ROBOT, trajectory(), loop=slow)
+
+
+def test_while_a_stop_is_latched_none_is_closed_or_opened(machine):
+    session = machine.session
+    session.regulate(LOOP)
+    machine.step(0.05, 2)
+    session.emergency_stop()
+    for request in (lambda: session.regulate(LOOP), lambda: session.unregulate("zn")):
+        with pytest.raises(RefusedError, match="latched"):
+            request()
+    machine.step(0.05, 2)
+    assert set(session.regulated) == {"zn"}

@@ -129,7 +129,7 @@ def test_a_file_that_is_none_says_so(written, tmp_path):
     with pytest.raises(ScriptError, match="cannot be read"):
         Script.load(tmp_path / "nowhere.csv")
     (tmp_path / "script.csv").write_bytes(b"time_s\n\xff\n")
-    with pytest.raises(ScriptError, match="cannot be read"):
+    with pytest.raises(ScriptError, match=r"not UTF-8 text \(byte 7\)"):
         Script.load(tmp_path / "script.csv")
 
 

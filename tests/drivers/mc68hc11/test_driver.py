@@ -111,6 +111,7 @@ def test_a_shared_bus_plays_too(robot, joined_bench):
     bench = joined_bench(robot, ports=1)
     bench.driver.open()
     period_s = bench.driver.setpoint_period_s
+    assert period_s == 0.02  # set-points share the bus with telemetry
     time_s = np.arange(41) * period_s
     wave = 0.5 * (1 - np.cos(2 * np.pi * time_s / time_s[-1]))
     record = Record.from_signals(
@@ -123,6 +124,22 @@ def test_a_shared_bus_plays_too(robot, joined_bench):
     rows = samples.playback_row[samples.playback_row >= 0]
     np.testing.assert_array_equal(rows, np.arange(41))
     assert bench.driver.status().fault is None
+
+
+@pytest.mark.parametrize("paced", [True, False])
+def test_on_a_shared_bus_telemetry_and_captures_come_at_the_rates_announced(
+    robot, joined_bench, paced
+):
+    bench = joined_bench(robot, ports=1, paced=paced)
+    bench.driver.open()
+    assert np.median(np.diff(bench.run(0.3).device_time_s)) == pytest.approx(0.01, abs=1e-6)
+    bench.driver.capture(["zn"], bench.driver.capture_rates.one_hz, 100)
+    parts = []
+    while not (parts and parts[-1].complete):
+        bench.run(0.001)
+        parts += [part] if (part := bench.driver.captured()) is not None else []
+    assert sum(len(part.measured) for part in parts) == 100
+    assert np.median(np.diff(bench.run(0.3).device_time_s)) == pytest.approx(0.01, abs=1e-6)
 
 
 def test_faster_rows_act_at_the_next_instant_and_slower_ones_are_held(bench):

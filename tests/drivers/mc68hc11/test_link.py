@@ -5,6 +5,7 @@ import pytest
 
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.errors import StateError
+from rotemina.drivers.gate import Gate
 from rotemina.drivers.mc68hc11.board_clock import BoardClock
 from rotemina.drivers.mc68hc11.codes import Refusal
 from rotemina.drivers.mc68hc11.dialogue import Dialogue, Request, Urgency
@@ -13,8 +14,8 @@ from rotemina.drivers.mc68hc11.grid import Grid
 from rotemina.drivers.mc68hc11.joined import joined
 from rotemina.drivers.mc68hc11.link import Link
 from rotemina.drivers.mc68hc11.messages import message_of
-from rotemina.drivers.mc68hc11.reports import Done, Refused
-from rotemina.drivers.mc68hc11.requests import MoveTo, SetPoint, Stop, Watch
+from rotemina.drivers.mc68hc11.reports import Done, Inputs, Refused
+from rotemina.drivers.mc68hc11.requests import MoveTo, Poll, SetPoint, Stop, Watch
 from rotemina.drivers.mc68hc11.setpoints import Due, SetpointWindow
 
 TURN = 1 << 32
@@ -24,10 +25,10 @@ def test_a_request_is_repeated_after_its_time_until_it_is_answered():
     dialogue, answers = Dialogue(1, 0.01), []
     dialogue.ask(Request(message=Watch(100), answered=lambda told, at_s: answers.append(at_s)))
     assert dialogue.offer(0.0) is Urgency.COMMAND
-    frame = dialogue.take(0.0, 7, 0.002)
+    frame = dialogue.take(0.0, 7, 0.002).data
     assert dialogue.offer(0.011) is None
     assert dialogue.offer(0.013) is Urgency.COMMAND
-    assert dialogue.take(0.013, 8, 0.002) == RESYNC + frame
+    assert dialogue.take(0.013, 8, 0.002).data == RESYNC + frame
     assert not dialogue.heard(Done(6), 0.02)
     assert dialogue.heard(Done(7), 0.02)
     assert not dialogue.heard(Done(7), 0.021)
@@ -90,7 +91,9 @@ class BoardQueue:
 @pytest.mark.parametrize("seed", range(5))
 def test_set_points_arrive_once_each_and_in_order_whatever_is_lost(seed):
     generator = np.random.default_rng(seed)
-    window = SetpointWindow(1, 600, lambda one: Due(5000 * one, (one, -one, 0)), 0.02)
+    window = SetpointWindow(
+        1, 600, lambda one: Due(5000 * one, (one, -one, 0)), 0.02, Gate().permit()
+    )
     board, now_s, number, answers = BoardQueue(), 0.0, 0, []
     while window.taken < 600:
         assert now_s < 60.0
@@ -102,7 +105,7 @@ def test_set_points_arrive_once_each_and_in_order_whatever_is_lost(seed):
                 window.heard(answer, now_s)
         if window.offer(now_s):
             number = (number + 1) % 256
-            data = window.take(now_s, number, 0.002)
+            data = window.take(now_s, number, 0.002).data
             if generator.random() > 0.05:
                 answers.append(board.hear(data))
     assert [point.first for point in board.taken] == list(range(600))
@@ -111,7 +114,7 @@ def test_set_points_arrive_once_each_and_in_order_whatever_is_lost(seed):
 
 
 def test_no_more_set_points_than_four_are_under_way_and_none_before_its_turn():
-    window = SetpointWindow(1, 100, lambda one: Due(one, (0, 0, 0)), 0.02)
+    window = SetpointWindow(1, 100, lambda one: Due(one, (0, 0, 0)), 0.02, Gate().permit())
     assert not window.offer(0.0)
     window.release(50)
     for number in range(4):
@@ -124,7 +127,7 @@ def test_no_more_set_points_than_four_are_under_way_and_none_before_its_turn():
 
 
 def test_a_refused_set_point_ends_the_window():
-    window = SetpointWindow(1, 10, lambda one: Due(one, (0, 0, 0)), 0.02)
+    window = SetpointWindow(1, 10, lambda one: Due(one, (0, 0, 0)), 0.02, Gate().permit())
     window.release(10)
     window.take(0.0, 3, 0.0)
     window.heard(Refused(3, Refusal.FAULTY), 0.001)
@@ -222,6 +225,20 @@ def test_on_a_shared_bus_the_host_waits_for_the_boards():
     link.receive()
     link.send()
     assert len(wire.out) == 2
+
+
+def test_on_a_shared_bus_a_request_without_haste_is_said_however_much_there_is_to_poll_for():
+    clock, wire = VirtualClock(), Wire()
+    link = linked(clock, wire, poll=lambda _: 1)
+    link.half_duplex = True
+    link.dialogues[1].ask(Request(message=Watch(1), urgency=Urgency.BACKGROUND))
+    for _ in range(2):
+        link.send()
+        clock.advance(0.01)
+        wire.incoming += encoded(Frame(1, 0, Inputs.TYPE, bytes(6), from_board=True))
+        link.receive()
+    types = [frame.type for data in wire.out for frame in Decoder(of_board=True).feed(data)]
+    assert types == [Poll.TYPE, Watch.TYPE]
 
 
 def test_what_is_no_message_is_counted():

@@ -314,3 +314,24 @@ def test_a_delay_that_comes_while_it_runs_is_simulated_too():
     _, command, sent, read = machine.run(0.3)
     assert abs(read[-50:].mean() - command[-1]) < 20e-9
     assert sent.max() <= AXIS.range[1]
+
+
+def test_a_loop_that_holds_a_stopped_axis_leads_its_output_no_farther_than_the_bound():
+    machine = Machine(QUIET)
+    machine.close_loop()
+    machine.driver.stop()
+    machine.run(0.1)
+    (controller,) = machine.driver._running._regulating._controllers.values()
+    held = controller.output
+    astray = [controller.answer(held, held - 40e-6) for _ in range(500)]  # a sensor that is wrong
+    assert max(astray) == pytest.approx(held + 0.35 * AXIS.span)
+
+
+def test_a_stopped_axis_goes_anywhere_again_when_it_is_told_to():
+    machine = Machine(QUIET)
+    machine.close_loop()
+    for target in (5e-6, 55e-6):  # farther apart than a held output may go
+        machine.driver.stop()
+        machine.run(0.05)
+        machine.driver.move_to({"zn": target})
+        assert machine.run(0.5)[3][-1] == pytest.approx(target, abs=50e-9)

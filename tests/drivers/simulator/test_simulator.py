@@ -249,7 +249,9 @@ HELD = Record.from_signals(
 
 def test_stop_while_a_row_is_held_moves_nothing():
     driver, clock = opened(start_fraction=0.0, settle_s=0.0)
-    driver._running.play(HELD)  # past the limits: they would refuse the jump
+    driver._running.play(
+        driver._running.playing_of(HELD)
+    )  # past the limits: they would refuse the jump
     while driver.read().playback_row.max(initial=-1) < 1:
         clock.advance(0.001)
     clock.advance(0.3)
@@ -278,7 +280,8 @@ def test_after_a_stop_no_axis_goes_farther_than_it_brakes(intervals, steps, when
         settle_s=0.0,
         position=np.array([start + way[0], 0.02, 0.02, 5e-4, 5e-4, 3e-5]),
     )
-    device.play(Record.from_signals(time_s, {("x", Tap.CMD): start + way}, {"x": "m"}))
+    path = Record.from_signals(time_s, {("x", Tap.CMD): start + way}, {"x": "m"})
+    device.play(device.playing_of(path))
     played = device.advance(0.005 + when * (time_s[-1] - 0.001))
     device.stop()
     last = played[-1].command[-1, 0]

@@ -185,3 +185,31 @@ def test_the_pages_keep_positions_change_modes_and_arm(qtbot, window, panel):
     qtbot.waitUntil(lambda: panel.rows["x"].status.text().startswith("penetration"))
     qtbot.mouseClick(page.arm, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: page.arm.text() == "Arm", timeout=LONG_MS)
+
+
+@pytest.mark.parametrize("modifier", ["NoModifier", "ShiftModifier"])
+def test_escape_withdraws_a_large_move_that_was_asked_about(qtbot, window, panel, modifier):
+    session, row = window.workbench.session, panel.rows["x"]
+    qtbot.waitUntil(row.go.isEnabled, timeout=LONG_MS)
+    before = session.snapshot().command["x"]
+    row._clock = iter(range(0, 100, 10)).__next__  # no press is a double click
+    qtbot.keyClicks(row.target, "2")
+    qtbot.keyClick(row.target, Qt.Key.Key_Return)
+    assert row.confirmation.asked is not None
+    qtbot.keyClick(row.target, Qt.Key.Key_Escape, Qt.KeyboardModifier[modifier])
+    session.release()
+    qtbot.keyClick(row.target, Qt.Key.Key_Return)  # before any refresh has seen the stop
+    state = session.snapshot()
+    assert (state.command["x"], state.queued, dict(state.owners)) == (before, 0, {})
+
+
+def test_a_stop_withdraws_that_a_position_is_deleted(qtbot, panel, window):
+    page, bench = panel.positions, window.workbench
+    qtbot.waitUntil(lambda: bench.session.snapshot().position_known, timeout=LONG_MS)
+    page.name.setText("bench")
+    page._keep()
+    page._delete()
+    assert page.delete.text() == "Sure?"
+    bench.stop()
+    page._delete()
+    assert "bench" in page.positions.kept

@@ -112,8 +112,14 @@ def test_the_tip_is_told_over_its_floor():
     assert "no chain" in tip_text(state, None)
 
 
-def test_a_large_move_is_asked_for_twice_and_a_small_one_once():
-    asked = Confirmation(span=1.0)
+@pytest.fixture
+def session():
+    clock = VirtualClock(1.0)
+    return MotionSession(Simulator(ROBOT, clock=clock), clock=clock)
+
+
+def test_a_large_move_is_asked_for_twice_and_a_small_one_once(session):
+    asked = Confirmation(1.0, session)
     assert asked.take(0.55, 0.5, 10.0)
     assert not asked.take(0.9, 0.5, 10.0)
     assert not asked.take(0.9, 0.5, 10.0 + 0.5 * SETTLE_S)  # a double click is no answer
@@ -121,8 +127,19 @@ def test_a_large_move_is_asked_for_twice_and_a_small_one_once():
     assert asked.asked is None
 
 
-def test_another_target_or_another_place_is_another_question():
-    asked = Confirmation(span=1.0)
+def test_a_stop_withdraws_the_question_whoever_asks_for_it(session):
+    asked = Confirmation(1.0, session)
+    for stop in (session.stop, session.emergency_stop):
+        assert not asked.take(0.9, 0.5, 10.0)
+        stop()
+        session.release()
+        assert asked.asked is None
+        assert not asked.take(0.9, 0.5, 20.0)  # asked anew
+        asked.withdraw()
+
+
+def test_another_target_or_another_place_is_another_question(session):
+    asked = Confirmation(1.0, session)
     assert not asked.take(0.9, 0.5, 10.0)
     assert not asked.take(0.8, 0.5, 20.0)
     assert not asked.take(0.8, 0.1, 30.0)

@@ -286,7 +286,7 @@ def test_a_thrust_that_the_device_will_not_run_goes_back_with_its_reason(bench, 
     assert "the device did not run the thrust: broken" in status.reason
 
 
-def _refuse(self):
+def _refuse(self, permit):
     raise InputError("broken")
 
 

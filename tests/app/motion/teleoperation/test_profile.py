@@ -132,7 +132,7 @@ def test_bad_profiles_are_explained(text, said):
 
 
 def test_a_missing_file_is_explained(tmp_path):
-    with pytest.raises(ProfileError, match=r"none\.toml: it cannot be read \(No such file"):
+    with pytest.raises(ProfileError, match=r"none\.toml: it cannot be read \(there is no such"):
         load_profile(tmp_path / "none.toml")
 
 

@@ -1,0 +1,37 @@
+"""Signs of life: of the thread that shows a session to an operator, and of the one that steers."""
+
+from rotemina.drivers.clock import Clock
+
+PERIOD_S = 0.25  # between two beats
+SILENT_S = 1.0  # without a beat, and nobody counts as alive any more
+
+
+class Heartbeat:
+    """When a thread last said that it is alive; every method may be called from any thread.
+
+    Before the first beat, and after :meth:`end`, nobody is expected to beat.
+    """
+
+    def __init__(self, clock: Clock) -> None:
+        self._clock = clock
+        self._last_s: float | None = None
+
+    def beat(self) -> None:
+        """Say that the thread is alive."""
+        self._last_s = self._clock()
+
+    def end(self) -> None:
+        """Expect no further beat."""
+        self._last_s = None
+
+    @property
+    def age_s(self) -> float | None:
+        """How long ago the latest beat was; None while nobody is expected to beat."""
+        last_s = self._last_s
+        return None if last_s is None else self._clock() - last_s
+
+    @property
+    def silent(self) -> bool:
+        """Whether a beat is overdue."""
+        age_s = self.age_s
+        return age_s is not None and age_s > SILENT_S
