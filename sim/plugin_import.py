@@ -22,10 +22,13 @@ from pathlib import Path
 
 from platformdirs import user_cache_path
 
+from rotemina.sim.errors import InputError
+from rotemina.sim.input_files import parse_json, read_text
 from rotemina.sim.whole_files import FileWriteError, replaced
 
 #: How long an import may take, s: many times what one takes on a slow disk.
 LIMIT_S = 30.0
+_MOST_BYTES = 16_000_000
 _SURVIVED = 42
 #: What the import raises is left to the program, which imports it again and can tell it better.
 #: Threads that the import has started must not keep this process alive.
@@ -120,8 +123,8 @@ def _key(point: EntryPoint) -> str | None:
 def _kept(file: Path) -> dict[str, str]:
     """Return what came of earlier tries; a file that is missing or spoilt holds none."""
     try:
-        found = json.loads(file.read_text("utf-8"))
-    except (OSError, ValueError):
+        found = parse_json(read_text(file, InputError, _MOST_BYTES), str(file), InputError)
+    except InputError:
         return {}
     if not isinstance(found, dict):
         return {}

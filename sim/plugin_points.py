@@ -15,7 +15,7 @@ from rotemina.sim.plugin_import import import_fault
 #: written for the one before would fail.
 API_VERSIONS: Mapping[str, int] = MappingProxyType(
     {
-        "rotemina.drivers": 2,
+        "rotemina.drivers": 3,
         "rotemina.panels": 1,
         "rotemina.effects": 1,
         "rotemina.cameras": 1,

@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from os import PathLike, fspath
 from pathlib import Path
 from typing import BinaryIO
@@ -43,4 +43,5 @@ def replaced(path: str | PathLike[str]) -> Iterator[BinaryIO]:
             "choose another folder or make room"
         ) from error
     finally:
-        draft.unlink(missing_ok=True)
+        with suppress(OSError):  # such as a folder in its way that is a file
+            draft.unlink()

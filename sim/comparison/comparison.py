@@ -15,6 +15,8 @@ from rotemina.sim.records.record import VOLTAGE_TAPS, Record, Tap
 from rotemina.sim.robot.model import Robot, StepperAxis
 
 FORMAT = "rotemina-comparison 1"
+#: Rows, beside the first one, without which a record of a motion says nothing about a model.
+LEAST_MOVING = 3
 COMPARED_TAPS = (Tap.U, Tap.REF, Tap.MEAS)
 FITTABLE = ("gain", "offset")
 
@@ -88,8 +90,22 @@ def compare(robot: Robot, record: Record, *, fit: Collection[str] = ()) -> Compa
             "the record holds no measured channel (u, ref or meas) to compare; "
             f"it has {', '.join(map(str, record.columns))}"
         )
+    _require_motion(record)
     taps = tuple(_compare_tap(robot, record, response, axis, tap, fit) for axis, tap in pairs)
     return Comparison(record, response, taps)
+
+
+def _require_motion(record: Record) -> None:
+    """Refuse a record that ends when its motion begins, where nothing differs from anything."""
+    commands = [record.signal(axis, Tap.CMD) for axis in record.axes if record.has(axis, Tap.CMD)]
+    moving = [int(np.count_nonzero(command != command[0])) for command in commands]
+    most = max(moving, default=0)
+    rows = len(record.time_s)
+    if rows <= LEAST_MOVING or 0 < most < LEAST_MOVING:
+        raise InputError(
+            f"the record has {rows} rows, {most} of them in motion: it takes {LEAST_MOVING} or "
+            "more to compare; was it cut off when it began? Play it once more"
+        )
 
 
 def _plain(tap: TapComparison) -> dict[str, Any]:

@@ -3,7 +3,6 @@
 import json
 from dataclasses import fields
 from os import PathLike, fspath
-from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 import numpy as np
@@ -14,6 +13,7 @@ from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.judgement import Residual
 from rotemina.sim.compensate.model import InverseModel, Kind, Premises
 from rotemina.sim.compensate.training import Trained
+from rotemina.sim.input_files import read_bytes
 from rotemina.sim.whole_files import replaced
 
 FORMAT = 1
@@ -193,16 +193,8 @@ def read_trained(path: str | PathLike[str]) -> tuple[Trained, Provenance]:
         If it cannot be read or is no such file, with the place and what is wrong there.
     """
     name = fspath(path)
-    try:
-        with Path(name).open("rb") as file:
-            data = file.read(_MOST_BYTES + 1)
-    except OSError as error:
-        raise CompensationError(
-            f"{name}: it cannot be read ({error.strerror or error}); name a file that "
-            "'rotemina compensate train' wrote"
-        ) from error
-    if len(data) > _MOST_BYTES:
-        raise CompensationError(f"{name}: it is larger than {_MOST_BYTES} bytes; no inverse is")
+    advice = "name a file that 'rotemina compensate train' wrote"
+    data = read_bytes(path, CompensationError, _MOST_BYTES, advice=advice)
     try:
         document = _Document.model_validate_json(data)
     except ValidationError as error:

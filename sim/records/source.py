@@ -6,17 +6,16 @@ expands without end.
 """
 
 import gzip
-import stat
 import zlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from os import PathLike, fspath
-from pathlib import Path
 from typing import BinaryIO, cast
 
 import numpy as np
 
+from rotemina.sim.input_files import open_file
 from rotemina.sim.records.record import RecordError
 
 _LINE_END = ord("\n")
@@ -84,17 +83,7 @@ def open_blocks(path: str | PathLike[str], limits: Limits = LIMITS) -> Iterator[
         If the file cannot be opened or read, is no text or exceeds ``limits``.
     """
     name = fspath(path)
-    try:
-        if not stat.S_ISREG(Path(name).stat().st_mode):
-            raise RecordError(f"{name}: it is a folder or a device; name a record file")
-        file = Path(name).open("rb")  # noqa: SIM115 (closed below)
-    except FileNotFoundError as error:
-        raise RecordError(f"{name}: there is no such file; check its name and folder") from error
-    except PermissionError as error:
-        raise RecordError(f"{name}: no permission to read it; change its access rights") from error
-    except (OSError, ValueError) as error:
-        raise RecordError(f"{name}: it cannot be opened ({error})") from error
-    with file:
+    with open_file(path, RecordError, advice="name a record file") as file:
         yield _blocks(name, file, limits)
 
 

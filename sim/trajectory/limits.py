@@ -5,9 +5,11 @@ bound is not checked against it. Trajectories are judged as a device plays them,
 until the next (:mod:`rotemina.sim.trajectory.kinematics`).
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from math import isfinite
+from numbers import Real
 from typing import NamedTuple
 
 import numpy as np
@@ -91,6 +93,27 @@ def controller_of(axis: Axis) -> CascadeController | None:
     return None if isinstance(axis, StepperAxis) else axis.controller
 
 
+def is_finite(value: object) -> bool:
+    """Whether something that a program hands over is a number, and a finite one."""
+    return isinstance(value, Real) and isfinite(value)
+
+
+def check_speeds(targets: Mapping[str, float], speeds: Mapping[str, float]) -> None:
+    """Refuse speeds, m/s or rad/s, at which axes cannot be sent to their targets.
+
+    Raises
+    ------
+    OutOfLimitsError
+        If a speed is no finite number above 0, or of an axis without a target.
+    """
+    for axis, speed in speeds.items():
+        if axis not in targets or not is_finite(speed) or speed <= 0.0:
+            raise OutOfLimitsError(
+                f"axis {axis}: a speed of {speed!r}: must be a finite number above 0, of an axis "
+                "with a target"
+            )
+
+
 def check_target(robot: Robot, axis: str, position: float) -> None:
     """Refuse a target that axis must not be sent to; ``position`` in m or rad.
 
@@ -104,8 +127,8 @@ def check_target(robot: Robot, axis: str, position: float) -> None:
         raise OutOfLimitsError(
             f"axis {axis!r}: robot {robot.name!r} has no such axis; use one of {list(robot.axes)}"
         )
-    if not isfinite(position):
-        raise OutOfLimitsError(f"axis {axis}: the target {position} is not a finite number")
+    if not is_finite(position):
+        raise OutOfLimitsError(f"axis {axis}: the target {position!r} is not a finite number")
     model, unit = robot.axes[axis], robot.unit(axis) or ""
     low, high = model.range
     if _outside(position, low, high) > RANGE_SLACK * model.span:

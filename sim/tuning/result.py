@@ -1,11 +1,9 @@
 """The result of a tuning, and its file: a small TOML that says how it came about."""
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import asdict, replace
 from importlib.metadata import version
 from os import PathLike, fspath
-from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
@@ -13,6 +11,7 @@ import tomli_w
 from pydantic import TypeAdapter, ValidationError
 from pydantic.dataclasses import dataclass
 
+from rotemina.sim.input_files import parse_toml, read_text
 from rotemina.sim.robot.numbers import FORBID_UNKNOWN
 from rotemina.sim.tuning.errors import TuningError
 from rotemina.sim.tuning.front import Point, knee_of
@@ -177,21 +176,13 @@ def load_tuning(path: str | PathLike[str]) -> Tuning:
         With file, key, value and bound.
     """
     name = fspath(path)
+    table = parse_toml(read_text(path, TuningError, _MOST_BYTES), name, TuningError)
     try:
-        data = Path(name).read_bytes()
-        if len(data) > _MOST_BYTES:
-            raise TuningError(f"{name}: {len(data)} bytes: a tuning has {_MOST_BYTES} at most")
-        found = TypeAdapter(Tuning).validate_python(tomllib.loads(data.decode("utf-8")))
-    except OSError as error:
-        raise TuningError(f"{name}: it cannot be read ({error.strerror or error})") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise TuningError(f"{name}: it is no TOML file: {error}") from error
+        found = TypeAdapter(Tuning).validate_python(table)
     except ValidationError as error:
         first = error.errors()[0]
         key = ".".join(str(part) for part in first["loc"])
         raise TuningError(f"{name}: {key} = {first['input']!r:.80}: {first['msg']}") from error
-    except TuningError:
-        raise
     except ValueError as error:  # of the gains' own checks
         raise TuningError(f"{name}: {error}") from error
     last = len(found.points) - 1

@@ -23,6 +23,8 @@ from rotemina.sim.tuning.objectives import Against
 from rotemina.sim.tuning.problem import VARIABLES, TuningProblem
 
 _NEVER = 1e6  # an objective, and a broken constraint, of what cannot be simulated
+# A search of the most generations and individuals takes days; one of more fills the memory.
+_BOUNDS = {"generations": (1, 10_000), "population": (4, 10_000), "seed": (0, 2**32 - 1)}
 Mapper = Callable[[Callable[[Gains], Figures], Iterable[Gains]], Iterable[Figures]]
 
 
@@ -42,9 +44,9 @@ class SearchSettings:
     against: Against = Against.EFFORT
 
     def __post_init__(self) -> None:
-        for name, least in (("generations", 1), ("population", 4), ("seed", 0)):
-            if getattr(self, name) < least:
-                raise TuningError(f"{name} {getattr(self, name)}: must be {least} or more")
+        for name, (least, most) in _BOUNDS.items():
+            if not least <= getattr(self, name) <= most:
+                raise TuningError(f"{name} {getattr(self, name)}: must be {least} to {most}")
 
 
 @dataclass(frozen=True, slots=True)

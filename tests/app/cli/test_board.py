@@ -7,14 +7,20 @@ import signal
 import socket
 import subprocess
 import sys
+import time
 
+import numpy as np
 import pytest
 
 from rotemina.app.cli.board_ports import PseudoTerminal, Socket
 from rotemina.app.cli.main import main
+from rotemina.drivers.errors import ConnectionLostError, DriverTimeoutError
+from rotemina.drivers.mc68hc11.driver import MC68HC11
 from rotemina.drivers.mc68hc11.framing import STOP_BYTES, Decoder, Frame, encoded
 from rotemina.drivers.mc68hc11.reports import Done, Identity
 from rotemina.drivers.mc68hc11.requests import Identify, MoveTo
+from rotemina.drivers.samples import Samples
+from rotemina.sim.robot.file import load_robot
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="pseudo-terminals are of POSIX")
 ANSWER_S = 20.0  # a machine under load may take its time; nothing waits so long that works
@@ -76,6 +82,56 @@ def test_a_host_talks_to_boards_and_stops_them_and_all_ends_cleanly(tmp_path):
         finally:
             process.kill()
     assert not any(link.is_symlink() for link in links)
+
+
+@pytest.mark.slow  # in real time
+def test_on_a_shared_bus_telemetry_and_captures_reach_a_host_at_true_baud(tmp_path):
+    name = tmp_path / "bus"
+    with subprocess.Popen(
+        [
+            *(sys.executable, "-m", "rotemina.app.cli.main", "board"),
+            *("--bus", "--position-known", "--port", str(name)),
+        ],
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as process:
+        try:
+            lines_until(process.stdout, "monotonic clock")
+            intervals, parts = _captured(str(name))
+        finally:
+            process.kill()
+    assert sum(len(part.measured) for part in parts) + parts[-1].lost == 200
+    assert parts[-1].lost < 200
+    time_s = np.concatenate([part.device_time_s for part in parts])
+    assert np.diff(time_s).min() == pytest.approx(0.001, abs=1e-6)
+    # A starved machine misses samples; those that follow each other tell how often they are taken.
+    assert intervals.min() == pytest.approx(0.01, abs=1e-3)
+
+
+def _captured(port, tries=5):
+    """Capture 200 samples in real time: return intervals of telemetry after it, and the parts.
+
+    Once more where the machine let the boards, or the host, wait until the connection was lost.
+    """
+    driver = MC68HC11(load_robot("rotemina"), {"port": port})
+    parts, samples, until_s = [], [], time.monotonic() + ANSWER_S
+    try:
+        driver.open()
+        driver.capture(["zn"], driver.capture_rates.one_hz, 200)
+        while not (parts and parts[-1].complete) or len(Samples.joined(samples, 6)) < 50:
+            assert time.monotonic() < until_s, f"{len(parts)} parts of a capture came"
+            read, part = driver.read(), driver.captured()
+            parts += [part] if part is not None else []
+            samples += [read] if parts and parts[-1].complete else []
+            time.sleep(driver.service_period_s)
+    except (ConnectionLostError, DriverTimeoutError):
+        if tries == 1:
+            raise
+        driver.close()
+        return _captured(port, tries - 1)
+    finally:
+        driver.close()
+    return np.diff(Samples.joined(samples, 6).device_time_s), parts
 
 
 def test_on_a_socket_until_standard_input_closes():

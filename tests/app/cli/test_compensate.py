@@ -102,7 +102,7 @@ def test_the_simulator_is_learned_from_and_the_same_seed_gives_the_same_bytes():
         ("train a.csv --seed 1 -o it.json", "--effects and --seed belong to --simulate"),
         ("train a.csv -o no/it.json", "there is no folder no"),
         ("train a.csv -o a.csv", "a.csv: it is named twice"),
-        ("train none.csv -o it.json", "none.csv: there is no such file"),
+        ("train none.csv -o it.json", "none.csv: it cannot be read (there is no such file)"),
         ("train two.csv -o it.json", "two.csv: its piezo axes are thx, zn; name one by --axis"),
         ("train a.csv --axis thx -o it.json", "axis thx needs the columns thx.cmd"),
         ("train x.csv --axis x -o it.json", "has no such piezo axis; use one of thx, thy, zn"),

@@ -12,8 +12,8 @@ from rotemina.drivers.simulator.driver import Simulator
 
 
 class Careless(Simulator):
-    def _move_velocity(self, velocities, lease_s):
-        super()._move_velocity(velocities, 1e6)
+    def _move_velocity(self, velocities, lease_s, permit):
+        super()._move_velocity(velocities, 1e6, permit)
 
 
 class Real(Simulator):

@@ -82,7 +82,7 @@ def test_export_a_record_and_a_trajectory_that_plays(crashed, capsys):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["info", "none.arrows"], "none.arrows: cannot be read"),
+        (["info", "none.arrows"], "none.arrows: it cannot be read"),
         (["info", "run.arrows.part"], "recover it first"),
         (["recover", "none.arrows.part"], "cannot be read"),
         (["export", "run.arrows", "-o", "run.arrows"], "is the file that is read"),

@@ -204,7 +204,7 @@ def test_a_refusal_in_a_later_piece_leaves_no_file(name, capsys):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ("none.csv -o r.csv", "none.csv: there is no such file"),
+        ("none.csv -o r.csv", "none.csv: it cannot be read (there is no such file)"),
         ("c.csv -o r.csv --robot nobody", "nobody: no such robot"),
         ("c.csv -o r.csv --robot emps", "robot 'EMPS' has no axis 'x'"),
         ("c.csv -o r.csv --effects none.toml", "none.toml: no such robot file"),

@@ -1,0 +1,45 @@
+"""What no file can be read from, and names that none can have: one clear line and status 2."""
+
+import os
+
+import pytest
+
+from rotemina.app.cli.main import main
+
+LONG = "a" * 300
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["compare", "good.csv", "--robot", "pipe"], "pipe: it cannot be read (it is a pipe"),
+        (["gap", "predict", "pipe", "good.csv"], "pipe: it cannot be read (it is a pipe"),
+        (["compensate", "apply", "pipe", "good.csv", "-o", "o.csv"], "pipe: it cannot be read"),
+        (["calibrate", "show", "pipe"], "pipe: it cannot be read (it is a pipe"),
+        (["recording", "info", "pipe"], "pipe: it cannot be read (it is a pipe"),
+        (["recording", "recover", "pipe.part"], "pipe.part: it cannot be read (it is a pipe"),
+        (
+            ["tune", "--choose", "1", "-o", "/dev/zero"],
+            "/dev/zero: it cannot be read (it is",
+        ),
+        (["convert", "good.csv", "-o", "good.csv/x.csv"], "good.csv/x.csv: it cannot be written"),
+        (["convert", "good.csv", "-o", f"{LONG}.csv"], f"{LONG}.csv: File name too long"),
+        (["compare", LONG], f"{LONG}: it cannot be read (File name too long)"),
+        (["compare", "good.csv", "--robot", "deep.toml"], "deep.toml: tables or lists are nested"),
+        (
+            ["tune", "--axis", "zn", "-o", "o", "--population", "1000000000"],
+            "population 10000000",
+        ),
+        (["tune", "--axis", "zn", "-o", "o", "--rate", "1e15"], "loop rate 1e+15 Hz"),
+    ],
+)
+def test_one_clear_line(arguments, said, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "good.csv").write_text("t [s],x.cmd [um],x.meas [um]\n0,0,0\n0.001,1,1\n")
+    (tmp_path / "deep.toml").write_text(".".join(["a"] * 50_000) + " = 1")
+    for name in ("pipe", "pipe.part"):
+        os.mkfifo(tmp_path / name)
+    assert main(arguments) == 2
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert said in error
