@@ -1,6 +1,5 @@
 """Cases of the blind test: made by the generator, or anyone's own withheld ones."""
 
-import json
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager
@@ -13,12 +12,15 @@ from rotemina.sim.blind.case import Case, draw_case
 from rotemina.sim.blind.files import kinds, write_case
 from rotemina.sim.blind.force import ForceCase, draw_force_case
 from rotemina.sim.blind.sealing import Seal, digest, seal
+from rotemina.sim.blind_second.case import draw_second
 from rotemina.sim.errors import InputError
+from rotemina.sim.input_files import parse_json, read_bytes
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import ForceAxis, PiezoAxis, Robot, StepperAxis
 
 VERDICTS = ("explained", "none", "unknown", "insufficient_excitation")
 
+_MOST_BYTES = 64_000_000
 _FORCE_ROBOT = "emps"
 
 Label = Mapping[str, Any]
@@ -67,21 +69,35 @@ class Cases(ABC):
 
 
 class GeneratedCases(Cases):
-    """Cases that the generator draws from a seed; more of them begin with the same ones."""
+    """Cases that a generator draws from a seed; more of them begin with the same ones.
 
-    def __init__(self, robot: str, number: int, seed: int) -> None:
+    ``second``: by the second generator, whose equations are others again.
+    """
+
+    def __init__(self, robot: str, number: int, seed: int, *, second: bool = False) -> None:
         self._robot_name, self._robot = robot, load_robot(robot)
         check_robot(self._robot, robot)
+        if second and _moved_by_force(self._robot):
+            raise BlindError(
+                f"--robot {robot}: the second generator makes no axes under force; leave "
+                "--generator out, or name a robot with stages"
+            )
         self._force = _moved_by_force(self._robot)
         self._plan = {f"case_{k:04d}": drawn for k, drawn in enumerate(kinds(number, seed))}
         self._labels: dict[str, Label] = {}
-        super().__init__({"seed": seed, "robot": robot}, tuple(self._plan))
+        self._second = second
+        key: dict[str, Any] = {"seed": seed, "robot": robot}
+        super().__init__(key | ({"generator": "second"} if second else {}), tuple(self._plan))
 
     @contextmanager
     def sealed(self, name: str, salt: str) -> Iterator[SealedCase]:
         """Draw the case and write its files for as long as the context lasts."""
         kind, effect, seed = self._plan[name]
         robot_name, robot = self._robot_name, self._robot
+        if self._second:
+            with self._sealed_second(name, salt, seed) as sealed:
+                yield sealed
+            return
         case: Case | ForceCase
         if kind == "force" or self._force:
             if not self._force:
@@ -94,6 +110,14 @@ class GeneratedCases(Cases):
             place = Path(folder)
             write_case(place, case, robot)
             yield _laid_out(name, place, robot_name, seal(self._labels[name], salt))
+
+    @contextmanager
+    def _sealed_second(self, name: str, salt: str, seed: int) -> Iterator[SealedCase]:
+        made = draw_second(self._robot, seed)
+        self._labels[name] = made.label()
+        with TemporaryDirectory(prefix="rotemina-") as folder:
+            made.write(Path(folder), self._robot)
+            yield _laid_out(name, Path(folder), self._robot_name, seal(self._labels[name], salt))
 
     def label(self, name: str, salt: str, sealed: Seal) -> Label:
         """Open the label, which must be the one that was sealed."""
@@ -152,19 +176,13 @@ class FolderCases(Cases):
         """Open the labels, which must not have changed since they were sealed."""
         content = self._read()
         sealed.check(content, salt, str(self._labels))
-        try:
-            labels = json.loads(content)
-        except ValueError as error:
-            raise BlindError(f"{self._labels}: it is no JSON ({error})") from error
+        labels = parse_json(content, str(self._labels), BlindError)
         return _checked(labels, name, self._labels)
 
     def _read(self) -> bytes:
-        try:
-            return self._labels.read_bytes()
-        except OSError as error:
-            raise BlindError(
-                f"{self._labels}: it cannot be read ({error.strerror}); --labels names a JSON file"
-            ) from error
+        return read_bytes(
+            self._labels, BlindError, _MOST_BYTES, advice="--labels names a JSON file"
+        )
 
 
 def _checked(labels: object, name: str, file: Path) -> Label:

@@ -8,14 +8,17 @@ from typing import Any, Self
 
 import numpy as np
 
+from rotemina.app.blind.cases import BlindError
 from rotemina.app.blind.features import features
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.blind.case import draw_case
 from rotemina.sim.blind.files import kinds, write_case
+from rotemina.sim.input_files import open_file
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.whole_files import replaced
 
+_MOST_BYTES = 64_000_000
 _NEIGHBOURS = 5
 _OTHER_SEED = 987_654  # that no test is run with
 _CASES = 240
@@ -50,11 +53,22 @@ class Classifier:
 def classifier_for(robot: Robot, file: Path, number: int = _CASES) -> Classifier:
     """Return the classifier that a file holds; without one, it learns first and writes it."""
     if file.exists():
-        with np.load(file, allow_pickle=False) as kept:
-            return Classifier.of(kept["rows"], [str(name) for name in kept["names"]])
+        return _read(file)
     rows, names = learned(robot, number)
     with replaced(file) as written:
         np.savez(written, rows=rows, names=np.array(names))
+    return Classifier.of(rows, names)
+
+
+def _read(file: Path) -> Classifier:
+    with open_file(file, BlindError, most_bytes=_MOST_BYTES, advice="remove it") as opened:
+        try:
+            with np.load(opened, allow_pickle=False) as kept:
+                rows, names = np.asarray(kept["rows"], np.float64), list(map(str, kept["names"]))
+        except Exception as cause:  # numpy, zipfile and zlib have many
+            raise BlindError(f"{file}: it is no classifier ({cause}); remove it") from cause
+    if rows.ndim != 2 or len(rows) != len(names) or not np.isfinite(rows).all():
+        raise BlindError(f"{file}: it is no classifier; remove it")
     return Classifier.of(rows, names)
 
 

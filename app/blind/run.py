@@ -1,6 +1,5 @@
 """The sealed self-test, case by case: one result file each, so that it can go on later."""
 
-import json
 import secrets
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
@@ -14,8 +13,10 @@ from rotemina.app.blind.shard import Shard
 from rotemina.app.files import json_text, write_text
 from rotemina.sim.blind.scoring import Outcome
 from rotemina.sim.blind.sealing import Seal
+from rotemina.sim.input_files import parse_json, read_text
 from rotemina.sim.robot.file import load_robot
 
+_MOST_BYTES = 64_000_000
 FORMAT = "rotemina-blind-result 1"
 _KEPT = ("axis", "effect", "from_axis", "probability", "ambiguous_with", "closed")
 
@@ -110,10 +111,8 @@ class BlindRun:
 
 
 def _read(path: Path) -> dict[str, Any]:
-    try:
-        read = json.loads(path.read_text("utf-8"))
-    except (OSError, ValueError) as error:
-        raise BlindError(f"{path}: it cannot be read ({error}); remove it") from error
+    text = read_text(path, BlindError, _MOST_BYTES, advice="remove it")
+    read = parse_json(text, str(path), BlindError)
     return read if isinstance(read, dict) else {}
 
 

@@ -15,18 +15,21 @@ from rotemina.app.blind.run import BlindRun, Contest
 from rotemina.app.files import json_text
 from rotemina.sim.blind.intervals import Figure
 from rotemina.sim.blind.picture import draw_confusion
-from rotemina.sim.blind.scoring import Outcome, confusion, score
-from rotemina.sim.blind.table import page, plain_table
+from rotemina.sim.blind.scoring import Outcome, calibration_curve, confusion, halves, score
+from rotemina.sim.blind.table import HALVES, page, plain_table
 from rotemina.sim.errors import InputError
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.whole_files import replaced
 
 FORMAT = "rotemina-blind 1"
+CALIBRATION_FORMAT = "rotemina-calibration 1"
+REPORTED_FROM = 1000  # seeds below are for development: what is calibrated or tuned on them
 _CASES = 300
 
 
 def run_test(options: Namespace) -> None:
     """Do what is not done yet, then score all that is."""
+    _check_seed(options)
     cases, folder = _cases(options)
     blind = BlindRun(folder, cases)
     ask = partial(diagnose, jobs=options.jobs)
@@ -41,6 +44,22 @@ def run_test(options: Namespace) -> None:
         raise BlindError(f"{folder}: no case is done, so there is nothing to score")
     others = {title: blind.outcomes_of(name) for name, title in CONTESTANTS.items()}
     _write(options, cases, outcomes, {title: o for title, o in others.items() if o})
+
+
+def _check_seed(options: Namespace) -> None:
+    """Keep seeds for development and seeds that are reported apart."""
+    if options.source is not None:
+        return
+    if options.report is not None and options.seed < REPORTED_FROM:
+        raise InputError(
+            f"--report with --seed {options.seed}: seeds below {REPORTED_FROM} are for "
+            f"development; report cases of a seed from {REPORTED_FROM} on"
+        )
+    if options.calibrate is not None and options.seed >= REPORTED_FROM:
+        raise InputError(
+            f"--calibrate with --seed {options.seed}: seeds from {REPORTED_FROM} on are for "
+            f"reports; calibrate on one below {REPORTED_FROM}"
+        )
 
 
 def _contest(options: Namespace, folder: Path) -> Contest:
@@ -66,8 +85,10 @@ def _cases(options: Namespace) -> tuple[Cases, Path]:
         raise InputError(
             f"--cases {number} --seed {options.seed}: at least 1 case, no seed below 0"
         )
-    folder = options.folder or Path(f"rotemina-blind-{options.seed}")
-    return GeneratedCases(_robot(options), number, options.seed), folder
+    second = options.generator == "second"
+    name = f"rotemina-blind-{options.seed}{'-second' if second else ''}"
+    cases = GeneratedCases(_robot(options), number, options.seed, second=second)
+    return cases, options.folder or Path(name)
 
 
 def _robot(options: Namespace) -> str:
@@ -85,20 +106,43 @@ def _write(
     figures = score(outcomes)
     rivals = {title: _names(score(theirs)) for title, theirs in others.items()}
     counts = confusion(outcomes)
-    text = json_text(_document(cases, outcomes, figures, rivals))
+    parts = {name: score(each) for name, each in halves(outcomes).items() if each}
+    text = json_text(_document(cases, outcomes, figures, rivals, parts))
     # All files appear together or none.
     with ExitStack() as files:
         if options.report is not None:
             picture = options.report.with_suffix(".svg")
             files.enter_context(replaced(options.report)).write(
-                page(figures, outcomes, picture.name, _origin(cases, len(outcomes)), rivals).encode(
-                    "utf-8"
-                )
+                page(
+                    figures,
+                    outcomes,
+                    picture.name,
+                    _origin(cases, len(outcomes)),
+                    {**{HALVES[name]: each for name, each in parts.items()}, **rivals},
+                ).encode("utf-8")
             )
             draw_confusion(counts, files.enter_context(replaced(picture)))
+        if options.calibrate is not None:
+            made = json_text(_calibration(cases, outcomes))
+            files.enter_context(replaced(options.calibrate)).write(made.encode("utf-8"))
         if options.json not in (None, "-"):
             files.enter_context(replaced(options.json)).write(text.encode("utf-8"))
-    print(text if options.json == "-" else plain_table(figures))
+    if options.json == "-":
+        print(text)
+        return
+    print(plain_table(figures))
+    for name, each in parts.items():
+        print(f"\n{HALVES[name]}\n{plain_table(each)}")
+
+
+def _calibration(cases: Cases, outcomes: list[Outcome]) -> dict[str, Any]:
+    """Return how often a cause of each weight is there: linear between the points."""
+    return {
+        "format": CALIBRATION_FORMAT,
+        "cases": dict(cases.key),
+        "done": len(outcomes),
+        "curve": [list(point) for point in calibration_curve(outcomes)],
+    }
 
 
 def _document(
@@ -106,6 +150,7 @@ def _document(
     outcomes: list[Outcome],
     figures: dict[str, Figure],
     rivals: dict[str, dict[str, Figure]],
+    parts: dict[str, dict[str, Figure]],
 ) -> dict[str, Any]:
     return {
         "format": FORMAT,
@@ -113,6 +158,7 @@ def _document(
         "asked": len(cases.names),
         "done": len(outcomes),
         "figures": _shown(figures),
+        "halves": {name: _shown(each) for name, each in parts.items()},
         "naive": {title: _shown(theirs) for title, theirs in rivals.items()},
         "confusion": [
             {"truth": truth, "named": told, "number": number}

@@ -14,6 +14,7 @@ from rotemina.app.cli.progress import ProgressLine
 from rotemina.app.files import json_text, write_text
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap.progress import Progress
+from rotemina.sim.input_files import open_file
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import PiezoAxis, Robot
@@ -162,5 +163,5 @@ def _simulated(options: argparse.Namespace, robot: Robot, seed: int) -> "Samples
 
 
 def _digest(path: Path) -> str:
-    with path.open("rb") as file:
+    with open_file(path, InputError) as file:
         return hashlib.file_digest(file, "sha256").hexdigest()

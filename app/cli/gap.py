@@ -1,13 +1,13 @@
 """``rotemina gap``: the diagnosis of the gap between model and machine, and what follows from it.
 
 ``diagnose`` finds causes, ``predict`` asks the corrected model, ``twin`` writes it as a robot
-file, ``blind`` tests the diagnosis itself.
+file, ``blind`` tests the diagnosis itself, ``bench`` does so on machines that are known.
 """
 
 import argparse
 from pathlib import Path
 
-from rotemina.app.cli import gap_blind, gap_diagnose
+from rotemina.app.cli import gap_bench, gap_blind, gap_diagnose
 from rotemina.app.cli.options import add_columns
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap.prediction import predict
@@ -30,10 +30,13 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     _add_predict(verbs)
     _add_twin(verbs)
     gap_blind.add_parser(verbs)
+    gap_bench.add_parser(verbs)
 
 
 def _nothing(_options: argparse.Namespace) -> int:
-    raise InputError("gap: name what to do: diagnose, predict, twin or blind (--help tells more)")
+    raise InputError(
+        "gap: name what to do: diagnose, predict, twin, blind or bench (--help tells more)"
+    )
 
 
 def _add_predict(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -51,6 +54,19 @@ def _add_predict(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -
         type=Path,
         metavar="RECORD",
         help="where the record goes (default: COMMANDS-predicted.csv in this folder)",
+    )
+    parser.add_argument(
+        "--after",
+        type=Path,
+        metavar="RECORD",
+        help="the motion that went before: what the machine remembers of it is carried over",
+    )
+    parser.add_argument(
+        "--pause",
+        type=float,
+        default=0.0,
+        metavar="S",
+        help="seconds between the end of that motion and the first command (default: 0)",
     )
     add_columns(parser)
     parser.set_defaults(run=run_predict)
@@ -81,10 +97,15 @@ def run_predict(options: argparse.Namespace) -> int:
     robot = document.corrected
     commands = read_record(options.commands, columns=options.columns, robot=robot)
     output = options.output or _free_name(options.commands)
-    for source in (options.document, options.commands):
-        if output.exists() and output.samefile(source):
+    for source in (options.document, options.commands, options.after):
+        if source is not None and output.exists() and output.samefile(source):
             raise InputError(f"{output}: it is named twice; give each file a name of its own")
-    record = predict(robot, commands)
+    after = None
+    if options.after is not None:
+        after = read_record(options.after, columns=options.columns, robot=robot)
+    elif options.pause:
+        raise InputError("--pause: name the motion that went before by --after")
+    record = predict(robot, commands, document.offsets, after=after, pause_s=options.pause)
     write_record(record, output)
     print(f"{output}: {len(record.time_s)} rows, {record.duration_s:.6g} s")
     return 0

@@ -19,6 +19,12 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     parser.add_argument("--cases", type=int, metavar="N", help="how many (default: 300)")
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the cases (default 0)")
     parser.add_argument(
+        "--generator",
+        choices=("first", "second"),
+        default="first",
+        help="whose equations make the cases (default: first); figures are of one alone",
+    )
+    parser.add_argument(
         "--shard",
         type=shard,
         default=Shard(),
@@ -35,7 +41,16 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     )
     parser.add_argument("--json", metavar="OUT", help="write the figures as JSON ('-' prints them)")
     parser.add_argument(
-        "--report", type=Path, metavar="OUT.md", help="write a page, and its picture beside it"
+        "--report",
+        type=Path,
+        metavar="OUT.md",
+        help="write a page, and its picture beside it (seeds from 1000 on)",
+    )
+    parser.add_argument(
+        "--calibrate",
+        type=Path,
+        metavar="FILE",
+        help="write how often a cause of each probability is there, as JSON (seeds below 1000)",
     )
     parser.add_argument("--jobs", type=int, metavar="N", help="how many processes a diagnosis uses")
     parser.add_argument(

@@ -46,6 +46,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:  # whoever read our output has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
+    except OSError as error:
+        if error.filename is None:
+            raise
+        print(
+            f"rotemina: {error.filename}: {error.strerror}; check its name and folder",
+            file=sys.stderr,
+        )
+        return 2
     except KeyboardInterrupt:
         print("rotemina: interrupted", file=sys.stderr)
         return 130

@@ -64,7 +64,7 @@ def info(options: argparse.Namespace) -> int:
     recording = Recording.open(options.recording)
     about = recording.metadata
     if options.robot_file:
-        print(about["robot_file"], end="")
+        print(about.get("robot_file", ""), end="")
         return 0
     print(f"{options.recording}: {recording.ended_s - recording.began_s:.3f} s")
     for key in ("began", "program", "robot", "robot_sha256", "driver", "driver_settings"):

@@ -4,6 +4,8 @@ import argparse
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
+from types import SimpleNamespace
+from typing import Any, NoReturn
 
 from rotemina.sim.errors import InputError
 
@@ -64,5 +66,28 @@ def workers(jobs: int | None, cluster: str | None) -> Iterator[int]:
             raise InputError(
                 f"--cluster {cluster}: it has no workers; start some by dask worker {cluster}"
             ) from error
-        with joblib.parallel_config(backend="dask"):
+        with joblib.parallel_config(backend=_backend()):
             yield jobs or sum(client.ncores().values())
+
+
+def _backend() -> Any:
+    """Return joblib's way to the current Dask client, on which a failed submission is told.
+
+    By itself joblib submits in a callback of Dask's loop, which swallows what is raised there:
+    whoever waits for the result waits for ever.
+    """
+    from joblib._dask import DaskDistributedBackend
+
+    class Telling(DaskDistributedBackend):  # type: ignore[misc]  # joblib has no types
+        async def _to_func_args(self, func: Any) -> Any:
+            try:
+                return await super()._to_func_args(func)
+            except Exception as error:  # told by a task in place of the one that cannot be sent
+                told = f"--cluster: work could not be sent: {type(error).__name__}: {error}"
+                return await super()._to_func_args(SimpleNamespace(items=[(_fail, (told,), {})]))
+
+    return Telling()
+
+
+def _fail(told: str) -> NoReturn:
+    raise InputError(told)

@@ -149,6 +149,7 @@ class Actions(QObject):
         question.setDefaultButton(QMessageBox.StandardButton.No)
         yes = QMessageBox.StandardButton.Yes
         question.finished.connect(lambda said: self._load_live(answer) if said == yes else None)
+        self._workbench.stopped.connect(question.reject)
         question.setModal(False)  # the window, and its stop button, can still be used
         question.show()
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from rotemina.app.display import label
 from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.gap.words import any_of, effect_word
-from rotemina.sim.gap.diagnosis import AxisDiagnosis, Verdict
+from rotemina.sim.gap.diagnosis import CORRECTING, AxisDiagnosis, Verdict
 from rotemina.sim.gap.report.words import listed
 
 FIRST_STEPS = marked(
@@ -41,6 +41,18 @@ _MEANS = {
         marked("gap", "The model lacks what is named below; with it in, it follows the machine."),
         marked("gap", "Press “Add to twin …”, then “New motion …” to see the gap shrink."),
     ),
+    Verdict.PARTLY: (
+        marked(
+            "gap",
+            "What is named below is there; something else, which no effect of the catalogue "
+            "accounts for, is left beside it.",
+        ),
+        marked(
+            "gap",
+            "Press “Add to twin …”: the model follows the machine better with it. Look under Where "
+            "what the rest depends on.",
+        ),
+    ),
     Verdict.UNKNOWN: (
         marked(
             "gap",
@@ -75,7 +87,7 @@ def advice(one: AxisDiagnosis, *, has_experiment: bool) -> Iterator[str]:
     means, do = (translate("gap", text) for text in _MEANS[one.verdict])
     rivals = {other for cause in one.causes for other in cause.ambiguous_with}
     yield translate("gap", "What it means: {meaning}").format(meaning=means)
-    if rivals and one.verdict is Verdict.EXPLAINED:
+    if rivals and one.verdict in CORRECTING:
         open_ = translate(
             "gap",
             "Not settled: {effects} would do as well on these records. Take the whole set as the "

@@ -1,6 +1,5 @@
 """What a blind test has brought: figures beside their levels, the confusion matrix; no widgets."""
 
-import json
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,6 +10,9 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.sim.blind.intervals import Figure
 from rotemina.sim.blind.table import ROWS, shown
 from rotemina.sim.errors import InputError
+from rotemina.sim.input_files import parse_json, read_text
+
+_MOST_BYTES = 64_000_000
 
 _LEVEL = re.compile(r"([≥≤]?)\s*([\d.]+)\s*(%?)")
 _STEP = re.compile(r"^(\S+): done \((\d+) of (\d+)\)")
@@ -52,9 +54,9 @@ class BlindResult:
             If it cannot be read.
         """
         try:
-            document = json.loads(path.read_text("utf-8"))
-            return cls._of(document)
-        except (OSError, ValueError, KeyError, TypeError) as error:
+            text = read_text(path, InputError, _MOST_BYTES)
+            return cls._of(parse_json(text, str(path), InputError))
+        except (ValueError, KeyError, TypeError) as error:
             raise InputError(
                 translate(
                     "gap",

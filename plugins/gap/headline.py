@@ -10,6 +10,7 @@ from rotemina.sim.gap.report.quantities import percent
 _CALLED = {
     Verdict.NONE: marked("gap", "No gap."),
     Verdict.EXPLAINED: marked("gap", "Explained."),
+    Verdict.PARTLY: marked("gap", "Explained in part."),
     Verdict.UNKNOWN: marked("gap", "Unknown gap."),
     Verdict.INSUFFICIENT: marked("gap", "Insufficient excitation."),
 }

@@ -5,6 +5,7 @@ from PySide6.QtWidgets import QMessageBox, QWidget
 
 from rotemina.app.display import axis_scale, label
 from rotemina.app.shell.language import translate
+from rotemina.app.shell.pending import Pending
 from rotemina.app.shell.workbench import Plan, Run, Workbench
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
@@ -23,7 +24,8 @@ class Playing(QObject):
     def __init__(self, workbench: Workbench, parent: QObject) -> None:
         super().__init__(parent)
         self._workbench = workbench
-        self._waiting: str | None = None  # for the dry run of the motion of this name
+        #: Name of the motion whose dry run is waited for; who stops meanwhile wants it no more.
+        self._waiting: Pending[str] = Pending(workbench.session)
         self._under_way: str | None = None
         workbench.plan_changed.connect(self._planned)
         workbench.run_changed.connect(self._ran)
@@ -42,20 +44,21 @@ class Playing(QObject):
         question.button(yes).setText(translate("gap", "Play"))
         question.button(no).setText(translate("gap", "Not now"))
         question.finished.connect(lambda said: self.play(name, trajectory) if said == yes else None)
+        self._workbench.stopped.connect(question.reject)
         question.setModal(False)
         question.show()
 
     def play(self, name: str, trajectory: Record) -> None:
         """Try a motion on the model, and play it if it stays inside all limits."""
-        self._waiting, self._under_way = name, None
+        self._waiting.put(name)
+        self._under_way = None
         self._workbench.plan_trajectory(name, trajectory)
 
     def _planned(self, plan: Plan) -> None:
-        wanted = plan.name == self._waiting
-        self._waiting = None  # another one in hand is another wish
+        wanted = plan.name == self._waiting.take()  # another one in hand is another wish
         if wanted and plan.dry_run.allowed:
             self._under_way = plan.name
-            self._workbench.play()
+            self._workbench.play(self._waiting.permit)
 
     def _ran(self, run: Run) -> None:
         if run.name == self._under_way:

@@ -47,8 +47,18 @@ REMARKS = (
     ),
     marked(
         "gap",
-        "Time leaps {n} times in a record, by up to {time} s, where no axis is under way; the "
-        "commands are taken as held meanwhile.",
+        "Time leaps {n} ×, by up to {time} s: the record is split there, and what came before a "
+        "piece is unknown.",
+    ),
+    marked(
+        "gap",
+        "Time leaps {n} ×, by up to {time} s: the record is split there, and what came before a "
+        "piece is unknown; {rows} rows in pieces shorter than {least} are left out.",
+    ),
+    marked(
+        "gap",
+        "Rows are missing in a record for up to {time} s while no axis is under way; the commands "
+        "are taken as held meanwhile.",
     ),
     marked(
         "gap",

@@ -26,6 +26,7 @@ UNKNOWN_EFFECT = marked("gap", "Unknown effect")
 VERDICTS = {
     Verdict.NONE: marked("gap", "No gap: model and machine differ by no more than noise"),
     Verdict.EXPLAINED: marked("gap", "Explained: the effects below account for the gap"),
+    Verdict.PARTLY: marked("gap", "Explained in part: what causes the rest is not known"),
     Verdict.UNKNOWN: marked(
         "gap", "Unknown: there is a gap that no effect of the catalogue explains"
     ),
@@ -35,6 +36,7 @@ AXIS_VERDICTS = {
     **VERDICTS,
     Verdict.NONE: marked("gap", "No gap of its own"),
     Verdict.EXPLAINED: marked("gap", "Explained"),
+    Verdict.PARTLY: marked("gap", "Explained in part"),
 }
 REGIMES = {
     Regime.REST: marked("gap", "rest"),
@@ -74,6 +76,8 @@ FIGURES = (
     marked("gap", "mean size of the set"),
     marked("gap", "two effects exactly"),
     marked("gap", "three effects exactly"),
+    marked("gap", "a cause that is not there"),
+    marked("gap", "verdict explained or partly"),
     marked("gap", "healthy machines accused"),
     marked("gap", "unknown effects called unknown"),
     marked("gap", "poor excitation called so"),
@@ -153,6 +157,9 @@ def _of_axis(one: AxisDiagnosis, records: Sequence[Record]) -> Iterator[str]:
     if named:
         lacks = translate("gap", "{axis}: the model lacks {causes}.")
         yield lacks.format(axis=axis, causes=all_of(named))
+    if one.verdict is Verdict.PARTLY:
+        beside = translate("gap", "{axis}: what else is there, no effect here explains.")
+        yield beside.format(axis=axis)
     if one.verdict is Verdict.UNKNOWN:
         more = translate("gap", "{axis}: there is a gap beside that that no effect here explains.")
         alone = translate("gap", "{axis}: there is a gap that no effect here explains.")

@@ -12,7 +12,16 @@ from rotemina.sim.blind.catalogue import CATALOGUE
 from rotemina.sim.blind.machine import Commands, Machine, Response, machine_of
 from rotemina.sim.blind.part import Axis, Part
 from rotemina.sim.blind.parts import draw_part
-from rotemina.sim.blind.trial import LEAST_FLOORS, MOST_FLOORS, Present, Trial, record_seed
+from rotemina.sim.blind.remainder import LEAST_SHARE, MOST_SHARE, draw_remainder
+from rotemina.sim.blind.trial import (
+    LEAST_BESIDE,
+    LEAST_FLOORS,
+    MOST_FLOORS,
+    OVER_REMAINDER,
+    Present,
+    Trial,
+    record_seed,
+)
 from rotemina.sim.robot.model import Robot
 
 # On one axis, the sum of two of these is a third, or the same with another size.
@@ -27,6 +36,7 @@ _ALIKE = (
     {"resonance_mismatch", "flexible_mode"},
 )
 _PARAMETERS = ("gain_error", "resonance_mismatch")
+_WITH_REMAINDER = ("single", "double", "triple", "parameter")  # half of these have one
 # At one frequency and amplitude, or in one step, each of these is any of the others.
 _POOR_SINE = (
     "delay",
@@ -66,6 +76,7 @@ class Case:
     taps: tuple[str, ...]
     seed: int
     present: tuple[Present, ...]
+    remainder: Present | None = None
 
     def label(self) -> dict[str, Any]:
         """Return the answer that is right, as JSON."""
@@ -85,6 +96,13 @@ class Case:
             "hidden": effects if self.kind == "poor" else [],
             "kind": self.kind,
             "floors": round(max((one.gap for one in self.present), default=0.0), 3),
+            "remainder": None
+            if self.remainder is None
+            else {
+                "axis": self.remainder.part.axis.name,
+                "floors": round(self.remainder.floors, 3),
+                "share": round(self.remainder.share, 4),
+            },
         }
 
 
@@ -121,10 +139,17 @@ def _attempt(
     held_out = excitation.held_out(robot, names, travels, rng)
     rounded = [_as_written(robot, names, c) for c in (*training, held_out)]
     machine = machine_of(robot, names, travels)
-    present = _present(machine, kind, rounded[:-1], rng, effect, step=step)
+    trial = Trial(machine, tuple(rounded[:-1]), int(rng.integers(2**31)))
+    present = _present(trial, kind, rng, effect, step=step)
     if present is None:
         return None
-    machine = machine.having([one.part for one in present])
+    remainder = None
+    if kind in _WITH_REMAINDER and seed % 2:
+        remainder = _remainder(trial, present, rng)
+        if remainder is None:
+            return None
+    parts = [one.part for one in present] + ([remainder.part] if remainder else [])
+    machine = machine.having(parts)
     return Case(
         kind,
         machine,
@@ -134,7 +159,20 @@ def _attempt(
         _taps(machine, rng),
         seed,
         () if kind == "healthy" else tuple(present),
+        remainder,
     )
+
+
+def _remainder(
+    trial: Trial, present: Sequence[Present], rng: np.random.Generator
+) -> Present | None:
+    """Return what the machine also does; None where it does not leave every effect clear."""
+    parts = [one.part for one in present]
+    share = float(rng.uniform(LEAST_SHARE, MOST_SHARE))
+    part = trial.with_share(draw_remainder(parts[0].axis, rng), parts, share)
+    floors = trial.rms(part)
+    own = [one.floors for one in present if one.part.axis is part.axis]
+    return Present(part, floors, share) if min(own) >= OVER_REMAINDER * floors else None
 
 
 def _names(robot: Robot, rng: np.random.Generator, effect: str | None) -> tuple[str, ...]:
@@ -183,25 +221,23 @@ def _taps(machine: Machine, rng: np.random.Generator) -> tuple[str, ...]:
 
 
 def _present(
-    machine: Machine,
+    trial: Trial,
     kind: str,
-    training: Sequence[Commands],
     rng: np.random.Generator,
     effect: str | None,
     *,
     step: bool,
 ) -> list[Present] | None:
     """Draw parts and sizes; None where one of them would not be there to be found."""
-    trial = Trial(machine, tuple(training), int(rng.integers(2**31)))
     if kind == "healthy":
         return _slightly_off(trial, rng)
     least = 4.0 if kind == "poor" else 1.1 * LEAST_FLOORS
     floors = float(np.exp(rng.uniform(np.log(least), np.log(MOST_FLOORS))))
     parts: list[Part] = []
-    for axis, name in _places(machine.axes, kind, rng, effect, step=step):
-        others = tuple(a for a in machine.axes if a is not axis)
+    for axis, name in _places(trial.machine.axes, kind, rng, effect, step=step):
+        others = tuple(a for a in trial.machine.axes if a is not axis)
         part = draw_part(name, axis, others, rng)
-        near = floors * 10.0 ** rng.uniform(-0.35, 0.35) if parts else floors
+        near = _beside(floors, rng) if parts else floors
         sized = trial.sized(part, near)
         if sized is None:
             return None
@@ -209,6 +245,12 @@ def _present(
     present = trial.present(parts)
     # Under poor excitation it is the point that nothing is distinct.
     return present if present is None or kind == "poor" or trial.distinct(parts) else None
+
+
+def _beside(floors: float, rng: np.random.Generator) -> float:
+    """Draw the size of a further effect: down to a few floors, however large the first is."""
+    least = min(1.2 * LEAST_BESIDE, floors)
+    return float(np.exp(rng.uniform(np.log(least), np.log(2.2 * floors))))
 
 
 def _places(

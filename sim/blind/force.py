@@ -21,7 +21,7 @@ from rotemina.sim.blind.mechanics import (
     load_force,
     propagator,
 )
-from rotemina.sim.blind.trial import LEAST_FLOORS, LEAST_SHARE
+from rotemina.sim.blind.trial import LEAST_BESIDE, LEAST_FLOORS
 from rotemina.sim.robot.model import ForceAxis, Robot
 
 EFFECTS = ("friction", "gain_error", "delay", "flexible_mode", "saturation", "vibration")
@@ -190,8 +190,7 @@ def _drawn(
     present = []
     for before, effect, after in zip(loops, effects, loops[1:], strict=False):
         floors = _difference(axis, after, before, training, 0.0) / noise_v
-        gap = _difference(axis, loops[-1], plain, training, 0.0) / noise_v
-        if floors < LEAST_FLOORS or (floors / gap) ** 2 < LEAST_SHARE:
+        if floors < (LEAST_BESIDE if len(effects) > 1 else LEAST_FLOORS):
             return None
         present.append((effect, floors))
     return loops[-1], tuple(present)

@@ -11,6 +11,7 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.blind.intervals import Figure, resampled, share
 
 SPLIT_FLOORS = 5.0
+NAMING = ("explained", "partly")  # verdicts under which causes are named
 _BINS = 10
 
 Cause = tuple[str, str, str | None]
@@ -52,6 +53,16 @@ class Outcome:
         return [_cause(cause) for cause in self.answer.get("causes", [])]
 
     @property
+    def has_remainder(self) -> bool:
+        """Whether the machine also does something that no catalogue holds."""
+        return self.label.get("remainder") is not None
+
+    @property
+    def has_extra(self) -> bool:
+        """Whether a cause is named that is not there."""
+        return bool(Counter(self.named) - Counter(self.truth))
+
+    @property
     def verdict(self) -> str:
         """The answer's verdict."""
         return str(self.answer.get("verdict", "failed"))
@@ -59,12 +70,12 @@ class Outcome:
     @property
     def first_right(self) -> bool:
         """Whether it is called explained, and the first cause is one that is there."""
-        return self.verdict == "explained" and self.named[:1] != [] and self.named[0] in self.truth
+        return self.verdict in NAMING and self.named[:1] != [] and self.named[0] in self.truth
 
     @property
     def exact(self) -> bool:
         """Whether the named causes are those that are there, no more and no fewer."""
-        return self.verdict == "explained" and Counter(self.named) == Counter(self.truth)
+        return self.verdict in NAMING and Counter(self.named) == Counter(self.truth)
 
     @property
     def right(self) -> bool:
@@ -110,6 +121,8 @@ def score(outcomes: Sequence[Outcome]) -> dict[str, Figure]:
         "two_exact_large_gap": share([o.exact for o in two if _large(o)]),
         "two_exact_small_gap": share([o.exact for o in two if _small(o)]),
         "three_exact": share([o.exact for o in explained if len(o.truth) > 2]),
+        "extra_causes": share([o.has_extra for o in explained]),
+        "causes_named": share([o.verdict in NAMING for o in explained]),
         "false_accusations": share([o.verdict != "none" for o in healthy]),
         "unknown_recall": share([o.verdict == "unknown" for o in _of(outcomes, "unknown")]),
         "insufficient_recall": share(
@@ -117,6 +130,31 @@ def score(outcomes: Sequence[Outcome]) -> dict[str, Figure]:
         ),
     }
     return figures | _continuous(outcomes, explained, healthy)
+
+
+def halves(outcomes: Sequence[Outcome]) -> dict[str, list[Outcome]]:
+    """Return the faulty machines without a remainder, and those with one."""
+    faulty = [o for o in outcomes if o.label["verdict"] == "explained"]
+    return {
+        "without_remainder": [o for o in faulty if not o.has_remainder],
+        "with_remainder": [o for o in faulty if o.has_remainder],
+    }
+
+
+def calibration_curve(outcomes: Iterable[Outcome]) -> list[tuple[float, float]]:
+    """Return (weight, share that is right) where the share steps up, both rising.
+
+    The shares are the isotonic regression of what is right on the weight, by pooling adjacent
+    violators (Barlow et al., Statistical Inference under Order Restrictions (1972)).
+    """
+    table = calibration_table(outcomes)
+    pools: list[list[float]] = []  # sum of weights, of right ones, number
+    for weight, right in table[np.argsort(table[:, 0], kind="stable")]:
+        pools.append([weight, right, 1.0])
+        while len(pools) > 1 and pools[-2][1] * pools[-1][2] >= pools[-1][1] * pools[-2][2]:
+            last = pools.pop()
+            pools[-1] = [a + b for a, b in zip(pools[-1], last, strict=True)]
+    return [(weight / number, right / number) for weight, right, number in pools]
 
 
 def _continuous(
@@ -180,7 +218,7 @@ def confusion(outcomes: Iterable[Outcome]) -> dict[tuple[str, str], int]:
         verdict = outcome.label["verdict"]
         truth = outcome.truth[0][1] if verdict == "explained" else str(verdict)
         told = outcome.verdict
-        if told == "explained" and outcome.named:
+        if told in NAMING and outcome.named:
             told = outcome.named[0][1]
         counts[truth, told] += 1
     return dict(counts)

@@ -18,6 +18,8 @@ ROWS: dict[str, tuple[str, str, str]] = {
     "two_exact_large_gap": ("… where the gap is ≥ 5 floors", "", "share"),
     "two_exact_small_gap": ("… where it is smaller", "", "share"),
     "three_exact": ("three effects exactly", "", "share"),
+    "extra_causes": ("a cause that is not there", "", "share"),
+    "causes_named": ("verdict explained or partly", "", "share"),
     "false_accusations": ("healthy machines accused", "0", "share"),
     "unknown_recall": ("unknown effects called unknown", "≥ 85 %", "share"),
     "insufficient_recall": ("poor excitation called so", "", "share"),
@@ -27,6 +29,12 @@ ROWS: dict[str, tuple[str, str, str]] = {
     "seconds_median": ("seconds a case, median", "", "seconds"),
     "seconds_greatest": ("seconds a case, greatest", "≤ 60 s", "seconds"),
     "seconds_healthy_median": ("seconds a healthy case, median", "≤ 5 s", "seconds"),
+}
+
+# The halves of the faulty machines, as they are headed.
+HALVES = {
+    "without_remainder": "faulty, without a remainder",
+    "with_remainder": "faulty, with a remainder",
 }
 
 

@@ -11,7 +11,8 @@ from rotemina.sim.blind.machine import Commands, Machine
 from rotemina.sim.blind.part import Axis, Part
 
 LEAST_FLOORS = 1.5
-LEAST_SHARE = 0.06
+LEAST_BESIDE = 5.0  # floors of an effect beside a larger one, however large that is
+OVER_REMAINDER = 2.0  # rms of an effect over that of a remainder, at least
 MOST_FLOORS = 300.0
 _LEAST_STRANGE = 0.4  # of an effect in no catalogue, that simple shapes do not explain
 _GAINS = ("gain_error", "sensor_gain")
@@ -65,6 +66,19 @@ class Trial:
         got = difference(self.readings([part]), plain, part.axis)
         return part if got >= low and got < 4.0 * MOST_FLOORS else None
 
+    def with_share(self, remainder: Part, parts: Sequence[Part], share: float) -> Part:
+        """Return a remainder, sized to a share of the gap's rms that parts make on its axis."""
+        plain = self.readings([])
+        gap = difference(self.readings(parts), plain, remainder.axis)
+        alone = difference(
+            self.readings([remainder.sized(remainder.axis.floor)]), plain, remainder.axis
+        )
+        return remainder.sized(remainder.axis.floor * share * gap / alone)
+
+    def rms(self, part: Part) -> float:
+        """Return what a part does by itself, in floors."""
+        return difference(self.readings([part]), self.readings([]), part.axis)
+
     def present(self, parts: list[Part]) -> list[Present] | None:
         """Return what each part adds when all others are in; None if one does too little."""
         whole, plain = self.readings(parts), self.readings([])
@@ -74,7 +88,8 @@ class Trial:
             floors = difference(whole, rest, part.axis)
             gap = difference(whole, plain, part.axis)
             share = (floors / gap) ** 2
-            if floors < LEAST_FLOORS or share < LEAST_SHARE:
+            together = sum(other.axis is part.axis for other in parts) > 1
+            if floors < (LEAST_BESIDE if together else LEAST_FLOORS):
                 return None
             out.append(Present(part, floors, share, gap))
         return out

@@ -24,6 +24,9 @@ from rotemina.sim.effects.formulation import (
     Trait,
     Values,
 )
+from rotemina.sim.effects.identification import Identification
+from rotemina.sim.effects.kinship import Family, Kinship
+from rotemina.sim.effects.starts import lag_lateness, lag_share, late
 
 _INNER_SHARE = 1.0 / 40.0  # of the axis' period: steps are answered to 0.2 % of their height
 
@@ -119,6 +122,10 @@ AMPLIFIER_LAG = Effect(
     summary="Phase and gain both fall with frequency; a tap at u shows it.",
     stage=Stage.ELECTRONICS,
     kinds=EVERY_KIND,
+    identification=Identification(
+        starts=late("time_constant", (0.5, 2.0, 8.0), lag_share), lateness_s=lag_lateness
+    ),
+    kinship=Kinship(family=Family.LATE, prior=0.6),
     formulations=(
         Formulation(
             name="first_order",

@@ -15,6 +15,9 @@ from rotemina.sim.effects.formulation import (
     Trait,
     Values,
 )
+from rotemina.sim.effects.identification import Identification
+from rotemina.sim.effects.kinship import Family, Kinship
+from rotemina.sim.effects.starts import sizes
 
 FLANKS = 8
 _INNER_SHARE = 1.0 / 20.0  # of the axis' period: how finely its turning points are seen
@@ -59,6 +62,8 @@ BACKLASH = Effect(
     summary="A dead band at each reversal, as wide at any amplitude and speed.",
     stage=Stage.MECHANICS,
     kinds=frozenset({"stepper", "force"}),
+    identification=Identification(starts=sizes(width=(0.1, 0.5, 2.0))),
+    kinship=Kinship(family=Family.LOST_MOTION, brings_along={Family.RESONANCE: 0.25}),
     formulations=(
         Formulation(
             name="rigid",

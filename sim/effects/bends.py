@@ -27,9 +27,9 @@ def parameters() -> tuple[Parameter, ...]:
     return (
         Parameter("begin", "of the stretch, from the low end of the range", "", 0.0, 1.0, 0.0),
         Parameter("end", "of the stretch", "", 0.0, 1.0, 1.0),
-        Parameter(_SINES[0], "a₁, a bow", "", -0.2, 0.2, 0.005),
+        Parameter(_SINES[0], "a₁, a bow", "", -0.2, 0.2, 0.005, linear=True),
         *(
-            Parameter(name, f"a{k}", "", -0.2, 0.2, 0.0)
+            Parameter(name, f"a{k}", "", -0.2, 0.2, 0.0, linear=True)
             for name, k in zip(_SINES[1:], "₂₃₄", strict=True)
         ),
     )

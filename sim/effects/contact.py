@@ -4,6 +4,7 @@ The sign of the strength says on which side: positive for what is met on the way
 what is met on the way down. So a fit goes smoothly through "no contact" from one to the other.
 """
 
+from collections.abc import Iterator
 from math import inf, pi, sqrt
 
 import numpy as np
@@ -20,6 +21,8 @@ from rotemina.sim.effects.formulation import (
     Trait,
     Values,
 )
+from rotemina.sim.effects.identification import Extent, Identification, Interval, View
+from rotemina.sim.effects.kinship import Family, Kinship
 
 _INNER_SHARE = 1.0 / 30.0  # of the period of the axis in contact
 _DEPTH = 0.1  # of the range, at which a progressive contact is as stiff as it is said to be
@@ -126,12 +129,69 @@ _STIFFNESS = Parameter(
 _DAMPING = Parameter("damping_ratio", "ζ, of the contact", "", 0.0, 2.0, 0.1)
 _DISSIPATIVE = frozenset({Trait.MEMORYLESS, Trait.DISSIPATIVE})
 
+_PLACES = (0.4, 0.6, 0.8, 0.92)  # of the way to the end where something is met
+_SOONER = (0.0, 0.03, 0.08)  # of the travel, that a soft contact begins before a stop's place
+_STIFFER = (1.0, 3.0)
+_ALL_BUT = 0.96  # share blocked by a contact as stiff as one can be
+_TOUCHED = 0.7  # of the way that an axis goes, over which a contact may act
+
+
+def _places(view: View) -> Iterator[Values]:
+    """Give places where a contact may be met on the way up, and on the way down."""
+    values, (least, most) = view.values, view.extent.reach
+    low, high = view.bounds("place")
+    strength = next(name for name in ("stiffness", "blocked") if name in values)
+    if view.given:  # a crude form was fitted there
+        place, hard = values["place"], values[strength]
+        for before in _SOONER:
+            sooner = place - float(np.sign(hard)) * before * (most - least)
+            for times in _STIFFER:
+                yield {"place": sooner, strength: hard * times}
+        return
+    for sign in (1.0, -1.0):
+        for share in _PLACES:
+            place = least if sign < 0.0 else most
+            place -= sign * (1.0 - share) * (most - least)
+            yield {
+                "place": float(np.clip(place - view.facts.low, low, high)),
+                strength: sign * abs(values[strength]),
+            }
+
+
+def _from_stop(fitted: Values) -> Values:
+    """Return place and stiffness of a contact whose crude form blocks a share of the motion.
+
+    A spring k beside the axis' own K takes the share k/(k + K).
+    """
+    share = min(abs(fitted["blocked"]), _ALL_BUT)
+    return {
+        "place": fitted["place"],
+        "stiffness": float(np.copysign(share / (1.0 - share), fitted["blocked"])),
+    }
+
+
+def _met_on_the_way(values: Values, facts: Facts, _bounds: Interval, extent: Extent) -> Interval:
+    """Return where a contact may be, from the low end of the range: a good part of the way is free.
+
+    What acts wherever the axis goes is no contact but another characteristic of it.
+    """
+    least, most = extent.reach
+    strength = values.get("stiffness", values.get("blocked", 1.0))
+    shares = (1.0 - _TOUCHED, 1.0) if strength >= 0.0 else (0.0, _TOUCHED)
+    low, high = ((least + share * (most - least)) - facts.low for share in shares)
+    return max(low, 0.0), min(high, facts.span)
+
+
 CONTACT = Effect(
     id="contact",
     title="Contact",
     summary="A stop or a membrane: acts beyond a position alone.",
     stage=Stage.MECHANICS,
     kinds=EVERY_KIND,
+    identification=Identification(
+        starts=_places, domain={"place": _met_on_the_way}, from_other=_from_stop
+    ),
+    kinship=Kinship(prior=0.5, imitated_by=frozenset({Family.CURVE, Family.LIMIT})),
     formulations=(
         Formulation(
             name="spring",

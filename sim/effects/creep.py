@@ -12,6 +12,9 @@ from rotemina.sim.effects.formulation import (
     Trait,
     Values,
 )
+from rotemina.sim.effects.identification import Identification
+from rotemina.sim.effects.kinship import Family, Kinship
+from rotemina.sim.effects.starts import sizes
 
 TERMS = 12
 _SPACING = 1.45  # logarithm of the ratio of neighbouring rates
@@ -72,6 +75,8 @@ CREEP = Effect(
     summary="Goes on after a move, in proportion to it and with its sign, by the log of time.",
     stage=Stage.ACTUATOR,
     kinds=frozenset({"piezo"}),
+    identification=Identification(starts=sizes(onset=(0.3, 3.0))),
+    kinship=Kinship(family=Family.CREEP),
     formulations=(
         Formulation(
             name="logarithmic",

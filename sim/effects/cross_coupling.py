@@ -5,6 +5,8 @@ coupling also shifts the axis by what the other one rests at. The unit of k is t
 that of ``from_axis``.
 """
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
@@ -21,7 +23,10 @@ from rotemina.sim.effects.formulation import (
     Trait,
     Values,
 )
+from rotemina.sim.effects.identification import Identification, View
+from rotemina.sim.effects.kinship import Kinship
 from rotemina.sim.effects.modes import modal_parameters, modal_part
+from rotemina.sim.effects.starts import modes, regressed
 
 
 def leak(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
@@ -52,12 +57,24 @@ _DAMPING = Parameter("damping_ratio", "of the mode", "", 1e-4, 2.0, 0.05)
 _SOURCE = "Skogestad and Postlethwaite, Multivariable Feedback Control, 2nd ed. (2005), ch. 3"
 _LINEAR = frozenset({Trait.LINEAR, Trait.MEMORYLESS})
 
+
+def _couplings(view: View) -> Iterator[Values]:
+    k = regressed(view, "k")
+    if "frequency" not in view.values:
+        yield {"k": k}
+        return
+    for start in modes(view):
+        yield {"k": k or view.values["k"], **start}
+
+
 CROSS_COUPLING = Effect(
     id="cross_coupling",
     title="Cross coupling",
     summary="Follows the motion of another axis.",
     stage=Stage.MECHANICS,
     kinds=EVERY_KIND,
+    identification=Identification(starts=_couplings),
+    kinship=Kinship(prior=0.7),
     coupled=True,
     formulations=(
         Formulation(

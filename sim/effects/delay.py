@@ -9,6 +9,9 @@ from rotemina.sim.effects.formulation import (
     Stage,
     Trait,
 )
+from rotemina.sim.effects.identification import Identification
+from rotemina.sim.effects.kinship import Family, Kinship
+from rotemina.sim.effects.starts import late
 
 DELAY = Effect(
     id="delay",
@@ -16,6 +19,11 @@ DELAY = Effect(
     summary="The phase grows with frequency while the gain stays 1.",
     stage=Stage.ELECTRONICS,
     kinds=EVERY_KIND,
+    identification=Identification(
+        starts=late("delay", (0.3, 1.0, 4.0, 15.0), lambda _: 1.0),
+        lateness_s=lambda values: values["delay"],
+    ),
+    kinship=Kinship(family=Family.LATE),
     formulations=(
         Formulation(
             name="transport",

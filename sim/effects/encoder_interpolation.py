@@ -12,6 +12,10 @@ from rotemina.sim.effects.formulation import (
     Trait,
     Values,
 )
+from rotemina.sim.effects.harmonics import moved
+from rotemina.sim.effects.identification import Identification
+from rotemina.sim.effects.kinship import Family, Kinship
+from rotemina.sim.effects.starts import periods
 
 
 def subdivided(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
@@ -28,7 +32,12 @@ def _by_phase(values: Values, _facts: Facts) -> tuple[float, ...]:
 
 
 def _amplitude(name: str, meaning: str, typical: float) -> Parameter:
-    return Parameter(name, meaning, "q", -1e-5, 1e-5, typical)
+    return Parameter(name, meaning, "q", -1e-5, 1e-5, typical, linear=True)
+
+
+# Gratings are ruled at 20 μm as a rule, else at 4, 8, 10 or 40 μm. Over records far apart, a period
+# that is but nearly right is in phase with none.
+_GRATINGS = (1.0, 0.2, 0.4, 0.5, 2.0)
 
 
 ENCODER_INTERPOLATION = Effect(
@@ -37,6 +46,12 @@ ENCODER_INTERPOLATION = Effect(
     summary="Periodic in position with the grating's period, on the reading alone.",
     stage=Stage.SENSOR,
     kinds=frozenset({"stepper", "force"}),
+    identification=Identification(
+        starts=periods(*_GRATINGS),
+        domain={"period": (1e-7, 2e-4)},  # a screw's, beyond
+        moved=moved(("sine", "cosine"), ("second_sine", "second_cosine")),
+    ),
+    kinship=Kinship(family=Family.PERIOD),
     formulations=(
         Formulation(
             name="two_harmonics",

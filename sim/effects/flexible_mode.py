@@ -15,7 +15,10 @@ from rotemina.sim.effects.formulation import (
     Trait,
     Values,
 )
+from rotemina.sim.effects.identification import Identification
+from rotemina.sim.effects.kinship import Family, Kinship
 from rotemina.sim.effects.modes import modal_parameters, modal_part
+from rotemina.sim.effects.starts import modes
 
 FREQUENCY = Parameter("frequency", "of the mode", "Hz", 0.02, 50.0, 1.7, per="pace_hz")
 DAMPING = Parameter("damping_ratio", "of the mode", "", 1e-4, 2.0, 0.03)
@@ -84,6 +87,11 @@ FLEXIBLE_MODE = Effect(
     summary="A peak or a dip where the model has none.",
     stage=Stage.MECHANICS,
     kinds=EVERY_KIND,
+    identification=Identification(
+        starts=modes,
+        domain={"damping_ratio": (1e-4, 0.35)},  # a lag, beyond
+    ),
+    kinship=Kinship(brings_along={Family.RESONANCE: 1.0}),
     formulations=(
         Formulation(
             name="parallel",

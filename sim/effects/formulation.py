@@ -16,7 +16,7 @@ equations. A formulation *acts* in one of these ways:
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from math import inf
 
@@ -24,6 +24,8 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.effects.facts import Facts
+from rotemina.sim.effects.identification import Identification
+from rotemina.sim.effects.kinship import Kinship
 from rotemina.sim.effects.step import StepFunction
 from rotemina.sim.plugin_points import API_VERSIONS
 from rotemina.sim.robot.model import Axis
@@ -79,6 +81,9 @@ class Parameter:
         A figure of :class:`~rotemina.sim.effects.facts.Facts` that these three are multiples of.
     spare : str, optional
         A figure by which it may be less: what the axis itself has of it already.
+    linear : bool
+        Whether it is an amount of either sign in which the effect is linear, so that a fit needs
+        no search for it.
     """
 
     name: str
@@ -89,6 +94,7 @@ class Parameter:
     typical: float
     per: str | None = None
     spare: str | None = None
+    linear: bool = False
 
     def scale(self, facts: Facts) -> float:
         """Return what bounds and preset are multiples of, on this axis."""
@@ -306,6 +312,10 @@ class Effect:
         The first is the usual one.
     coupled : bool
         Whether it needs a ``from_axis``.
+    identification : Identification
+        How it is found in records.
+    kinship : Kinship
+        How it stands to others.
     api_version : int
         The version of this interface that the effect was written for.
     """
@@ -317,6 +327,8 @@ class Effect:
     kinds: frozenset[str]
     formulations: tuple[Formulation, ...]
     coupled: bool = False
+    identification: Identification = field(default_factory=Identification)
+    kinship: Kinship = field(default_factory=Kinship)
     api_version: int = API_VERSIONS["rotemina.effects"]
 
     def formulation(self, name: str | None = None) -> Formulation | None:

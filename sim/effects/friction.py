@@ -1,5 +1,6 @@
 """Friction in guides and screw: a force against motion, and against its beginning."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 from math import inf, pi, sqrt
 
@@ -17,6 +18,8 @@ from rotemina.sim.effects.formulation import (
     Trait,
     Values,
 )
+from rotemina.sim.effects.identification import Identification, Retuning, View
+from rotemina.sim.effects.kinship import Family, Kinship
 from rotemina.sim.robot.model import Axis
 
 SPRINGS = 8
@@ -202,12 +205,35 @@ def _viscous(name: str, meaning: str) -> Parameter:
 _STATIC_RATIO = Parameter("static_ratio", "of static over dry friction", "", 1.0, 3.0, 1.0)
 _STRIBECK = Parameter("stribeck_speed", "where static friction fades", "q/s", 1e-6, 1.0, 1e-3)
 
+_LADDER = (0.3, 3.0, 20.0)  # presets
+_DEFLECTIONS = (0.3, 2.0)
+
+
+def _slips(view: View) -> Iterator[Values]:
+    dry = next(name for name in ("coulomb", "coulomb_forward", "viscous") if name in view.values)
+    for share in (1.0,) if dry == "viscous" else _LADDER:
+        start = {dry: view.values[dry] * share}
+        if "shape" not in view.values:
+            yield start
+            continue
+        for times in _DEFLECTIONS:
+            yield {**start, "deflection": view.values["deflection"] * times}
+
+
+def _damping(facts: Facts) -> Retuning | None:
+    """Return that the damping of what a force moves and nothing holds is viscous friction."""
+    free = facts.kind == "force" and facts.mass > 0.0 and facts.stiffness == 0.0
+    return Retuning("viscous", {"viscous": 0.0}) if free else None
+
+
 FRICTION = Effect(
     id="friction",
     title="Friction",
     summary="Spikes at reversals, stick-slip at low speed; damps ringing.",
     stage=Stage.MECHANICS,
     kinds=frozenset({"stepper", "force"}),
+    identification=Identification(starts=_slips, retunes=_damping, scout="springs"),
+    kinship=Kinship(family=Family.LOST_MOTION, brings_along={Family.RESONANCE: 0.25}),
     formulations=(
         Formulation(
             name="stribeck",

@@ -9,6 +9,8 @@ from rotemina.sim.effects.formulation import (
     Stage,
     Trait,
 )
+from rotemina.sim.effects.identification import Identification, Retuning
+from rotemina.sim.effects.kinship import Family, Kinship
 
 
 def scaled(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
@@ -22,6 +24,8 @@ GAIN_ERROR = Effect(
     summary="Proportional to the command, without memory.",
     stage=Stage.ACTUATOR,
     kinds=EVERY_KIND,
+    identification=Identification(retunes=lambda _: Retuning(None, {"error": 0.0})),
+    kinship=Kinship(family=Family.GAIN),
     formulations=(
         Formulation(
             name="relative",

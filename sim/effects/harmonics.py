@@ -1,9 +1,29 @@
 """An error that is periodic in a position: two harmonics, linear in their amplitudes."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import Values
+
+
+def moved(*pairs: tuple[str, str]) -> Callable[[Values, float], Values]:
+    """Return how amplitudes turn where the place is counted from elsewhere, harmonic by harmonic.
+
+    ``s sin(α + ψ) + c cos(α + ψ)`` has amplitudes ``s cos ψ − c sin ψ`` and ``c cos ψ + s sin ψ``.
+    """
+
+    def turned(values: Values, by: float) -> Values:
+        found = dict(values)
+        for k, (sine, cosine) in enumerate(pairs, 1):
+            angle = 2.0 * np.pi * k * by / values["period"]
+            s, c = values.get(sine, 0.0), values.get(cosine, 0.0)
+            found[sine] = float(s * np.cos(angle) - c * np.sin(angle))
+            found[cosine] = float(c * np.cos(angle) + s * np.sin(angle))
+        return found
+
+    return turned
 
 
 def two_harmonics(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled

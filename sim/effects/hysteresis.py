@@ -18,6 +18,9 @@ from rotemina.sim.effects.formulation import (
     Trait,
     Values,
 )
+from rotemina.sim.effects.identification import Identification
+from rotemina.sim.effects.kinship import Family, Kinship
+from rotemina.sim.effects.starts import sizes
 
 PLAYS = 10
 DEAD_ZONES = 8
@@ -162,6 +165,13 @@ HYSTERESIS = Effect(
     summary="Loops whose width grows faster than their amplitude, at any pace; odd distortion.",
     stage=Stage.ACTUATOR,
     kinds=frozenset({"piezo"}),
+    identification=Identification(starts=sizes(width=(0.3, 1.0))),
+    kinship=Kinship(
+        family=Family.LOOP,
+        brings_along={Family.GAIN: 1.0, Family.CURVE: 0.1},
+        accompanied_by=Family.CREEP,
+        narrow=frozenset({"bouc_wen"}),
+    ),
     formulations=(
         Formulation(
             name="prandtl_ishlinskii",

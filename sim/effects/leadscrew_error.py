@@ -8,11 +8,14 @@ from rotemina.sim.effects.formulation import (
     Stage,
     Trait,
 )
-from rotemina.sim.effects.harmonics import from_mid_range, two_harmonics
+from rotemina.sim.effects.harmonics import from_mid_range, moved, two_harmonics
+from rotemina.sim.effects.identification import Identification
+from rotemina.sim.effects.kinship import Family, Kinship
+from rotemina.sim.effects.starts import periods
 
 
 def _amplitude(name: str, meaning: str, typical: float) -> Parameter:
-    return Parameter(name, meaning, "q", -0.02, 0.02, typical, per="pitch")
+    return Parameter(name, meaning, "q", -0.02, 0.02, typical, per="pitch", linear=True)
 
 
 LEADSCREW_ERROR = Effect(
@@ -21,6 +24,10 @@ LEADSCREW_ERROR = Effect(
     summary="Periodic in position, once a turn: its frequency grows with speed.",
     stage=Stage.MECHANICS,
     kinds=frozenset({"stepper", "force"}),
+    identification=Identification(
+        starts=periods(1.0), moved=moved(("sine", "cosine"), ("sine_2", "cosine_2"))
+    ),
+    kinship=Kinship(family=Family.PERIOD),
     formulations=(
         Formulation(
             name="harmonics",

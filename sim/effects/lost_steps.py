@@ -12,6 +12,7 @@ from rotemina.sim.effects.formulation import (
     Trait,
     Values,
 )
+from rotemina.sim.effects.identification import Identification, Sign
 
 _STEPS = 4.0  # full steps of one electrical period
 _LONG_S = 1e8  # longer than any run: the way to the start
@@ -54,6 +55,7 @@ LOST_STEPS = Effect(
     summary="Permanent jumps by multiples of four full steps, at high load.",
     stage=Stage.ACTUATOR,
     kinds=frozenset({"stepper"}),
+    identification=Identification(shows_as=Sign.JUMPS, fitted=False),
     formulations=(
         Formulation(
             name="overload",

@@ -8,11 +8,14 @@ from rotemina.sim.effects.formulation import (
     Stage,
     Trait,
 )
-from rotemina.sim.effects.harmonics import from_mid_range, two_harmonics
+from rotemina.sim.effects.harmonics import from_mid_range, moved, two_harmonics
+from rotemina.sim.effects.identification import Identification
+from rotemina.sim.effects.kinship import Family, Kinship
+from rotemina.sim.effects.starts import periods
 
 
 def _amplitude(name: str, meaning: str, typical: float) -> Parameter:
-    return Parameter(name, meaning, "q", -0.6, 0.6, typical, per="full_step")
+    return Parameter(name, meaning, "q", -0.6, 0.6, typical, per="full_step", linear=True)
 
 
 MICROSTEP_ERROR = Effect(
@@ -21,6 +24,10 @@ MICROSTEP_ERROR = Effect(
     summary="Periodic in the commanded position, every four full steps; the mechanics filter it.",
     stage=Stage.ACTUATOR,
     kinds=frozenset({"stepper"}),
+    identification=Identification(
+        starts=periods(1.0), moved=moved(("sine", "cosine"), ("sine_2", "cosine_2"))
+    ),
+    kinship=Kinship(family=Family.PERIOD),
     formulations=(
         Formulation(
             name="harmonics",

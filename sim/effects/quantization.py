@@ -1,5 +1,7 @@
 """A coarse converter or step size: the input comes in steps."""
 
+from functools import partial
+
 import numpy as np
 
 from rotemina.sim.effects.formulation import (
@@ -11,6 +13,8 @@ from rotemina.sim.effects.formulation import (
     Stage,
     Trait,
 )
+from rotemina.sim.effects.identification import Identification
+from rotemina.sim.effects.starts import teeth
 
 
 def rounded(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
@@ -26,6 +30,7 @@ QUANTIZATION = Effect(
     summary="The response comes in steps, which the mechanics filter.",
     stage=Stage.ELECTRONICS,
     kinds=EVERY_KIND,
+    identification=Identification(starts=partial(teeth, at_input=True), stepped=True),
     formulations=(
         Formulation(
             name="uniform",

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from rotemina.sim.effects.errors import EffectError
+from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import (
     EVERY_KIND,
     Change,
@@ -13,6 +14,8 @@ from rotemina.sim.effects.formulation import (
     Trait,
     Values,
 )
+from rotemina.sim.effects.identification import Identification, Retuning
+from rotemina.sim.effects.kinship import Family, Kinship
 from rotemina.sim.robot.model import Axis
 
 
@@ -39,12 +42,25 @@ def detuned(values: Values, axis: Axis) -> Axis:
     )
 
 
+def _own(facts: Facts) -> Retuning | None:
+    """Return that mass and damping are the axis' own where a spring holds what follows a position.
+
+    What a force moves has a gain and friction instead.
+    """
+    held = facts.stiffness > 0.0 and facts.kind != "force"
+    return Retuning(None, {"frequency_error": 0.0, "damping_error": 0.0}) if held else None
+
+
 RESONANCE_MISMATCH = Effect(
     id="resonance_mismatch",
     title="Resonance mismatch",
     summary="Frequency or damping off: seen near the resonance alone.",
     stage=Stage.MECHANICS,
     kinds=EVERY_KIND,
+    identification=Identification(
+        retunes=_own, domain={"frequency_error": (-0.3, 0.3), "damping_error": (-0.8, 4.0)}
+    ),
+    kinship=Kinship(family=Family.RESONANCE),
     formulations=(
         Formulation(
             name="detuned",

@@ -1,7 +1,10 @@
 """Saturation: the output ends before the range of its input does."""
 
+from collections.abc import Iterator, Sequence
+
 import numpy as np
 
+from rotemina.sim.arrays import FloatArray
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import (
     Drive,
@@ -12,6 +15,10 @@ from rotemina.sim.effects.formulation import (
     Trait,
     Values,
 )
+from rotemina.sim.effects.identification import Identification, View
+from rotemina.sim.effects.kinship import Family, Kinship
+from rotemina.sim.effects.soft_ends import bent_ends
+from rotemina.sim.records.record import Tap
 
 
 def hard(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
@@ -51,12 +58,80 @@ def _margin(name: str, end: str) -> Parameter:
 _MARGINS = (_margin("low_margin", "low"), _margin("high_margin", "high"))
 _TRAITS = frozenset({Trait.MEMORYLESS, Trait.RATE_INDEPENDENT})
 
+_BEYOND = (0.04, 0.15)  # of the way, which a saturated amplifier does not go
+_SOFT_ENDS = (0.0, 0.1)  # of the way that was seen, that a soft end lies beyond it
+_RARELY = 0.002  # of the rows
+
+
+def _margins(view: View) -> Iterator[Values]:
+    """Give ends beyond which an amplifier does not go: a little of the way that is asked for."""
+    facts, soft = view.facts, "softness" in view.values
+    seen = [one.real[Tap.U] for one in view.records if Tap.U in one.real]
+    if seen:
+        yield from _ends_seen(view, seen)
+    if facts.kind == "force":  # whose commands ask for no voltage
+        if not seen:
+            yield {}
+        return
+    gain = facts.gain if facts.kind == "piezo" else 1.0
+    went = _way(view) / gain
+    for beyond in _SOFT_ENDS if soft else (0.0,):
+        further = beyond * float(np.ptp(went))
+        yield _between(facts, went[0] - further, went[1] + further)
+    least, most = (end / gain for end in view.extent.reach)
+    low, high = least - facts.input_low, facts.input_high - most
+    for share in _BEYOND:
+        beyond = share * (most - least)
+        yield {"low_margin": low + beyond, "high_margin": high + beyond}
+        yield {"low_margin": low - beyond, "high_margin": high + beyond}
+        yield {"low_margin": low + beyond, "high_margin": high - beyond}
+
+
+def _ends_seen(view: View, seen: Sequence[FloatArray]) -> Iterator[Values]:
+    """Give the ends of the voltages (n,) that were seen: what saturates goes no further."""
+    facts = view.facts
+    ends = min(float(u.min()) for u in seen), max(float(u.max()) for u in seen)
+    yield _between(facts, *ends)
+    if facts.kind == "piezo" and "softness" in view.values:
+        # An end that these voltages do not come near may as well lie beyond the range.
+        asked = [
+            answer[Tap.U]
+            for record, answer in zip(view.records, view.answers, strict=True)
+            if Tap.U in record.real
+        ]
+        bend = bent_ends(np.concatenate(asked), np.concatenate(seen), ends)
+        for one in (
+            bend,
+            bend.without_low(facts.input_low),
+            bend.without_high(facts.input_high),
+        ):
+            yield {**_between(facts, one.low, one.high), "softness": one.softness}
+
+
+def _between(facts: Facts, low: float, high: float) -> dict[str, float]:
+    return {"low_margin": low - facts.input_low, "high_margin": facts.input_high - high}
+
+
+def _way(view: View) -> FloatArray:
+    """Return where (2,) the axis was at least and at most, m or rad, but for outliers."""
+    seen = [
+        next(signal for tap, signal in one.real.items() if tap is not Tap.U)
+        for one in view.records
+        if set(one.real) - {Tap.U}
+    ]
+    if not seen:
+        return np.asarray(view.extent.reach)
+    return np.asarray(np.quantile(np.concatenate(seen), (_RARELY, 1.0 - _RARELY)))
+
+
 SATURATION = Effect(
     id="saturation",
     title="Saturation",
     summary="The output cannot reach the command, only near the ends of the range.",
     stage=Stage.ELECTRONICS,
     kinds=frozenset({"piezo", "force"}),
+    identification=Identification(starts=_margins),
+    kinship=Kinship(family=Family.LIMIT),
     formulations=(
         Formulation(
             name="hard",

@@ -13,6 +13,7 @@ from rotemina.sim.effects.formulation import (
     Trait,
     Values,
 )
+from rotemina.sim.effects.identification import Identification, Sign
 
 POLES = 10
 _SLOWEST_HZ = 1e-3
@@ -76,6 +77,7 @@ SENSOR_DRIFT = Effect(
     summary="The reading wanders slowly, at rest too; the reference does not.",
     stage=Stage.SENSOR,
     kinds=EVERY_KIND,
+    identification=Identification(shows_as=Sign.WANDER),
     formulations=(
         Formulation(
             name="random_walk",

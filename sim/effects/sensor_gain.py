@@ -9,6 +9,7 @@ from rotemina.sim.effects.formulation import (
     Stage,
     Trait,
 )
+from rotemina.sim.effects.kinship import Family, Kinship
 
 
 def scaled(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
@@ -22,6 +23,7 @@ SENSOR_GAIN = Effect(
     summary="The reading is off in proportion to the position; the motion is not.",
     stage=Stage.SENSOR,
     kinds=EVERY_KIND,
+    kinship=Kinship(family=Family.GAIN, prior=0.5),
     formulations=(
         Formulation(
             name="proportional",

@@ -21,6 +21,9 @@ from rotemina.sim.effects.formulation import (
     Trait,
     Values,
 )
+from rotemina.sim.effects.identification import Identification
+from rotemina.sim.effects.kinship import Family, Kinship
+from rotemina.sim.effects.starts import lag_lateness, lag_share, late
 
 _INNER_SHARE = 1.0 / 40.0  # of the axis' period: (ω h)²/12 is 0.2 %
 _FREE_STEP_S = 1e-3  # where no spring sets a period
@@ -117,6 +120,10 @@ SENSOR_LAG = Effect(
     summary="Phase and gain of the reading fall with frequency; those of the motion do not.",
     stage=Stage.SENSOR,
     kinds=EVERY_KIND,
+    identification=Identification(
+        starts=late("time_constant", (0.5, 2.0, 8.0), lag_share), lateness_s=lag_lateness
+    ),
+    kinship=Kinship(family=Family.LATE, prior=0.3),
     formulations=(
         Formulation(
             name="first_order",

@@ -9,6 +9,7 @@ from rotemina.sim.effects.formulation import (
     Stage,
     Trait,
 )
+from rotemina.sim.effects.identification import Identification, Sign
 
 
 def noisy(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
@@ -22,6 +23,7 @@ SENSOR_NOISE = Effect(
     summary="White scatter of the reading beyond the declared, without memory.",
     stage=Stage.SENSOR,
     kinds=EVERY_KIND,
+    identification=Identification(shows_as=Sign.NOISE),
     formulations=(
         Formulation(
             name="white",

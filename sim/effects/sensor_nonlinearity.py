@@ -14,6 +14,9 @@ from rotemina.sim.effects.formulation import (
     Trait,
     Values,
 )
+from rotemina.sim.effects.identification import Identification
+from rotemina.sim.effects.kinship import Family, Kinship
+from rotemina.sim.effects.starts import along_the_way
 
 _CUBIC_PEAK = 2.0 / (3.0 * sqrt(3.0))  # of ξ − ξ³, at ξ = 1/√3
 
@@ -41,15 +44,26 @@ SENSOR_NONLINEARITY = Effect(
     summary="The reading follows a bent curve without memory; the motion does not.",
     stage=Stage.SENSOR,
     kinds=EVERY_KIND,
+    identification=Identification(starts=along_the_way),
+    kinship=Kinship(family=Family.CURVE, prior=0.5, brings_along={Family.GAIN: 1.0}),
     formulations=(
         Formulation(
             name="bow_and_cubic",
             equation="y = q + (1 − ξ²)(b + c ξ·3√3/2), ξ = −1…1 over the range",
             source="Fleming, Sensors and Actuators A 190 (2013) 106–126",
             parameters=(
-                Parameter("bow", "b, error in mid-range", "q", -0.1, 0.1, 0.004, per="span"),
                 Parameter(
-                    "cubic", "c, greatest of the odd part", "q", -0.1, 0.1, 0.001, per="span"
+                    "bow", "b, error in mid-range", "q", -0.1, 0.1, 0.004, per="span", linear=True
+                ),
+                Parameter(
+                    "cubic",
+                    "c, greatest of the odd part",
+                    "q",
+                    -0.1,
+                    0.1,
+                    0.001,
+                    per="span",
+                    linear=True,
                 ),
             ),
             acts=Reading(step=bowed),

@@ -18,6 +18,7 @@ from rotemina.sim.effects.formulation import (
     Stage,
     Trait,
 )
+from rotemina.sim.effects.identification import Identification, Sign
 
 _HALF_ROOT = 0.5**0.5
 
@@ -67,6 +68,7 @@ SENSOR_OUTLIERS = Effect(
     summary="Single samples far off: spikes, or readings that drop out.",
     stage=Stage.SENSOR,
     kinds=EVERY_KIND,
+    identification=Identification(shows_as=Sign.SPIKES),
     formulations=(
         Formulation(
             name="spikes",

@@ -1,5 +1,7 @@
 """A sensor that reads in coarser steps than declared."""
 
+from functools import partial
+
 import numpy as np
 
 from rotemina.sim.effects.formulation import (
@@ -11,6 +13,8 @@ from rotemina.sim.effects.formulation import (
     Stage,
     Trait,
 )
+from rotemina.sim.effects.identification import Identification, Sign
+from rotemina.sim.effects.starts import teeth
 
 
 def rounded(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
@@ -26,6 +30,9 @@ SENSOR_QUANTIZATION = Effect(
     summary="Steps of the reading, sharp at any speed: no mechanics filters them.",
     stage=Stage.SENSOR,
     kinds=EVERY_KIND,
+    identification=Identification(
+        starts=partial(teeth, at_input=False), stepped=True, shows_as=Sign.STEPS
+    ),
     formulations=(
         Formulation(
             name="uniform",

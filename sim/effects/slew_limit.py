@@ -3,6 +3,7 @@
 import numpy as np
 
 from rotemina.sim.effects.amplifier_lag import inner_step
+from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import (
     Drive,
     Effect,
@@ -10,7 +11,10 @@ from rotemina.sim.effects.formulation import (
     Parameter,
     Stage,
     Trait,
+    Values,
 )
+from rotemina.sim.effects.identification import Extent, Identification, Interval
+from rotemina.sim.effects.starts import sizes
 
 _STEEP = 20.0  # where sinh v is eᵛ/2 to rounding
 _PANEL_ENDS = (0.0, 1.0, 3.0, 8.0, _STEEP)
@@ -67,12 +71,28 @@ RATE = Parameter("rate", "r, the greatest; current over capacitance", "u/s", 0.1
                  per="input_span")  # fmt: skip
 _TRAITS = frozenset({Trait.TRANSIENT, Trait.MEMORYLESS})
 
+_AT_ONCE_S = 5e-4  # over which an axis may be asked to go all its way
+
+
+def _slower_than_asked(_values: Values, facts: Facts, bounds: Interval, extent: Extent) -> Interval:
+    """Return rates, in inputs per second, of which the greatest is one that hardly anything asks.
+
+    Beyond it is no limit: a soft one that never acts would pass for a lag.
+    """
+    low, high = bounds
+    asked = (extent.reach[1] - extent.reach[0]) / facts.gain / _AT_ONCE_S
+    return low, max(min(high, asked), 2.0 * low)
+
+
 SLEW_LIMIT = Effect(
     id="slew_limit",
     title="Slew limit",
     summary="Only large and fast motion suffers; it becomes a triangle.",
     stage=Stage.ELECTRONICS,
     kinds=frozenset({"piezo"}),
+    identification=Identification(
+        starts=sizes(rate=(10.0, 3.0, 1.0, 0.3, 0.1, 0.03)), domain={"rate": _slower_than_asked}
+    ),
     formulations=(
         Formulation(
             name="hard",

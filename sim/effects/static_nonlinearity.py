@@ -18,6 +18,9 @@ from rotemina.sim.effects.formulation import (
     Trait,
     Values,
 )
+from rotemina.sim.effects.identification import Identification
+from rotemina.sim.effects.kinship import Family, Kinship
+from rotemina.sim.effects.starts import along_the_way
 
 _CUBIC_PEAK = 2.0 / (3.0 * np.sqrt(3.0))  # of z − z³ within −1…1
 
@@ -66,6 +69,8 @@ STATIC_NONLINEARITY = Effect(
     summary="A curve of the command, without memory, filtered by the mechanics.",
     stage=Stage.ACTUATOR,
     kinds=EVERY_KIND,
+    identification=Identification(starts=along_the_way),
+    kinship=Kinship(family=Family.CURVE, brings_along={Family.GAIN: 1.0}),
     formulations=(
         Formulation(
             name="polynomial",
@@ -73,8 +78,24 @@ STATIC_NONLINEARITY = Effect(
             source="Giri and Bai (eds.), Block-oriented Nonlinear System Identification (2010): "
             "polynomial Hammerstein systems",
             parameters=(
-                Parameter("bow", "b at mid-range, as a share of the range", "", -0.2, 0.2, 0.02),
-                Parameter("s_shape", "peak of c, as a share of the range", "", -0.05, 0.05, 0.0),
+                Parameter(
+                    "bow",
+                    "b at mid-range, as a share of the range",
+                    "",
+                    -0.2,
+                    0.2,
+                    0.02,
+                    linear=True,
+                ),
+                Parameter(
+                    "s_shape",
+                    "peak of c, as a share of the range",
+                    "",
+                    -0.05,
+                    0.05,
+                    0.0,
+                    linear=True,
+                ),
             ),
             acts=Drive(step=polynomial),
             prepare=_polynomial,

@@ -1,5 +1,7 @@
 """A flexure that stiffens as it bends: a bowed static curve whose resonance moves with position."""
 
+from collections.abc import Iterator
+
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import (
     Effect,
@@ -10,6 +12,8 @@ from rotemina.sim.effects.formulation import (
     Trait,
     Values,
 )
+from rotemina.sim.effects.identification import Identification, View
+from rotemina.sim.effects.kinship import Family, Kinship
 
 _INNER_SHARE = 1.0 / 30.0  # of the axis' period; the error goes with its square
 
@@ -60,11 +64,29 @@ def _inner_step(_values: Values, facts: Facts) -> float:
     return _INNER_SHARE / facts.frequency_hz
 
 
-_HARDENING = Parameter("hardening", "ε, share of further force at L from q₀", "", -0.01, 1.0, 0.05)
+_HARDENING = Parameter(
+    "hardening", "ε, share of further force at L from q₀", "", -0.01, 1.0, 0.05, linear=True
+)
 _CENTRE = Parameter(
     "centre", "where it is straight, from mid-range", "q", -0.5, 0.5, 0.0, per="span"
 )
 _TRAITS = frozenset({Trait.MEMORYLESS, Trait.RATE_INDEPENDENT, Trait.DISSIPATIVE})
+
+_CENTRES = (-0.45, -0.2, 0.0, 0.2, 0.45)  # of the range, from mid-range
+_HARDER = (1.0, 4.0)  # presets
+
+
+def _centres(view: View) -> Iterator[Values]:
+    if view.given:  # a simpler form was fitted there
+        yield {}
+        return
+    for share in _CENTRES:
+        for times in _HARDER:
+            yield {
+                "centre": share * view.facts.span,
+                "hardening": times * view.values["hardening"],
+            }
+
 
 STIFFNESS_NONLINEARITY = Effect(
     id="stiffness_nonlinearity",
@@ -72,6 +94,8 @@ STIFFNESS_NONLINEARITY = Effect(
     summary="A bowed static curve, and a resonance that moves with position.",
     stage=Stage.MECHANICS,
     kinds=frozenset({"piezo"}),
+    identification=Identification(starts=_centres, from_other=dict),
+    kinship=Kinship(brings_along={Family.GAIN: 1.0}),
     formulations=(
         Formulation(
             name="cubic",

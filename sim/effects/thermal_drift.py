@@ -11,6 +11,8 @@ from rotemina.sim.effects.formulation import (
     Stage,
     Trait,
 )
+from rotemina.sim.effects.identification import Identification
+from rotemina.sim.effects.starts import sizes
 
 
 def warm_up(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
@@ -24,6 +26,7 @@ THERMAL_DRIFT = Effect(
     summary="Grows without motion and settles, whatever the command.",
     stage=Stage.MECHANICS,
     kinds=EVERY_KIND,
+    identification=Identification(starts=sizes(time_constant=(0.03, 0.2, 1.0))),
     formulations=(
         Formulation(
             name="warm_up",
@@ -31,7 +34,14 @@ THERMAL_DRIFT = Effect(
             source="Incropera et al., Fundamentals of Heat and Mass Transfer (2007), ch. 5",
             parameters=(
                 Parameter(
-                    "amplitude", "A, where the drift ends", "q", -0.1, 0.1, 0.005, per="span"
+                    "amplitude",
+                    "A, where the drift ends",
+                    "q",
+                    -0.1,
+                    0.1,
+                    0.005,
+                    per="span",
+                    linear=True,
                 ),
                 Parameter("time_constant", "τ", "s", 0.1, 1e5, 60.0),
             ),

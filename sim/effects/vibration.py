@@ -1,5 +1,7 @@
 """Vibration from outside, of the floor or of a fan: periodic in time."""
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from rotemina.sim.effects.facts import Facts
@@ -13,6 +15,8 @@ from rotemina.sim.effects.formulation import (
     Trait,
     Values,
 )
+from rotemina.sim.effects.identification import Extent, Identification, Interval, Sign, View
+from rotemina.sim.effects.kinship import Kinship
 
 
 def tone(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
@@ -36,7 +40,7 @@ def _numbers(values: Values, _facts: Facts) -> tuple[float, ...]:
 
 
 def _amplitude(name: str, meaning: str, typical: float) -> Parameter:
-    return Parameter(name, meaning, "q", -0.1, 0.1, typical, per="span")
+    return Parameter(name, meaning, "q", -0.1, 0.1, typical, per="span", linear=True)
 
 
 _TONE = (
@@ -46,12 +50,33 @@ _TONE = (
 )
 _SOURCE = "Harris and Piersol, Shock and Vibration Handbook, 5th ed. (2002)"
 
+_PERIODS = 3.0  # that a record holds of what is periodic: less of it is any slow change
+
+
+def _lines(view: View) -> Iterator[Values]:
+    seen = view.frequency(view.domain("frequency"))
+    yield {"frequency": seen or view.values["frequency"]}
+
+
+def _seen_to_return(_values: Values, _facts: Facts, bounds: Interval, extent: Extent) -> Interval:
+    """Return frequencies, in Hz, of which a record holds a few periods."""
+    low, high = bounds
+    return min(max(low, _PERIODS / extent.longest_s), high), high
+
+
 VIBRATION = Effect(
     id="vibration",
     title="Vibration",
     summary="Periodic in time, whatever the position and the command.",
     stage=Stage.MECHANICS,
     kinds=EVERY_KIND,
+    identification=Identification(
+        starts=_lines,
+        domain={"frequency": _seen_to_return},
+        of_the_record=frozenset({"sine", "cosine", "sine_2", "cosine_2"}),
+        shows_as=Sign.TONES,
+    ),
+    kinship=Kinship(prior=0.5),
     formulations=(
         Formulation(
             name="tone",

@@ -3,7 +3,9 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from rotemina.sim.gap.baseline import FRICTION, GAIN, OWN, RESONANCE, baseline
+from rotemina.sim.effects.kinship import Family
+from rotemina.sim.gap.baseline import baseline, is_whole_own
+from rotemina.sim.gap.catalogue import brought_along, is_of
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import fit
 from rotemina.sim.gap.models import Explanation, explanation, mean_squares
@@ -13,17 +15,6 @@ from rotemina.sim.robot.model import AxisEffect
 _REFITTED = 5
 _SAME_MASS = 0.3  # relative difference of masses that are one
 _NEAR = 4.0  # times the best score
-_BRINGS_ALONG = {  # what a loop, a curve, a stiffening spring, or a mass on a spring moves as well
-    "hysteresis": (GAIN,),
-    "static_nonlinearity": (GAIN,),
-    "sensor_nonlinearity": (GAIN,),
-    "stiffness_nonlinearity": (GAIN,),
-    "flexible_mode": (RESONANCE,),
-}
-_BENDS = {  # an axis that sticks, or is loose, rings otherwise: what a re-tuning must close then
-    ("friction", RESONANCE): 0.25,
-    ("backlash", RESONANCE): 0.25,
-}
 
 
 def attributed(evidence: Evidence, bare: Explanation, explained: Explanation) -> Explanation:
@@ -36,17 +27,17 @@ def attributed(evidence: Evidence, bare: Explanation, explained: Explanation) ->
     named = {cause.id for cause in explained.causes}
     fitted = {one.id for one in explained.fit.effects}  # a rival may be fitted without one of them
     own = [one for one in baseline(evidence) if one.id in fitted - named]
-    brought = {name for cause in named for name in _BRINGS_ALONG.get(cause, ())}
-    if _is_part_of_the_mass(explained):
-        brought.add(GAIN)
+    heavier = _is_part_of_the_mass(explained)
     found = list(explained.causes)
     without = {one.id: _without(evidence, explained, one.id) for one in own}
-    if FRICTION in without:
-        light = _with_another_mass(evidence, explained)
-        without[FRICTION] = min(light, without[FRICTION], key=lambda one: one.score)
     for one in own:
-        least = max([LEAST_SHARE, *(_BENDS.get((cause, one.id), 0.0) for cause in named)])
-        if one.id not in brought and _closes(bare, without[one.id], explained, least):
+        if "viscous" in one.parameters:
+            light = _with_another_mass(evidence, explained, one.id)
+            without[one.id] = min(light, without[one.id], key=lambda one: one.score)
+    for one in own:
+        least = max([LEAST_SHARE, *(brought_along(one.id, cause) for cause in named)])
+        never = least >= 1.0 or (heavier and is_of(Family.GAIN, one.id))
+        if not never and _closes(bare, without[one.id], explained, least):
             found.append(_fitted(explained, one.id))
     if not found and own:
         # Either would do: the one without which most is left.
@@ -65,14 +56,16 @@ def without_own(
 
     It takes part in every fit, so that any explanation beside it would do as well.
     """
-    if cause[0] not in OWN:
+    if not is_whole_own(cause[0]):
         return list(tried)
-    others = [one for one in best.causes if (one.id, one.from_axis) != cause and one.id not in OWN]
+    others = [
+        one for one in best.causes if (one.id, one.from_axis) != cause and not is_whole_own(one.id)
+    ]
     rivals = [
         one
         for one in tried
         if len(one.causes) == len(others) + 1
-        and all(own.id not in OWN for own in one.causes)
+        and not any(is_whole_own(own.id) for own in one.causes)
         and one.score < _NEAR * best.score  # without, it does worse still
     ]
     return [
@@ -95,11 +88,9 @@ def _is_part_of_the_mass(explained: Explanation) -> bool:
     Its share μ of the mass more is then a gain that is higher by as much: of both together the
     motion is that of the whole mass, of which a part is not rigid.
     """
-    gain = sum(one.parameters["error"] for one in explained.fit.effects if one.id == GAIN)
+    gain = _gain_of(explained)
     ratios = [
-        one.parameters["mass_ratio"]
-        for one in explained.causes
-        if one.id == "flexible_mode" and "mass_ratio" in one.parameters
+        one.parameters["mass_ratio"] for one in explained.causes if "mass_ratio" in one.parameters
     ]
     return any(abs(gain - ratio) < _SAME_MASS * ratio for ratio in ratios)
 
@@ -109,17 +100,26 @@ def _without(evidence: Evidence, explained: Explanation, name: str) -> Explanati
     return explanation(evidence, len(explained.causes), fit(evidence, others, most_steps=6))
 
 
-def _with_another_mass(evidence: Evidence, explained: Explanation) -> Explanation:
+def _gain_of(explained: Explanation) -> float:
+    """Return by how much the axis' own gain is re-tuned."""
+    return sum(
+        one.parameters["error"]
+        for one in explained.fit.effects
+        if is_whole_own(one.id) and is_of(Family.GAIN, one.id)
+    )
+
+
+def _with_another_mass(evidence: Evidence, explained: Explanation, friction: str) -> Explanation:
     """Return an explanation with the damping that a force axis of another mass has.
 
     A wrong mass is a gain, and damping in proportion to it: what is damped stays as it was.
     """
     effects = explained.fit.effects
-    share = sum(one.parameters["error"] for one in effects if one.id == GAIN)
+    share = _gain_of(explained)
     inertia = evidence.robot.axes[evidence.axis].inertia
     damping = {"viscous": share * (inertia.damping if inertia else 0.0)}
-    others = [one for one in effects if one.id != FRICTION]
-    left = evidence.residual([*others, replace(_fitted(explained, FRICTION), parameters=damping)])
+    others = [one for one in effects if one.id != friction]
+    left = evidence.residual([*others, replace(_fitted(explained, friction), parameters=damping)])
     return replace(explained, held_out=left, by_tap=mean_squares(evidence, left))
 
 

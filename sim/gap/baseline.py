@@ -1,38 +1,40 @@
 """The model's own parameters, which are re-tuned beside every effect that is tried."""
 
+from rotemina.sim.effects.facts import Facts
+from rotemina.sim.effects.registry import effect_named
+from rotemina.sim.gap.catalogue import catalogue
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.robot.model import AxisEffect, ForceAxis
-
-GAIN, RESONANCE, FRICTION = "gain_error", "resonance_mismatch", "friction"
-OWN = (GAIN, RESONANCE)  # effects that are no more than other numbers of the model
+from rotemina.sim.robot.model import AxisEffect
 
 
 def baseline(evidence: Evidence) -> tuple[AxisEffect, ...]:
     """Return the re-tuning of an axis' own parameters, from none on.
 
     A missing effect must not be taken for a wrong parameter, nor a wrong parameter for an effect.
-    Where a force moves an axis that nothing holds, its mass is a gain and its damping friction.
     """
-    axis = evidence.robot.axes[evidence.axis]
-    found = [AxisEffect(axis=evidence.axis, id=GAIN, parameters={"error": 0.0})]
-    inertia = axis.inertia
-    held = inertia is not None and inertia[2] > 0.0
-    if not axis.static and held and not isinstance(axis, ForceAxis):
-        none = {"frequency_error": 0.0, "damping_error": 0.0}
-        found.append(AxisEffect(axis=evidence.axis, id=RESONANCE, parameters=none))
-    if inertia is not None and not held and isinstance(axis, ForceAxis):
-        found.append(
-            AxisEffect(
-                axis=evidence.axis,
-                id=FRICTION,
-                formulation="viscous",
-                parameters={"viscous": 0.0},
+    facts = Facts.of(evidence.robot.axes[evidence.axis])
+    found = []
+    for effect in catalogue():
+        own = effect.identification.retunes(facts)
+        if own is not None and facts.kind in effect.kinds:
+            found.append(
+                AxisEffect(
+                    axis=evidence.axis,
+                    id=effect.id,
+                    formulation=own.formulation,
+                    parameters=dict(own.values),
+                )
             )
-        )
     return tuple(found)
 
 
 def is_own(evidence: Evidence, effect: AxisEffect) -> bool:
     """Tell whether an effect is no more than the model's own parameters are."""
     own = {(one.id, one.formulation) for one in baseline(evidence)}
-    return effect.id in OWN or (effect.id, effect.formulation) in own
+    return is_whole_own(effect.id) or (effect.id, effect.formulation) in own
+
+
+def is_whole_own(effect_id: str) -> bool:
+    """Tell whether an effect is no more than other numbers of the model, whatever its form."""
+    effect = effect_named(effect_id)
+    return len(effect.formulations) == 1 and effect.identification.is_retuning

@@ -11,14 +11,12 @@ from math import isfinite
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.effects.formulation import Effect, Reading
-from rotemina.sim.effects.registry import all_effects
+from rotemina.sim.effects.registry import effect_named
+from rotemina.sim.gap.catalogue import catalogue
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
-
-_TELLING = {"friction": "springs"}
-_EVENTS = ("lost_steps",)
 
 
 def candidates(evidence: Evidence) -> tuple[AxisEffect, ...]:
@@ -28,8 +26,8 @@ def candidates(evidence: Evidence) -> tuple[AxisEffect, ...]:
     """
     found: list[AxisEffect] = []
     sources = _other_axes(evidence)
-    for effect in all_effects()[0].values():
-        if effect.id not in _EVENTS:
+    for effect in catalogue():
+        if effect.identification.fitted:
             found += _formulations(evidence, effect, sources if effect.coupled else [None])
     return tuple(found)
 
@@ -41,11 +39,15 @@ def scouts(evidence: Evidence, own: Sequence[AxisEffect]) -> list[AxisEffect]:
     """
     quick = [one for one in own if not is_slow(evidence, one)]
     seen = {(one.id, one.from_axis) for one in quick}
-    for one in sorted(own, key=lambda one: _TELLING.get(one.id) != one.formulation):
+    for one in sorted(own, key=lambda one: not _tells_most(one)):
         if (one.id, one.from_axis) not in seen:
             seen.add((one.id, one.from_axis))
             quick.append(one)
     return quick
+
+
+def _tells_most(candidate: AxisEffect) -> bool:
+    return effect_named(candidate.id).identification.scout == candidate.formulation
 
 
 def siblings(chosen: Sequence[AxisEffect], own: Sequence[AxisEffect]) -> list[AxisEffect]:

@@ -44,11 +44,12 @@ def _grid(
     near: float | None = None,
 ) -> float | None:
     finest *= _LEAST_STEP
-    width = max(finest / _BINS_A_STEP, np.ptp(reading) / _MOST_BINS)
-    if np.ptp(reading) < 3.0 * finest or width > finest / 3.0:
-        return None
     low = min(reading.min(), expected.min())
-    bins = int(np.ceil((max(reading.max(), expected.max()) - low) / width)) + 1
+    span = max(reading.max(), expected.max()) - low  # of both: a model may lead far away
+    width = max(finest / _BINS_A_STEP, span / _MOST_BINS)
+    if np.ptp(reading) < 3.0 * finest or not width <= finest / 3.0:
+        return None
+    bins = int(np.ceil(span / width)) + 1
     own, other = (_characteristic(s - low, width, bins) for s in (reading, expected))
     rates = np.fft.rfftfreq(_PADDED * bins, width)
     # A hold of a whole record would stand on any grid.

@@ -12,16 +12,16 @@ from dataclasses import replace
 from rotemina.sim.gap.attempts import fitted, looked_at
 from rotemina.sim.gap.baseline import is_own
 from rotemina.sim.gap.candidates import scouts
+from rotemina.sim.gap.catalogue import catalogue, kinship_of
+from rotemina.sim.gap.closing import closed
 from rotemina.sim.gap.contest import Ranking
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.models import Explanation
 from rotemina.sim.gap.progress import Account
-from rotemina.sim.gap.rivals import rivals
+from rotemina.sim.gap.rivals import Key, rivals
 from rotemina.sim.gap.selection import LEAST_SHARE, NOTICED, possible_causes
-from rotemina.sim.gap.verdict import closed
 from rotemina.sim.robot.model import AxisEffect
 
-_CREEP = "creep", None
 _OF_SEEN = 0.8  # of what is left of seen data: creep leaves no more, at first sight already
 _OF_UNSEEN = 0.9  # the same of data that no fit saw
 _FITTED = 4  # of what else might be there, that are compared in full
@@ -42,23 +42,31 @@ def accompanied(
     unseen data more than any other candidate does. ``raw`` is the mean square of the gap over the
     floor.
     """
-    if ("hysteresis", None) not in best.ids or _CREEP in best.ids:
+    companion = _companion(best)
+    if companion is None or companion in best.ids:
         return best, ranked
     if best.score < NOTICED or closed(raw, best.score) < 1.0 - LEAST_SHARE:
         return best, ranked
-    found = _with_one_more(evidence, best, account, jobs)
+    found = _with_one_more(evidence, best, companion, account, jobs)
     least = min(found, key=lambda one: one.score, default=best)
-    if _CREEP not in least.ids or least.score > _OF_UNSEEN * best.score:
+    if companion not in least.ids or least.score > _OF_UNSEEN * best.score:
         return best, ranked
-    return least, {**ranked, _CREEP: rivals(evidence, least, found, _CREEP, raw)}
+    return least, {**ranked, companion: rivals(evidence, least, found, companion, raw)}
+
+
+def _companion(best: Explanation) -> Key | None:
+    """Return what comes with one of the causes by its nature."""
+    families = {kinship_of(name).accompanied_by for name, source in best.ids if source is None}
+    families.discard(None)
+    return next(((one.id, None) for one in catalogue() if one.kinship.family in families), None)
 
 
 def _with_one_more(
-    evidence: Evidence, best: Explanation, account: Account, jobs: int
+    evidence: Evidence, best: Explanation, companion: Key, account: Account, jobs: int
 ) -> list[Explanation]:
-    """Return the explanation with creep, and with the likeliest others in its place.
+    """Return the explanation with the companion, and with the likeliest others in its place.
 
-    There are none if creep does not do enough at first sight.
+    There are none if the companion does not do enough at first sight.
     """
     causes = tuple(own for own in best.causes if not is_own(evidence, own))
     begun = replace(best, causes=causes)
@@ -68,12 +76,12 @@ def _with_one_more(
         enough = [one for one in looks if one.cost <= _OF_SEEN * best.fit.cost]
         return [one.effect for one in sorted(enough, key=lambda one: one.cost)]
 
-    creep = looked([AxisEffect(axis=evidence.axis, id="creep")])
-    if not creep:
+    own = looked([AxisEffect(axis=evidence.axis, id=companion[0])])
+    if not own:
         return []
-    known = {*begun.ids, _CREEP}
+    known = {*begun.ids, companion}
     others = [one for one in possible_causes(evidence) if (one.id, one.from_axis) not in known]
-    chosen = [*creep, *looked(scouts(evidence, others))[:_FITTED]]
+    chosen = [*own, *looked(scouts(evidence, others))[:_FITTED]]
     attempts = [[*causes, one] for one in chosen]
     return [_named(one, best) for one in fitted(evidence, attempts, account, jobs, begun)]
 

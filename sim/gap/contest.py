@@ -6,9 +6,13 @@ from dataclasses import replace
 import numpy as np
 
 from rotemina.sim.effects.attachment import Attached
+from rotemina.sim.effects.formulation import Late, Stage, Trait
+from rotemina.sim.effects.kinship import Family
 from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.attribution import attributed, without_own
-from rotemina.sim.gap.baseline import GAIN, OWN, RESONANCE, is_own
+from rotemina.sim.gap.baseline import is_own, is_whole_own
+from rotemina.sim.gap.catalogue import catalogue, is_of, kinship_of, with_parameter
+from rotemina.sim.gap.closing import closed
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import fit
 from rotemina.sim.gap.models import (
@@ -20,26 +24,19 @@ from rotemina.sim.gap.models import (
     mean_squares,
 )
 from rotemina.sim.gap.richness import alike_axes
-from rotemina.sim.gap.rivals import DELAY, Key, Rival, probability, rivals
+from rotemina.sim.gap.rivals import Key, Rival, probability, rivals
 from rotemina.sim.gap.selection import LEAST_POWER, Selection
-from rotemina.sim.gap.verdict import closed
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
-_TWINS = {
-    "gain_error": ("sensor_gain",),
-    "static_nonlinearity": ("sensor_nonlinearity",),
-    "sensor_nonlinearity": ("static_nonlinearity",),
-    "amplifier_lag": ("sensor_lag",),
-    "delay": ("sensor_lag",),
-    "leadscrew_error": ("encoder_interpolation",),
-    "microstep_error": ("encoder_interpolation",),
-}
+# What does the same at the sensor as elsewhere, where no reference was recorded.
+_AT_THE_SENSOR = {Family.GAIN, Family.CURVE, Family.LATE, Family.PERIOD}
+_BUTTERWORTH = "third_order"  # of a lag, as it is with its presets
 _DOUBTED = 0.1  # probability below which one cause of several is none
 _LITTLE = 0.1  # of the gap's power, below which a cause must be surer
 _DOUBTED_OF_LITTLE = 0.9
 _BESIDE_A_WANDER = 0.3  # of the gap's power, that a cause closes at least
-_AS_SLOW = {"thermal_drift": 0.7}  # the same for what is as slow as a wander
+_AS_SLOW = 0.7  # the same for what is as slow as a wander
 _LIKELIER = 0.6  # probability from which a rival takes a cause's place
 _TIMES_LIKELIER = 2.5  # the same beside that of the cause
 _TURNS = 2  # in which rivals may take a cause's place: one may be simpler beside another
@@ -119,9 +116,14 @@ def _of_its_kind(ranked: Sequence[Rival], key: Key) -> float:
     Which of these it is may be in doubt, and that one of them is there beyond doubt.
     """
     name, source = key
-    alike = {name, *_TWINS.get(name, ())}
-    alike |= {other for other, twins in _TWINS.items() if alike & set(twins)}
-    return sum(one.probability for one in ranked if one.effect in alike and one.from_axis == source)
+    family = kinship_of(name).family
+    kin = family in _AT_THE_SENSOR
+    return sum(
+        one.probability
+        for one in ranked
+        if one.from_axis == source
+        and (one.effect == name or (kin and kinship_of(one.effect).family is family))
+    )
 
 
 def _least_sure(
@@ -146,7 +148,7 @@ def _without(
     """Return what is left at each tap without a cause: as the others alone were fitted, if so."""
     others = [one for one in best.causes if (one.id, one.from_axis) != key]
     named = {(one.id, one.from_axis) for one in others if not is_own(evidence, one)}
-    if key[0] not in OWN and named:
+    if not is_whole_own(key[0]) and named:
         alone = [one for one in selection.tried if set(one.ids) == named]
         if alone:
             return min(alone, key=lambda one: one.score).by_tap
@@ -157,7 +159,14 @@ def _bends_to(evidence: Evidence, best: Explanation, key: Key) -> bool:
     """Tell whether a cause closes so little beside a wander that it may only follow that."""
     others = [one for one in best.causes if (one.id, one.from_axis) != key]
     before = float(np.mean(evidence.residual(others) ** 2))
-    return closed(before, best.score) < _AS_SLOW.get(key[0], _BESIDE_A_WANDER)
+    return closed(before, best.score) < (_AS_SLOW if _is_slow(key[0]) else _BESIDE_A_WANDER)
+
+
+def _is_slow(effect_id: str) -> bool:
+    """Tell whether an effect is fixed in time without coming again."""
+    effect = effect_named(effect_id)
+    lasting = Trait.LOCKED_TO_TIME in effect.formulations[0].traits
+    return lasting and effect.identification.shows_as is None
 
 
 def _with_only(evidence: Evidence, selection: Selection, kept: Sequence[AxisEffect]) -> Explanation:
@@ -239,21 +248,50 @@ def _is_by(one: Explanation, causes: Sequence[AxisEffect]) -> bool:
 def _twins(evidence: Evidence, cause: AxisEffect) -> list[AxisEffect]:
     found = []
     if not evidence.has(Tap.REF):
-        for twin in _TWINS.get(cause.id, ()):
-            found.append(_alike(cause, twin) if cause.id != DELAY else _as_late(cause, twin))
-    if cause.id == DELAY:
-        found.append(_as_late(cause, "amplifier_lag"))
-    if cause.id == GAIN:
+        found += [_alike(cause, twin) for twin in _elsewhere(cause.id)]
+    if _is_transport(cause):
+        found += [_as_late(cause, lag) for lag in _lags(Stage.ELECTRONICS)]
+    if is_whole_own(cause.id) and is_of(Family.GAIN, cause.id):
         for axis, k in alike_axes(evidence).items():
             numbers = {"k": k * cause.parameters["error"]}
-            found.append(
-                AxisEffect(
-                    axis=evidence.axis, id="cross_coupling", from_axis=axis, parameters=numbers
-                )
-            )
-    if cause.id == RESONANCE:
+            found += [
+                AxisEffect(axis=evidence.axis, id=one.id, from_axis=axis, parameters=numbers)
+                for one in catalogue()
+                if one.coupled and one.formulations[0].parameter("k")
+            ]
+    if is_of(Family.RESONANCE, cause.id):
         found += _loads(evidence, cause)
     return [_within_bounds(evidence, twin) for twin in found]
+
+
+def _elsewhere(name: str) -> list[str]:
+    """Return what does the same at the sensor; of a curve of the sensor, what does it elsewhere."""
+    own = effect_named(name)
+    if own.kinship.family not in _AT_THE_SENSOR:
+        return []
+    at_the_sensor = own.stage is Stage.SENSOR
+    if at_the_sensor and own.kinship.family is not Family.CURVE:
+        return []
+    return [
+        one.id
+        for one in catalogue()
+        if one.kinship.family is own.kinship.family
+        and (one.stage is Stage.SENSOR) is not at_the_sensor
+    ]
+
+
+def _is_transport(cause: AxisEffect) -> bool:
+    """Tell whether a cause makes everything later and nothing else."""
+    effect = effect_named(cause.id)
+    return isinstance(effect.formulations[0].acts, Late) and is_of(Family.LATE, cause.id)
+
+
+def _lags(stage: Stage) -> list[str]:
+    return [
+        one.id
+        for one in catalogue()
+        if one.stage is stage and one.formulation(_BUTTERWORTH) and is_of(Family.LATE, one.id)
+    ]
 
 
 def _loads(evidence: Evidence, cause: AxisEffect) -> list[AxisEffect]:
@@ -270,17 +308,19 @@ def _loads(evidence: Evidence, cause: AxisEffect) -> list[AxisEffect]:
     slower = (1.0 + off) ** 2
     share = (1.0 / slower - 1.0) * (1.0 - slower / _LOAD_ABOVE**2)
     numbers = {"frequency": _LOAD_ABOVE * rings_hz, "mass_ratio": share}
-    return [
-        AxisEffect(
-            axis=evidence.axis, id="flexible_mode", formulation="appendage", parameters=numbers
-        )
-    ]
+    load = with_parameter("mass_ratio")
+    if load is None:
+        return []
+    effect, form = load
+    return [AxisEffect(axis=evidence.axis, id=effect.id, formulation=form.name, parameters=numbers)]
 
 
 def _as_late(cause: AxisEffect, lag: str) -> AxisEffect:
     """Return the Butterworth filter of the third order that is as late as a delay: 2τ."""
-    numbers = {"time_constant": 0.5 * cause.parameters["delay"]}
-    return replace(cause, id=lag, formulation="third_order", parameters=numbers)
+    late_s = effect_named(cause.id).identification.lateness_s
+    assert late_s is not None
+    numbers = {"time_constant": 0.5 * late_s(cause.parameters)}
+    return replace(cause, id=lag, formulation=_BUTTERWORTH, parameters=numbers)
 
 
 def _within_bounds(evidence: Evidence, twin: AxisEffect) -> AxisEffect:
@@ -290,7 +330,12 @@ def _within_bounds(evidence: Evidence, twin: AxisEffect) -> AxisEffect:
 
 
 def _alike(cause: AxisEffect, twin: str) -> AxisEffect:
-    """Return the twin of a cause, in the form of the same name and with the numbers of both."""
+    """Return the twin of a cause, in the form of the same name and with the numbers of both.
+
+    That of a delay is a lag as late.
+    """
+    if _is_transport(cause):
+        return _as_late(cause, twin)
     forms = effect_named(twin).formulations
     form = next((one for one in forms if one.name == cause.formulation), forms[0])
     names = {parameter.name for parameter in form.parameters}

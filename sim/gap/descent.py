@@ -118,7 +118,12 @@ def _step(
     still = _TINY * diagonal.max(initial=1.0)  # what no row speaks of stays
     for _ in range(_TRIES if fresh else _TRIES_CARRIED):
         after = x.copy()
-        after[free] -= np.linalg.solve(hessian + np.diag(damping * diagonal + still), slope[free])
+        try:
+            damped = hessian + np.diag(damping * diagonal + still)
+            after[free] -= np.linalg.solve(damped, slope[free])
+        except np.linalg.LinAlgError:  # columns that are parallel to the last digit
+            damping *= 10.0
+            continue
         after = np.clip(after, low, high)
         then = residual(after)
         if float(then @ then) < before:

@@ -17,12 +17,19 @@ Interval = tuple[float, float]
 
 
 class Verdict(StrEnum):
-    """What can be said of an axis, or of a robot."""
+    """What can be said of an axis, or of a robot; in the order of how much is open.
+
+    ``PARTLY``: causes are sure, and yet more is left than they can account for.
+    """
 
     NONE = "none"
     EXPLAINED = "explained"
-    UNKNOWN = "unknown"
+    PARTLY = "partly"
     INSUFFICIENT = "insufficient_excitation"
+    UNKNOWN = "unknown"
+
+
+CORRECTING = (Verdict.EXPLAINED, Verdict.PARTLY)  # whose causes make the corrected model
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +45,19 @@ class FittedParameter:
     unit: str
     interval: Interval | None = None
     at_bound: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Derived:
+    """A figure that the records tell although they leave open which effect it comes from.
+
+    ``value`` and its 95 % ``interval`` in ``unit``, SI.
+    """
+
+    name: str
+    value: float
+    interval: Interval
+    unit: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +80,9 @@ class Cause:
         to close.
     closed_interval : tuple of float, optional
     parameters : tuple of FittedParameter
+    derived : tuple of Derived
+    in_model : bool
+        Whether the corrected model uses it.
     """
 
     axis: str
@@ -75,6 +98,42 @@ class Cause:
     closed: float | None
     closed_interval: Interval | None
     parameters: tuple[FittedParameter, ...] = ()
+    derived: tuple[Derived, ...] = ()
+    in_model: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Suspected:
+    """An effect that has weight, but is small beside what is left: it is no cause."""
+
+    effect: str
+    from_axis: str | None
+    probability: float
+    in_model: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Remainder:
+    """What is left of an axis' gap at the last tap, on data that no fit saw, beyond the floor.
+
+    ``rms`` in SI; ``share`` of the gap's power; ``depends_on`` names what a probe finds it to
+    depend on, the most telling first, with the share of its power that this foretells.
+    """
+
+    rms: float
+    share: float
+    depends_on: tuple[tuple[str, float], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Offset:
+    """A constant, SI, by which the corrected model is moved at a tap, and its standard deviation.
+
+    All records agree on it.
+    """
+
+    value: float
+    deviation: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,6 +210,9 @@ class AxisDiagnosis:
     untestable: tuple[Untestable, ...] = ()
     remarks: tuple[str, ...] = ()  # whole sentences: on what a remainder depends, what was masked
     fitted: tuple[AxisEffect, ...] = ()  # what corrects the model, re-tuned parameters included
+    suspected: tuple[Suspected, ...] = ()
+    remainder: Remainder | None = None  # None where there is no gap
+    offsets: Mapping[Tap, Offset | None] = field(default_factory=dict)  # None: records disagree
 
 
 @dataclass(frozen=True, slots=True)
@@ -196,12 +258,9 @@ class Diagnosis:
 
     @property
     def verdict(self) -> Verdict:
-        """The verdict on the robot: explained only if no axis is open."""
-        verdicts = {one.verdict for one in self.axes.values()}
-        for verdict in (Verdict.UNKNOWN, Verdict.INSUFFICIENT, Verdict.EXPLAINED):
-            if verdict in verdicts:
-                return verdict
-        return Verdict.NONE
+        """The verdict on the robot: that of the axis of which most is open."""
+        order = list(Verdict)
+        return max((one.verdict for one in self.axes.values()), key=order.index, default=order[0])
 
     @property
     def places(self) -> tuple[Place, ...]:

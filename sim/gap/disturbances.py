@@ -13,6 +13,9 @@ import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.effects.facts import Facts
+from rotemina.sim.effects.identification import Sign
+from rotemina.sim.effects.kinship import Family
+from rotemina.sim.gap.catalogue import catalogue, shown_as
 from rotemina.sim.gap.cells import cell_of, floor_beyond
 from rotemina.sim.gap.coarseness import coarse_step, stands_on
 from rotemina.sim.gap.evidence import Evidence, Observation, Signals
@@ -44,11 +47,16 @@ class Disturbance:
     ``note`` a whole sentence; ``step`` of a reading in steps, SI.
     """
 
-    effect: str
+    sign: Sign
     tap: Tap
     power: float
     note: str
     step: float | None = None
+
+    @property
+    def effect(self) -> str | None:
+        """The effect that shows so; None if none is installed."""
+        return shown_as(self.sign)
 
 
 def set_aside(
@@ -103,7 +111,7 @@ def _without_jumps(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
         return evidence, []
     note = f"{count} sudden jumps by whole multiples of four full steps were taken back."
     return evidence.with_observations(observations), [
-        Disturbance("lost_steps", tap, total / _rows(evidence, tap), note)
+        Disturbance(Sign.JUMPS, tap, total / _rows(evidence, tap), note)
         for tap, total in power.items()
     ]
 
@@ -116,11 +124,25 @@ def _is_loose(evidence: Evidence) -> bool:
     before = evidence.residual()
     part = evidence.parts[0]
     width = 2.0 * float(np.std(before[part.rows])) * evidence.floor(part.tap)
-    play = AxisEffect(
-        axis=evidence.axis, id="backlash", formulation="rigid", parameters={"width": width}
+    left = min(
+        (fit(evidence, [play], most_steps=_PLAY_STEPS).cost for play in _plays(evidence, width)),
+        default=np.inf,
     )
-    left = fit(evidence, [play], most_steps=_PLAY_STEPS).cost
     return left < (1.0 - _LOOSE) * float(np.mean(before**2))
+
+
+def _plays(evidence: Evidence, width: float) -> Iterator[AxisEffect]:
+    """Give what is lost at a reversal by a width alone, in the usual form."""
+    for effect in catalogue():
+        form = effect.formulations[0]
+        by_width = [parameter.name for parameter in form.parameters] == ["width"]
+        if effect.kinship.family is Family.LOST_MOTION and by_width:
+            yield AxisEffect(
+                axis=evidence.axis,
+                id=effect.id,
+                formulation=form.name,
+                parameters={"width": width},
+            )
 
 
 def _late_left(gap: FloatArray, answer: FloatArray, time_s: FloatArray) -> float:
@@ -176,7 +198,7 @@ def _without_excursions(evidence: Evidence) -> tuple[Evidence, list[Disturbance]
     note = f"{count} spikes or dropouts of the sensor were left out."
     share = power / _rows(evidence, Tap.MEAS)
     return evidence.with_observations(observations), [
-        Disturbance("sensor_outliers", Tap.MEAS, share, note)
+        Disturbance(Sign.SPIKES, Tap.MEAS, share, note)
     ]
 
 
@@ -242,7 +264,7 @@ def _without_tones(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
     listed = ", ".join(f"{np.mean(lines):.4g} Hz" for lines in shared)
     note = f"A vibration of {listed}, whatever the axis did, was set aside."
     return quiet, [
-        Disturbance("vibration", tap, power, note)
+        Disturbance(Sign.TONES, tap, power, note)
         for tap in dict.fromkeys(one for one in taps if one is not None)
         for power in (_power(evidence, before, tap) - _power(evidence, after, tap),)
     ]
@@ -279,12 +301,10 @@ def _with_true_floors(evidence: Evidence, *, cells: bool) -> tuple[Evidence, lis
         # At rest an error of up to half a step stays as it is, which no mean over errors tells.
         raised = _raised(evidence, float(np.sqrt(1.0 + 3.0 * power)))
         seen = _by_cells(evidence, raised, answers, step) if cells else raised
-        return seen, [Disturbance("sensor_quantization", Tap.MEAS, power, note, step)]
+        return seen, [Disturbance(Sign.STEPS, Tap.MEAS, power, note, step)]
     if level > _MORE_NOISE:
         note = f"The sensor is {level:.3g} times as noisy as declared."
-        return _raised(evidence, level), [
-            Disturbance("sensor_noise", Tap.MEAS, level**2 - 1.0, note)
-        ]
+        return _raised(evidence, level), [Disturbance(Sign.NOISE, Tap.MEAS, level**2 - 1.0, note)]
     return evidence, []
 
 
@@ -395,7 +415,7 @@ def _rows(evidence: Evidence, tap: Tap) -> int:
 
 def by_effect(found: Sequence[Disturbance]) -> Iterator[Disturbance]:
     """Give one disturbance of each effect, at the tap where it shows first."""
-    seen: Mapping[str, Disturbance] = {one.effect: one for one in reversed(found)}
+    seen: Mapping[Sign, Disturbance] = {one.sign: one for one in reversed(found)}
     yield from seen.values()
 
 

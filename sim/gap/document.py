@@ -63,6 +63,19 @@ def as_json(diagnosis: Diagnosis, files: Sequence[ExperimentFiles] = ()) -> Json
         "where": _where(diagnosis.places if diagnosis.verdict is not Verdict.NONE else ()),
         "causes": [_cause(cause, diagnosis.robot) for cause in ordered_causes(diagnosis)],
         "shrinkage": [_shrinkage(each) for one in axes.values() for each in one.shrinkage],
+        "remainder": {name: _remainder(one) for name, one in axes.items() if one.remainder},
+        "offset": {name: _offset(one) for name, one in axes.items() if one.offsets},
+        "suspected": [
+            {
+                "axis": name,
+                "effect": each.effect,
+                "from_axis": each.from_axis,
+                "probability": _number(each.probability),
+                "in_model": each.in_model,
+            }
+            for name, one in axes.items()
+            for each in one.suspected
+        ],
         "candidates": {name: _candidates(one) for name, one in axes.items()},
         "next_experiments": [_experiment(one, names) for one, names in suggested],
         "model": _model(diagnosis),
@@ -156,6 +169,15 @@ def _cause(cause: Cause, robot: Robot) -> Json:
         "formulation": cause.formulation,
         "parameter_intervals": {one.name: _interval(one.interval) for one in cause.parameters},
         "at_bound": {one.name: one.at_bound for one in cause.parameters if one.at_bound},
+        "in_model": cause.in_model,
+        "derived": {
+            one.name: {
+                "value": _number(one.value),
+                "interval": _interval(one.interval),
+                "unit": one.unit,
+            }
+            for one in cause.derived
+        },
     }
 
 
@@ -178,6 +200,25 @@ def _shrinkage(shrinkage: Shrinkage) -> Json:
         },
         "closed_interval": _interval(shrinkage.closed_interval),
         "steps": steps,
+    }
+
+
+def _remainder(axis: AxisDiagnosis) -> Json:
+    assert axis.remainder is not None
+    depends = [{"what": what, "share": _number(share)} for what, share in axis.remainder.depends_on]
+    return {
+        "rms": _number(axis.remainder.rms),
+        "share": _number(axis.remainder.share),
+        "depends_on": depends,
+    }
+
+
+def _offset(axis: AxisDiagnosis) -> Json:
+    return {
+        str(tap): None
+        if one is None
+        else {"value": _number(one.value), "deviation": _number(one.deviation)}
+        for tap, one in axis.offsets.items()
     }
 
 

@@ -10,12 +10,14 @@ from typing import NamedTuple, Self
 import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
+from rotemina.sim.effects.attachment import Attached
+from rotemina.sim.effects.identification import Extent
+from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.blocks import block_numbers
 from rotemina.sim.gap.cells import beyond
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.floors import floors
 from rotemina.sim.gap.history import other_starts, start
-from rotemina.sim.gap.tolerances import Extent
 from rotemina.sim.plant.finely import respond
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.response import check_axes, run_of
@@ -46,6 +48,7 @@ class Observation:
     per tap tells which rows a fit may trust, all where a tap is missing; ``nuisance`` (n, m) are
     signals that are this record's own, in whatever amount, beside its offset. Of a tap that reads
     in coarse steps ``cell`` is their width, SI: there, only what lies beyond a cell is a gap.
+    ``origin``, m or rad, is where the record begins to count its place, as others count it.
     """
 
     record: Record
@@ -54,6 +57,7 @@ class Observation:
     kept: Mapping[Tap, BoolArray] = field(default_factory=dict)
     nuisance: FloatArray | None = None
     cell: Mapping[Tap, float] = field(default_factory=dict)
+    origin: float = 0.0
 
     @property
     def taps(self) -> tuple[Tap, ...]:
@@ -104,6 +108,10 @@ class Evidence:
                 "noise floor is known or can be measured; nothing can be compared"
             )
         return cls(robot, axis, tuple(observations))
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """Leave the caches out: threads go on filling them while evidence is sent to a cluster."""
+        return Evidence, (self.robot, self.axis, self.observations, self.heartbeat)
 
     def with_model(self, robot: Robot) -> "Evidence":
         """Return the same evidence beside another model of the machine."""
@@ -170,7 +178,7 @@ class Evidence:
                 apart = [real - answer[tap], *(other[tap] - answer[tap] for other in others)]
                 floor = observation.floor[tap]
                 gap, *memory = (self._without_nuisance(number, tap, x / floor) for x in apart)
-                gap = _beside(memory, gap)
+                gap = beside(memory, gap)
                 if tap in observation.cell:
                     half = 0.5 * observation.cell[tap] / floor
                     gap = beyond(gap, half, observation.kept.get(tap))
@@ -218,15 +226,15 @@ class Evidence:
         """Give the number of each record, and the answers from its start and from other ones."""
         self.heartbeat()
         robot = replace(self.robot, effects=(*self.robot.effects, *effects))
-        plants: dict[bool, Plant] = {}
+        plants: dict[tuple[bool, float], Plant] = {}
         for number in range(len(self.observations)) if only is None else only:
             observation = self.observations[number]
             record = observation.record
-            if record.closed_loop not in plants:
-                plants[record.closed_loop] = Plant.of(
-                    robot, closed_loop=record.closed_loop, only={self.axis}
-                )
-            plant = plants[record.closed_loop]
+            key = record.closed_loop, observation.origin
+            if key not in plants:
+                seen = _moved(robot, self.axis, observation.origin)
+                plants[key] = Plant.of(seen, closed_loop=record.closed_loop, only={self.axis})
+            plant = plants[key]
             run = self._run(number, plant)
             starts = [
                 start(plant, record, run),
@@ -279,7 +287,21 @@ def _observe(robot: Robot, axis: str, record: Record) -> Observation:
     return Observation(record, {tap: record.signal(axis, tap) for tap in floor}, floor)
 
 
-def _beside(signals: Sequence[FloatArray], gap: FloatArray) -> FloatArray:
+def _moved(robot: Robot, axis: str, origin: float) -> Robot:
+    """Return a robot whose axis counts its place from elsewhere."""
+    if origin == 0.0:
+        return robot
+    effects = []
+    for asked in robot.effects:
+        moved = effect_named(asked.id).identification.moved
+        if moved is not None and asked.axis == axis:
+            values = Attached.of(robot, asked).values
+            asked = replace(asked, parameters=dict(moved(values, origin)))
+        effects.append(asked)
+    return replace(robot, effects=tuple(effects))
+
+
+def beside(signals: Sequence[FloatArray], gap: FloatArray) -> FloatArray:
     """Return a gap (n,) without what signals, each (n,), do in amounts of about one.
 
     An amount is as likely as a normal variate: one that is needed a thousandfold explains nothing.
@@ -287,8 +309,10 @@ def _beside(signals: Sequence[FloatArray], gap: FloatArray) -> FloatArray:
     if not signals:
         return gap
     basis = np.stack(signals, axis=1)
-    known = basis.T @ basis + np.eye(len(signals))
-    return np.asarray(gap - basis @ np.linalg.solve(known, basis.T @ gap))
+    # Stacked on what is known of the amounts, and not squared: signals may be far larger than one
+    # and parallel.
+    whole = np.linalg.qr(np.vstack([basis, np.eye(len(signals))]))[0][: len(gap)]
+    return np.asarray(gap - whole @ (whole.T @ gap))
 
 
 def _own_signals(observation: Observation, kept: BoolArray | None, rows: int) -> FloatArray:

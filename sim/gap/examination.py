@@ -6,16 +6,20 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rotemina.sim.effects.formulation import Stage
+from rotemina.sim.effects.identification import Sign
 from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.attribution import attributed
-from rotemina.sim.gap.baseline import OWN, is_own
+from rotemina.sim.gap.baseline import is_own, is_whole_own
+from rotemina.sim.gap.closing import closed
 from rotemina.sim.gap.companions import accompanied
+from rotemina.sim.gap.compare.decision import Closing, decide, is_sure
 from rotemina.sim.gap.contest import Ranking, contested
-from rotemina.sim.gap.diagnosis import Verdict
+from rotemina.sim.gap.diagnosis import CORRECTING, Verdict
 from rotemina.sim.gap.disturbances import Disturbance, by_effect, power_by_tap, set_aside
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.many_modes import many_modes
 from rotemina.sim.gap.models import Explanation, explain, mean_squares, untouched
+from rotemina.sim.gap.origins import with_origins
 from rotemina.sim.gap.probe import Probe, probed
 from rotemina.sim.gap.progress import Account
 from rotemina.sim.gap.richness import is_poor
@@ -25,19 +29,17 @@ from rotemina.sim.gap.selection import (
     LEAST_POWER,
     LEAST_SHARE,
     NOTICED,
-    STEPS,
     Selection,
     select,
 )
 from rotemina.sim.gap.stepping import steps_of
-from rotemina.sim.gap.verdict import closed, decide
 from rotemina.sim.gap.wander import wander
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
 _GAP = 1.5  # mean square over the floor from which there is something to explain
 _TAILS = 0.08  # of the gap's power, that outliers have beyond the tails of what else is set aside
-_WITH_TAILS = {"sensor_noise", "sensor_quantization", "vibration"}
+_WITH_TAILS = {Sign.NOISE, Sign.STEPS, Sign.TONES}
 _STILL_OUT = 0.5  # of their power, that outliers keep beside an explanation
 _MUCH_BETTER = 0.7  # of a score: what else would correct the model is taken along
 _BETTER = 0.9  # of a score: what is left of the same causes beside more that is set aside
@@ -60,7 +62,8 @@ class Examination:
     ``evidence`` is without what was set aside, and ``declared`` the noise floor of each tap, SI,
     before that raised it; ``disturbances`` are what of it counts. The fit
     of ``best`` may hold more than its causes: what corrects the model further but is too small, or
-    too much like something else, to be named. In ``steps`` the corrected model reads.
+    too much like something else, to be named. ``probe`` tells what is left of it depends on, and
+    ``black_box`` is fitted to the raw gap instead. In ``steps`` the corrected model reads.
     """
 
     evidence: Evidence
@@ -71,12 +74,13 @@ class Examination:
     verdict: Verdict
     ranked: Ranking
     probe: Probe
+    black_box: Probe
     steps: tuple[AxisEffect, ...] = ()
 
     @property
     def fitted(self) -> tuple[AxisEffect, ...]:
         """What corrects the model: the causes and the small re-tuning that they bring along."""
-        if self.verdict is not Verdict.EXPLAINED:
+        if self.verdict not in CORRECTING:
             return ()
         acting = self.best.fit.effects if self.best.causes else ()
         return (*(one for one in acting if _acts(one)), *self.steps)
@@ -87,6 +91,7 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
     modal = many_modes(whole, account)
     if modal is not None:
         return _of_modes(whole, modal)
+    whole = with_origins(whole)
     evidence, aside = set_aside(whole)
     selection, best = _explained(whole, evidence, aside, account, jobs)
     evidence, aside, selection, best = _looked_again(
@@ -113,22 +118,21 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
         disturbances = _counting(whole, evidence, best, aside, drift)
     if drift is None:
         best, ranked = accompanied(evidence, best, ranked, selection.raw, account, jobs=jobs)
-    power = sum(one.power for one in disturbances if one.effect != "sensor_drift")
+    power = sum(one.power for one in disturbances if one.sign is not Sign.WANDER)
     ambiguous = [not_ruled_out(ranked[key], key, selection.raw) for key in best.ids]
     wandered = 0.0
-    if drift is not None and any(one.effect == "sensor_drift" for one in disturbances):
+    if drift is not None and any(one.sign is Sign.WANDER for one in disturbances):
         wandered = drift.power
+    black_box = probed(evidence, evidence.residual())
+    poor = is_poor(whole) and not disturbances
     verdict = decide(
-        selection.raw + power,
-        max(best.score - wandered, 1.0),
+        Closing(selection.raw + power, max(best.score - wandered, 1.0), black_box.score),
         ambiguous,
-        wanders=drift is not None,
+        doubtful=poor and not is_sure(evidence, list(ranked.values())),
     )
-    if is_poor(whole) and verdict is not Verdict.NONE and not disturbances:
-        verdict = Verdict.INSUFFICIENT
-    if verdict is Verdict.EXPLAINED and drift is None:
+    if verdict in CORRECTING and drift is None:
         best = _fullest(selection, best)
-    steps = _stepped(whole, best, disturbances) if verdict is Verdict.EXPLAINED else ()
+    steps = _stepped(whole, best, disturbances) if verdict in CORRECTING else ()
     return Examination(
         evidence,
         _floors(whole),
@@ -138,6 +142,7 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
         verdict,
         ranked,
         probed(evidence, best.held_out),
+        black_box,
         steps,
     )
 
@@ -184,24 +189,24 @@ def _without_false_noise(whole: Evidence, first: _Found, account: Account, jobs:
     if selection.tried and best.fit.cost >= _NOT_NOISE:
         return first
     steps = bool(selection.tried) and best.fit.cost < _NO_STEPS and not evidence.in_cells
-    doubted = {"sensor_noise", "sensor_quantization"} if steps else {"sensor_noise"}
-    raised = {one.effect for one in aside} & doubted
+    doubted = {Sign.NOISE, Sign.STEPS} if steps else {Sign.NOISE}
+    raised = {one.sign for one in aside} & doubted
     if not raised:
         return first
-    if "sensor_quantization" in raised:
-        raised.add("sensor_outliers")  # whose rows come back with those that steps left out
+    if Sign.STEPS in raised:
+        raised.add(Sign.SPIKES)  # whose rows come back with those that steps left out
     declared = evidence.with_observations(
         [
             replace(
                 own,
                 floor=was.floor,
                 cell=was.cell,
-                kept=was.kept if "sensor_outliers" in raised else own.kept,
+                kept=was.kept if Sign.SPIKES in raised else own.kept,
             )
             for own, was in zip(evidence.observations, whole.observations, strict=True)
         ]
     )
-    others = tuple(one for one in aside if one.effect not in raised)
+    others = tuple(one for one in aside if one.sign not in raised)
     second = declared, others, *_explained(whole, declared, others, account, jobs)
     if not selection.tried and second[3].score > _NOT_NOISE * second[2].raw:
         return first  # nothing but noise explains it
@@ -215,7 +220,7 @@ def _without_false_jumps(whole: Evidence, first: _Found, account: Account, jobs:
     does one that is loose, at every reversal by its play. These alone do where little is left.
     """
     _, aside, _, best = first
-    if best.score < NOTICED or not any(one.effect == "lost_steps" for one in aside):
+    if best.score < NOTICED or not any(one.sign is Sign.JUMPS for one in aside):
         return first
     evidence, others = set_aside(whole, jumps=False)
     second = evidence, others, *_explained(whole, evidence, others, account, jobs)
@@ -237,8 +242,8 @@ def _without_false_cells(whole: Evidence, first: _Found, account: Account, jobs:
 
 def _more(found: Sequence[Disturbance], before: Sequence[Disturbance]) -> bool:
     """Tell whether disturbances are others than before, or clearly more of them."""
-    known = {one.effect: one.power for one in before}
-    return any(one.power > _CLEARLY_MORE * known.get(one.effect, 0.0) for one in found)
+    known = {one.sign: one.power for one in before}
+    return any(one.power > _CLEARLY_MORE * known.get(one.sign, 0.0) for one in found)
 
 
 def _was_explained(
@@ -248,7 +253,7 @@ def _was_explained(
 
     What rings, or ends at a limit, may look like spikes and dropouts to a model that lacks it.
     """
-    if one.effect != "sensor_outliers":
+    if one.sign is not Sign.SPIKES:
         return False
     left, power, rows = whole.residual(best.fit.effects), 0.0, 0
     for part in evidence.parts:
@@ -266,7 +271,7 @@ def _fullest(selection: Selection, best: Explanation) -> Explanation:
         one
         for one in selection.tried
         if named < {(own.id, own.from_axis) for own in one.fit.effects}
-        and {key for key in named if key[0] not in OWN} < set(one.ids)
+        and {key for key in named if not is_whole_own(key[0])} < set(one.ids)
         and one.score < _MUCH_BETTER * best.score
     ]
     if not fuller:
@@ -281,9 +286,12 @@ def _of_modes(evidence: Evidence, modal: Explanation) -> Examination:
     bare = untouched(evidence)
     selection = Selection(bare, explain(evidence, ()), modal, (modal,))
     best, ranked = contested(evidence, selection, modal, {}, wanders=False)
-    verdict = decide(selection.raw, max(best.score, 1.0), ())
+    black_box = probed(evidence, evidence.residual())
+    closing = Closing(selection.raw, max(best.score, 1.0), black_box.score)
+    verdict = decide(closing, (), doubtful=False)
     probe = probed(evidence, best.held_out)
-    return Examination(evidence, _floors(evidence), (), selection, best, verdict, ranked, probe)
+    floors = _floors(evidence)
+    return Examination(evidence, floors, (), selection, best, verdict, ranked, probe, black_box)
 
 
 def _floors(evidence: Evidence) -> dict[Tap, float]:
@@ -302,7 +310,7 @@ def _explained(
     if max(bare.by_tap.values()) < _GAP:
         return Selection(bare, bare, bare, ()), bare
     # What readings leave beyond their steps is nothing that these leave of themselves.
-    leaving = [one for one in aside if not (evidence.in_cells and one.effect == STEPS)]
+    leaving = [one for one in aside if not (evidence.in_cells and one.sign is Sign.STEPS)]
     power = {
         tap: power * (whole.floor(tap) / evidence.floor(tap)) ** 2
         for tap, power in power_by_tap(whole, leaving).items()
@@ -344,16 +352,16 @@ def _counting(
     raw = mean_squares(whole, whole.residual())
     by_tap = {
         tap: mean
-        + sum(one.power for one in found if one.tap is tap and one.effect != "sensor_drift")
+        + sum(one.power for one in found if one.tap is tap and one.sign is not Sign.WANDER)
         for tap, mean in best.by_tap.items()
     }
     counting = []
-    others = any(one.effect in _WITH_TAILS for one in found)
+    others = any(one.sign in _WITH_TAILS for one in found)
     for one in by_effect(found):
         left = by_tap[one.tap] - 1.0
-        least = _TAILS if others and one.effect == "sensor_outliers" else LEAST_SHARE
+        least = _TAILS if others and one.sign is Sign.SPIKES else LEAST_SHARE
         share = one.power >= least * (raw[one.tap] - 1.0)
-        clearly = one.power >= CLEARLY * left and not (misread and one.effect == "sensor_drift")
+        clearly = one.power >= CLEARLY * left and not (misread and one.sign is Sign.WANDER)
         if one.power >= LEAST_POWER and (share or clearly):
             counting.append(one)
     return tuple(counting)

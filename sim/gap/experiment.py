@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rotemina.sim.gap.diagnosis import Experiment, Verdict
+from rotemina.sim.gap.diagnosis import CORRECTING, Experiment, Verdict
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.examination import Examination
 from rotemina.sim.gap.report.words import effect_title, listed
@@ -73,7 +73,7 @@ def _sets(examination: Examination) -> Iterator[list[Rival]]:
     Records that move an axis too little rule nothing out: the likeliest few are open then.
     """
     poor = examination.verdict is Verdict.INSUFFICIENT
-    if not poor and examination.verdict is not Verdict.EXPLAINED:
+    if not poor and examination.verdict not in CORRECTING:
         return
     seen: list[set[str]] = []
     raw = examination.selection.raw

@@ -6,6 +6,7 @@ scale where that is zero. Never is an effect fitted beside a frozen model: the m
 parameters may be re-tuned along with it.
 """
 
+import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -16,15 +17,20 @@ from scipy.optimize import lsq_linear
 from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.errors import EffectError
-from rotemina.sim.gap.baseline import OWN
+from rotemina.sim.gap.baseline import is_whole_own
+from rotemina.sim.gap.catalogue import is_stepped
 from rotemina.sim.gap.descent import Descent, begun, descend, exact
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.tolerances import tolerance
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.robot.model import AxisEffect
 
-_STEPPED = ("quantization", "sensor_quantization")
-_LOST = 1e6  # floors by which a model that cannot be simulated is off
+_LOG = logging.getLogger(__name__)
+
+NUMERICAL = (np.linalg.LinAlgError, ArithmeticError)  # failures of a candidate, not of a diagnosis
+
+LOST = 1e6  # floors by which a model that cannot be simulated is off
+_FINITE = 1e100  # floors beyond which a model diverges
 _SMALL_SHARE = 0.01  # of its scale, as the size of a parameter whose preset is zero
 _UNBOUNDED = 1e6  # sizes up to which a parameter without a bound may go
 _DOUBT = 0.02  # of all that is known, which a fit to some records may keep of the others
@@ -87,7 +93,7 @@ class Fit:
         grids = (
             one
             for number, one in enumerate(self.effects)
-            if one.id in _STEPPED and number not in free
+            if is_stepped(one.id) and number not in free
         )
         return len(self.free) + sum(len(one.parameters) for one in grids)
 
@@ -121,6 +127,13 @@ class Fit:
         """
         if not self.free:
             return np.zeros(0)
+        return self.deviation_along(np.eye(len(self.free)), numbers)
+
+    def deviation_along(self, directions: FloatArray, numbers: IntArray) -> FloatArray:
+        """Return the standard deviations (m,) of ``directions @ x`` for directions (m, parameters).
+
+        They are infinite where nothing tells; a combination may be known where its parts are not.
+        """
         scores = np.stack(
             [np.bincount(numbers, column * self.residual) for column in self.jacobian.T], axis=1
         )
@@ -128,10 +141,11 @@ class Fit:
         scale = np.sqrt(np.maximum(np.diag(hessian), 1e-300))
         values, vectors = np.linalg.eigh(hessian / np.outer(scale, scale))
         told = values > _BLIND * values.max(initial=0.0)
-        inverse = (vectors[:, told] / values[told]) @ vectors[:, told].T / np.outer(scale, scale)
-        covariance = inverse @ (scores.T @ scores) @ inverse
-        blind = (vectors[:, ~told] ** 2).sum(axis=1) > _BLIND_SHARE
-        return np.where(blind, np.inf, np.sqrt(np.maximum(np.diag(covariance), 0.0)))
+        along = directions / scale
+        seen = along @ (vectors[:, told] / values[told]) @ vectors[:, told].T / scale
+        blind = ((along @ vectors[:, ~told]) ** 2).sum(axis=1)
+        unknown = blind > _BLIND_SHARE * (along**2).sum(axis=1)
+        return np.where(unknown, np.inf, np.sqrt(((seen @ scores.T) ** 2).sum(axis=1)))
 
 
 def fit(evidence: Evidence, effects: Sequence[AxisEffect], *, most_steps: int = 12) -> Fit:
@@ -148,6 +162,8 @@ def fit(evidence: Evidence, effects: Sequence[AxisEffect], *, most_steps: int = 
 def sketched(evidence: Evidence, effects: Sequence[AxisEffect], *, most_steps: int) -> Fit:
     """Return a fit after a few steps, its jacobian carried along.
 
+    What fails numerically is lost: see :func:`lost`.
+
     Raises
     ------
     EffectError
@@ -155,15 +171,16 @@ def sketched(evidence: Evidence, effects: Sequence[AxisEffect], *, most_steps: i
     """
     free = free_parameters(evidence, effects)
     if not free:
-        residual = evidence.residual(effects)
-        nothing = np.zeros(0)
-        return Fit(tuple(effects), (), nothing, residual, np.zeros((len(residual), 0)))
+        return _unfitted(effects, residual_of(evidence, effects))
     low, high, start = bounds(free)
 
     def residual_at(x: FloatArray) -> FloatArray:
         return residual_of(evidence, effects, free, x)
 
-    found = descend(residual_at, begun(residual_at, start, low, high), low, high, most_steps)
+    try:
+        found = descend(residual_at, begun(residual_at, start, low, high), low, high, most_steps)
+    except NUMERICAL as error:
+        return lost(evidence, effects, error)
     return _fitted(effects, free, found)
 
 
@@ -177,8 +194,26 @@ def finished(evidence: Evidence, sketch: Fit, *, most_steps: int) -> Fit:
         return residual_of(evidence, sketch.effects, sketch.free, x)
 
     at = Descent(sketch.x, sketch.residual, sketch.jacobian, sketch.fresh)
-    found = exact(residual_at, descend(residual_at, at, low, high, most_steps), high)
+    try:
+        found = exact(residual_at, descend(residual_at, at, low, high, most_steps), high)
+    except NUMERICAL as error:
+        return lost(evidence, sketch.effects, error)
     return _fitted(sketch.effects, sketch.free, found)
+
+
+def lost(evidence: Evidence, effects: Sequence[AxisEffect], error: Exception) -> Fit:
+    """Return the fit of a candidate whose numbers failed: it leaves more than any other."""
+    _LOG.warning(
+        "axis %s: %s is left out of the diagnosis, its fit failed: %s",
+        evidence.axis,
+        " + ".join(one.id for one in effects),
+        error,
+    )
+    return _unfitted(effects, np.full(_rows(evidence), LOST))
+
+
+def _unfitted(effects: Sequence[AxisEffect], residual: FloatArray) -> Fit:
+    return Fit(tuple(effects), (), np.zeros(0), residual, np.zeros((len(residual), 0)))
 
 
 def _fitted(effects: Sequence[AxisEffect], free: tuple[Free, ...], found: Descent) -> Fit:
@@ -202,7 +237,10 @@ def held_out(evidence: Evidence, fitted: Fit) -> FloatArray:
         jacobian, residual = fitted.jacobian[rows], fitted.residual[rows]
         # What the others know, and a little of all: it keeps blind directions in place.
         known = (1.0 + _DOUBT) * hessian - jacobian.T @ jacobian
-        x = _bounded_minimum(known, slope - jacobian.T @ residual, fitted.x, low, high)
+        try:
+            x = _bounded_minimum(known, slope - jacobian.T @ residual, fitted.x, low, high)
+        except NUMERICAL as error:
+            return lost(evidence, fitted.effects, error).residual
         then = _kept_down(evidence, fitted, x, rows)
         left[rows] = then[rows]
     return left
@@ -229,6 +267,8 @@ def _bounded_minimum(
     """Return where the quadratic about ``x`` with this slope is least, within bounds."""
     scale = np.sqrt(np.maximum(np.diag(hessian), 1e-300))
     values, vectors = np.linalg.eigh(hessian / np.outer(scale, scale))
+    if values.max() <= 0.0:
+        return np.asarray(np.clip(x, low, high))  # no row speaks of any parameter
     roots = np.sqrt(np.maximum(values, 1e-12 * values.max()))
     rows = roots[:, None] * vectors.T  # rowsᵀ rows is the scaled hessian
     target = -(vectors.T @ (slope / scale)) / roots
@@ -260,20 +300,26 @@ def folds(evidence: Evidence) -> list[BoolArray]:
 def residual_of(
     evidence: Evidence,
     effects: Sequence[AxisEffect],
-    free: Sequence[Free],
-    x: FloatArray,
+    free: Sequence[Free] = (),
+    x: FloatArray | tuple[()] = (),
     only: Sequence[int] | None = None,
 ) -> FloatArray:
-    """Return the residual (rows,) with these parameters."""
+    """Return the residual (rows,) with these parameters; of a model that diverges it is large."""
     try:
-        return evidence.residual(with_values(effects, free, x), only)
-    except (EffectError, PlantError):
-        rows = sum(
-            part.rows.stop - part.rows.start
-            for part in evidence.parts
-            if only is None or part.record in only
-        )
-        return np.full(rows, _LOST)
+        with np.errstate(over="ignore", invalid="ignore"):
+            left = evidence.residual(with_values(effects, free, x), only)
+    except (EffectError, PlantError, *NUMERICAL):
+        return np.full(_rows(evidence, only), LOST)
+    return left if np.abs(left).max(initial=0.0) < _FINITE else np.full(len(left), LOST)
+
+
+def _rows(evidence: Evidence, only: Sequence[int] | None = None) -> int:
+    """Return how many rows the residual of some records has."""
+    return sum(
+        part.rows.stop - part.rows.start
+        for part in evidence.parts
+        if only is None or part.record in only
+    )
 
 
 def bounds(free: Sequence[Free]) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -289,10 +335,10 @@ def free_parameters(evidence: Evidence, effects: Sequence[AxisEffect]) -> tuple[
     A grid of steps is found so, too. Beside others it stays: a slope over its jumps tells nothing.
     """
     free: list[Free] = []
-    others = sum(asked.id not in OWN for asked in effects)
+    others = sum(not is_whole_own(asked.id) for asked in effects)
     for number, asked in enumerate(effects):
         attached = Attached.of(evidence.robot, asked)
-        if attached.formulation.by_spectra or (asked.id in _STEPPED and others > 1):
+        if attached.formulation.by_spectra or (is_stepped(asked.id) and others > 1):
             continue
         for parameter in attached.formulation.parameters:
             low, high = tolerance(attached, parameter, evidence.extent)
@@ -313,7 +359,7 @@ def free_parameters(evidence: Evidence, effects: Sequence[AxisEffect]) -> tuple[
 
 
 def with_values(
-    effects: Sequence[AxisEffect], free: Sequence[Free], x: FloatArray
+    effects: Sequence[AxisEffect], free: Sequence[Free], x: FloatArray | tuple[()]
 ) -> tuple[AxisEffect, ...]:
     """Return the effects with these parameters, each given in units of its size."""
     values: list[dict[str, float]] = [{} for _ in effects]

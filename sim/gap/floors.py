@@ -15,7 +15,8 @@ from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot, StepperAxis
 
 _ORDER = 6  # of the differences, to which motion is smooth
-_BLOCK_ROWS = 100
+_BLOCK_ROWS = 100  # fewer in short records
+_LEAST_BLOCK_ROWS = 10
 _LEAST_BLOCKS = 5
 _ROUNDING = 1e-12  # of a signal's size: what is less than that was computed
 _GRID_ROWS = 20_000  # in which the steps of a signal are looked for
@@ -57,10 +58,11 @@ def unforetold(signal: FloatArray) -> float | None:
     Biometrika 77 (1990) 521-528). None where there are too few rows, or the signal was computed.
     """
     differences = np.diff(signal, _ORDER) / np.sqrt(comb(2 * _ORDER, _ORDER))
-    blocks = len(differences) // _BLOCK_ROWS
-    if blocks < _LEAST_BLOCKS:
+    rows = min(_BLOCK_ROWS, len(differences) // _LEAST_BLOCKS)
+    if rows < _LEAST_BLOCK_ROWS:
         return None
-    squares = differences[: blocks * _BLOCK_ROWS].reshape(blocks, _BLOCK_ROWS) ** 2
+    blocks = len(differences) // rows
+    squares = differences[: blocks * rows].reshape(blocks, rows) ** 2
     level = float(np.sqrt(np.median(squares.mean(axis=1))))
     return level if level > _ROUNDING * float(np.abs(signal).max()) else None
 

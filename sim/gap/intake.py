@@ -14,13 +14,12 @@ from rotemina.sim.gap.clocks import check_clock
 from rotemina.sim.gap.copies import check_copies
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.following import check_following
+from rotemina.sim.gap.leaps import LEAST_ROWS, check_leaps, default_names, pieces
 from rotemina.sim.gap.scales import check_scales
 from rotemina.sim.gap.stuck import check_sensors
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import ForceAxis, Robot
 
-LEAST_ROWS = 100  # of a record
-LEAST_IN_ALL = 500  # rows of all records that measure an axis
 _MEASURED = (Tap.U, Tap.REF, Tap.MEAS)
 
 
@@ -48,16 +47,14 @@ def check(
     """
     if not records:
         raise GapError("no record was given; name at least one")
-    called = names or [_name(number, one) for number, one in enumerate(records, start=1)]
-    labelled = [
-        Labelled(record, name, number)
-        for number, (record, name) in enumerate(zip(records, called, strict=True))
-    ]
-    cautions: list[Caution] = []
+    called = names or default_names(records)
+    cautions = list(check_leaps(records, called))
+    labelled = pieces(records, called)
+    whole = [one.record for one in labelled]
     for one in labelled:
         _check_fit(robot, one)
         cautions += check_clock(one)
-        cautions += check_scales(robot, one, records)
+        cautions += check_scales(robot, one, whole)
         cautions += check_sensors(robot, one)
         check_following(robot, one)
     check_copies(labelled)
@@ -66,13 +63,8 @@ def check(
             f"{_listed(labelled)}: no measured channel (u, ref or meas) but only commands; "
             "give records of the real machine"
         )
-    _check_length(robot, labelled)
     cautions += _missing(robot, records)
     return tuple(cautions)
-
-
-def _name(number: int, record: Record) -> str:
-    return f"record {number} ({len(record.time_s)} rows, {record.duration_s:.6g} s)"
 
 
 def _listed(records: Sequence[Labelled]) -> str:
@@ -115,18 +107,6 @@ def _check_drive(robot: Robot, one: Labelled, axis: str) -> None:
         f"{one.name}: axis {axis!r} is moved by a force, and no {axis}.u column tells which: add "
         "it, or write '# mode: closed_loop' and give the robot file its controller"
     )
-
-
-def _check_length(robot: Robot, records: Sequence[Labelled]) -> None:
-    """Refuse axes of which so little was measured that any rich effect would fit it."""
-    for axis in robot.axes:
-        own = [one for one in records if _is_measured(one.record, axis)]
-        rows = sum(len(one.record.time_s) for one in own)
-        if 0 < rows < LEAST_IN_ALL:
-            raise GapError(
-                f"{_listed(own)}: {rows} rows in all measure axis {axis!r}; a diagnosis needs "
-                f"{LEAST_IN_ALL} or more: leave its columns out, or record longer"
-            )
 
 
 def _is_measured(record: Record, axis: str) -> bool:

@@ -26,7 +26,7 @@ _MOSTLY = 0.9  # of the rows, that count: where fewer do, what is between them i
 _LEAST = 0.1  # floors squared, that what is left has above them
 
 
-def at_input(evidence: Evidence, fitted: Fit) -> list[tuple[Part, FloatArray]]:
+def inputs_left(evidence: Evidence, fitted: Fit) -> list[tuple[Part, FloatArray]]:
     """Return what a fit leaves (n,) of each tap of open-loop records, as an input, m or rad.
 
     At the amplifier it is that already.

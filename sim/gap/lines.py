@@ -39,7 +39,9 @@ def _placed(evidence: Evidence, fitted: Fit) -> list[tuple[FloatArray, FloatArra
     placed = []
     for part in evidence.parts:
         if part.tap is not Tap.U:
-            placed.append((answers[part.record][part.tap], fitted.residual[part.rows]))
+            origin = evidence.observations[part.record].origin
+            place = answers[part.record][part.tap] + origin
+            placed.append((place, fitted.residual[part.rows]))
     return placed
 
 

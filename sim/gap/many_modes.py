@@ -13,6 +13,7 @@ from scipy.linalg import expm
 
 from rotemina.sim.arrays import BoolArray, ComplexArray, FloatArray
 from rotemina.sim.effects.modes import MODES
+from rotemina.sim.gap.catalogue import by_spectra
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import Fit
 from rotemina.sim.gap.models import Explanation, mean_squares
@@ -49,6 +50,8 @@ class _Axis:
     z: ComplexArray
     inputs: ComplexArray
     output: ComplexArray
+    own: AxisEffect  # of modes that the axis' own input drives, and that of another axis
+    other: AxisEffect
 
     @property
     def slowest(self) -> float:
@@ -70,7 +73,7 @@ def many_modes(evidence: Evidence, account: Account) -> Explanation | None:
     axis = _gathered(evidence)
     if axis is None:
         return None
-    account.tell("fitting", "flexible_mode")
+    account.tell("fitting", axis.own.id)
     records = range(len(axis.output))
     sources = list(axis.sources)
     whole = axis.spectra(records, sources)
@@ -128,7 +131,17 @@ def _gathered(evidence: Evidence) -> _Axis | None:
     z = np.exp(1j * angle)[driven]
     own = (evidence.axis, *(name for name in names if name != evidence.axis))
     order = [names.index(name) for name in own]
-    return _Axis(evidence, own, step_s, z, inputs[:, order][..., driven], output[:, driven])
+    modes, leaking = (_asked(evidence.axis, coupled=one) for one in (False, True))
+    if modes is None or leaking is None:
+        return None
+    seen = inputs[:, order][..., driven], output[:, driven]
+    return _Axis(evidence, own, step_s, z, *seen, modes, leaking)
+
+
+def _asked(axis: str, *, coupled: bool) -> AxisEffect | None:
+    """Return the effect of many modes on an axis, if one is installed."""
+    found = by_spectra(coupled=coupled)
+    return found and AxisEffect(axis=axis, id=found[0].id, formulation=found[1].name)
 
 
 def _period(record: Record) -> int:
@@ -221,12 +234,8 @@ def _effects(
     asked = []
     for name, own in zip(sources, shares.reshape(len(sources), -1, 2), strict=True):
         numbers = _numbers(rate / (2.0 * np.pi), damping, own)
-        if name == axis.evidence.axis:
-            one = AxisEffect(axis=name, id="flexible_mode", formulation="modes")
-        else:
-            one = AxisEffect(
-                axis=axis.evidence.axis, id="cross_coupling", formulation="modes", from_axis=name
-            )
+        driven_by_own = name == axis.evidence.axis
+        one = axis.own if driven_by_own else replace(axis.other, from_axis=name)
         asked.append(replace(one, parameters=numbers))
     return tuple(asked)
 

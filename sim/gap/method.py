@@ -5,11 +5,12 @@ Where the gap lies (:mod:`~rotemina.sim.gap.where`), which effects may cause it
 that their fit did not see (:mod:`~rotemina.sim.gap.fit`, :mod:`~rotemina.sim.gap.selection`), what
 can be told apart (:mod:`~rotemina.sim.gap.rivals`, :mod:`~rotemina.sim.gap.contest`), by which
 further experiment (:mod:`~rotemina.sim.gap.experiment`), and what can be said
-(:mod:`~rotemina.sim.gap.verdict`), axis by axis: what one axis does may show on another
+(:mod:`~rotemina.sim.gap.compare.decision`), axis by axis: what one axis does may show on another
 (:mod:`~rotemina.sim.gap.order`).
 """
 
 import hashlib
+import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -17,20 +18,25 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from rotemina.sim.gap.caution import remarks
-from rotemina.sim.gap.diagnosis import AxisDiagnosis, Diagnosis, Verdict
+from rotemina.sim.gap.diagnosis import AxisDiagnosis, Diagnosis, Offset, Verdict
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.examination import Examination, examine
 from rotemina.sim.gap.experiment import experiments
+from rotemina.sim.gap.fit import NUMERICAL
 from rotemina.sim.gap.intake import check
+from rotemina.sim.gap.leaps import pieces
+from rotemina.sim.gap.offsets import offsets
 from rotemina.sim.gap.order import examination_order
 from rotemina.sim.gap.progress import Account, Listener, Progress, unheard
 from rotemina.sim.gap.telling import told_of
 from rotemina.sim.gap.where import Place, locate
+from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.group import coupled_axes
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import AxisEffect, Robot
 
+_LOG = logging.getLogger(__name__)
 _LEAST_LEFT = 0.06  # of an axis' gap, that other axes' causes must leave for it to have its own
 _LEAKED = 0.25  # the same, where nothing explains it: other axes' formulas are not quite right
 _SHAKES = 10.0  # times the power of a gap, that a coupled axis' one has to be the reason of it
@@ -53,7 +59,8 @@ def diagnose(
     robot : Robot
         The model, with the effects that it already has.
     records : sequence of Record
-        They may differ in rate, length, axes and taps. Their order changes nothing.
+        They may differ in rate, length, axes and taps. Their order changes nothing. One in which
+        time leaps is taken in pieces.
     seed : int
         Of the draws from which intervals come.
     jobs : int
@@ -67,12 +74,16 @@ def diagnose(
         If the records cannot be diagnosed.
     """
     cautions = check(robot, records)
-    run = _Run(robot, _in_order(records), np.random.default_rng(seed), jobs, listener)
+    whole = [one.record for one in pieces(records)]
+    run = _Run(robot, _in_order(whole), np.random.default_rng(seed), jobs, listener)
     # Threads of the linear algebra library only get in the way of matrices as narrow as these.
     with threadpool_limits(limits=1):
         axes = run.diagnosed()
+        constants = run.offsets(axes)
     cautioned = {
-        name: replace(one, remarks=(*one.remarks, *remarks(cautions, name)))
+        name: replace(
+            one, offsets=constants[name], remarks=(*one.remarks, *remarks(cautions, name))
+        )
         for name, one in axes.items()
     }
     suggested = [one for found in run.examined.values() for one in experiments(robot, found)]
@@ -104,6 +115,7 @@ class _Run:
     jobs: int
     listener: Listener
     examined: dict[str, Examination] = field(default_factory=dict)
+    failed: dict[str, str] = field(default_factory=dict)
 
     def diagnosed(self) -> dict[str, AxisDiagnosis]:
         """Return what can be said of each axis that was measured, in the robot's order."""
@@ -116,6 +128,17 @@ class _Run:
             self._examine(name, evidences[name], 0.9 * number / len(gaps), 0.9 / len(gaps))
         told = {name: self._told_of(name, places[name], name in gaps) for name in evidences}
         return {name: self._shaken(one, told) for name, one in told.items()}
+
+    def offsets(self, axes: Mapping[str, AxisDiagnosis]) -> dict[str, dict[Tap, Offset | None]]:
+        """Return the constants of the corrected model that all records agree on."""
+        corrected = _with(self.robot, [effect for one in axes.values() for effect in one.fitted])
+        found: dict[str, dict[Tap, Offset | None]] = {}
+        for name in axes:
+            try:
+                found[name] = offsets(self._bare(name).with_model(corrected))
+            except PlantError:  # no steady state with all axes' effects together
+                found[name] = {}
+        return found
 
     def _evidences(self) -> dict[str, Evidence]:
         found: dict[str, Evidence] = {}
@@ -139,7 +162,12 @@ class _Run:
         now = float(np.mean(evidence.residual() ** 2))
         if context and now - 1.0 < _LEAST_LEFT * (before - 1.0):
             return
-        examined = examine(evidence, account, jobs=self.jobs)
+        try:
+            examined = examine(evidence, account, jobs=self.jobs)
+        except NUMERICAL as error:
+            _LOG.warning("axis %s: its examination failed: %s", name, error)
+            self.failed[name] = str(error)
+            return
         leaked = context and now - 1.0 < _LEAKED * (before - 1.0)
         if not (leaked and examined.verdict is Verdict.UNKNOWN):
             self.examined[name] = examined
@@ -150,6 +178,9 @@ class _Run:
     def _told_of(self, name: str, places: tuple[Place, ...], has_gap: bool) -> AxisDiagnosis:
         if name in self.examined:
             return told_of(self.examined[name], places, self.rng)
+        if name in self.failed:
+            why = f"Its numbers fail, so that no cause can be found: {self.failed[name]}."
+            return AxisDiagnosis(name, Verdict.UNKNOWN, places, remarks=(why,))
         said = ("Its gap comes from what was found on other axes.",) if has_gap else ()
         return AxisDiagnosis(name, Verdict.NONE, places, remarks=said)
 

@@ -1,8 +1,11 @@
 """What the corrected model answers to new commands."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+
+import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.gap.diagnosis import Offset
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.plant.assembly import assemble
 from rotemina.sim.plant.response import nominal_response
@@ -13,12 +16,22 @@ _PREFIX = "predicted "  # of the metadata that say how a record came about
 _OTHER_PREFIX = "simulated "
 _ANSWERS = (Tap.U, Tap.REF, Tap.MEAS)
 
+Offsets = Mapping[str, Mapping[Tap, Offset]]
 
-def predict(robot: Robot, commands: Record) -> Record:
+
+def predict(
+    robot: Robot,
+    commands: Record,
+    offsets: Offsets | None = None,
+    *,
+    after: Record | None = None,
+    pause_s: float = 0.0,
+) -> Record:
     """Return the record that a model expects of commands: without noise, rounding and chance.
 
     The run starts as a diagnosis starts it: at rest at the first command, in the steady state of a
-    periodic file, or for a record of unknown history where its first rows were measured.
+    periodic file, or for a record of unknown history where its first rows were measured. With
+    ``after`` it goes on where that motion ended: what hysteresis or creep remember is carried over.
 
     Parameters
     ----------
@@ -26,6 +39,11 @@ def predict(robot: Robot, commands: Record) -> Record:
         The corrected one: its effects act.
     commands : Record
         Its ``cmd`` (and ``add``; ``u`` of axes that a force moves) drive the model.
+    offsets : mapping of axis to mapping of Tap to Offset, optional
+        Constants by which the model is moved.
+    after : Record, optional
+        The motion that went before, ``pause_s`` seconds earlier; the last commands were held
+        meanwhile.
 
     Returns
     -------
@@ -36,12 +54,15 @@ def predict(robot: Robot, commands: Record) -> Record:
     Raises
     ------
     GapError
-        If an axis of the commands is none of the robot's, or in units of another quantity.
+        If an axis of the commands is none of the robot's, or in units of another quantity; if
+        ``after`` lacks one of them.
     PlantError, EffectError
         If the model cannot be simulated.
     """
     _check_axes(robot, commands)
-    response = nominal_response(robot, commands)
+    whole = commands if after is None else _joined(robot, after, commands, pause_s)
+    response = nominal_response(robot, whole)
+    own = slice(len(whole.time_s) - len(commands.time_s), None)
     signals: dict[tuple[str, Tap], FloatArray] = {}
     for axis in commands.axes:
         for tap in (Tap.CMD, Tap.ADD):
@@ -49,9 +70,46 @@ def predict(robot: Robot, commands: Record) -> Record:
                 signals[axis, tap] = commands.signal(axis, tap)
         for tap in _ANSWERS:
             if tap is not Tap.U or not isinstance(robot.axes[axis], StepperAxis):
-                signals[axis, tap] = response.signal(axis, tap)
+                signals[axis, tap] = response.signal(axis, tap)[own]
+                offset = (offsets or {}).get(axis, {}).get(tap)
+                if offset is not None:
+                    signals[axis, tap] = signals[axis, tap] + offset.value
     metadata = dict(_metadata(robot, commands))
     return Record.from_signals(commands.time_s, signals, commands.units, metadata)
+
+
+def _joined(robot: Robot, after: Record, commands: Record, pause_s: float) -> Record:
+    """Return one record of the motion before, a pause and the commands.
+
+    What was measured before tells how the run starts; of the commands nothing was measured.
+    """
+    if not pause_s >= 0.0:
+        raise GapError(f"pause = {pause_s:g} s: must be 0 s or more")
+    missing = [axis for axis in commands.axes if axis not in after.axes]
+    if missing:
+        raise GapError(
+            f"axis {missing[0]!r} of the commands: the motion before has {', '.join(after.axes)}; "
+            "name a record of all axes that are commanded"
+        )
+    _check_axes(robot, after)
+    if after.closed_loop != commands.closed_loop:
+        raise GapError("the motion before and the commands differ in mode; name a record of one")
+    step_s = float(np.median(np.diff(after.time_s))) if len(after.time_s) > 1 else 0.0
+    shift_s = float(after.time_s[-1]) + step_s + pause_s - float(commands.time_s[0])
+    signals: dict[tuple[str, Tap], FloatArray] = {}
+    for axis in commands.axes:
+        for tap in Tap:
+            if after.has(axis, tap) or commands.has(axis, tap):
+                parts = [
+                    one.signal(axis, tap) if one.has(axis, tap) else np.zeros(len(one.time_s))
+                    for one in (after, commands)
+                ]
+                signals[axis, tap] = np.concatenate(parts)
+    metadata = dict(after.metadata)
+    if after.history == "periodic":
+        metadata["period_samples"] = str(after.period_samples or len(after.time_s))
+    times = np.concatenate([after.time_s, commands.time_s + shift_s])
+    return Record.from_signals(times, signals, commands.units, metadata)
 
 
 def _check_axes(robot: Robot, commands: Record) -> None:

@@ -3,18 +3,19 @@
 What is read is data: nothing in it is ever executed.
 """
 
-import json
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from math import isfinite
 from os import PathLike, fspath
-from pathlib import Path
 from typing import Any
 
 from rotemina.sim.effects.attachment import RESERVED, Attached, parse_effect
 from rotemina.sim.errors import InputError
-from rotemina.sim.gap.diagnosis import Verdict
+from rotemina.sim.gap.diagnosis import Offset, Verdict
 from rotemina.sim.gap.document import FORMAT
 from rotemina.sim.gap.errors import GapError
+from rotemina.sim.input_files import parse_json, read_text
+from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.file import parse_robot
 from rotemina.sim.robot.model import AxisEffect, Robot
 
@@ -26,12 +27,16 @@ Json = dict[str, Any]
 
 @dataclass(frozen=True, slots=True)
 class Document:
-    """What is read back: the verdicts, the robot that was examined and what corrects it."""
+    """What is read back: the verdicts, the robot that was examined and what corrects it.
+
+    ``offsets`` are by axis and tap.
+    """
 
     verdict: Verdict
     axes: Mapping[str, Verdict]
     robot: Robot
     effects: tuple[AxisEffect, ...]
+    offsets: Mapping[str, Mapping[Tap, Offset]] = field(default_factory=dict)
 
     @property
     def corrected(self) -> Robot:
@@ -50,7 +55,8 @@ def read_document(path: str | PathLike[str]) -> Document:
         If the file cannot be read, is no such document, or its model is none, with the key.
     """
     name = fspath(path)
-    table = _table(name, _parsed(name, _text(name)), "the document")
+    text = read_text(path, GapError, MAX_BYTES, advice="name the JSON file of a diagnosis")
+    table = _table(name, parse_json(text, name, GapError), "the document")
     if table.get("format") != FORMAT:
         raise GapError(
             f"{name}: format = {_short(table.get('format'))}: must be {FORMAT!r}; name a file that "
@@ -73,37 +79,8 @@ def read_document(path: str | PathLike[str]) -> Document:
             _effect(f"{name}: model.effects[{index}]", robot, one)
             for index, one in enumerate(effects)
         ),
+        offsets=_offsets(name, robot, _table(name, table.get("offset", {}), "offset")),
     )
-
-
-def _text(name: str) -> str:
-    try:
-        with Path(name).open("rb") as file:
-            data = file.read(MAX_BYTES + 1)
-    except OSError as error:
-        raise GapError(
-            f"{name}: it cannot be read ({error.strerror or error}); name the JSON file of a "
-            "diagnosis"
-        ) from error
-    if len(data) > MAX_BYTES:
-        raise GapError(f"{name}: larger than {MAX_BYTES} bytes; this is no diagnosis")
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise GapError(f"{name}: not UTF-8 text (byte {error.start})") from error
-
-
-def _parsed(name: str, text: str) -> object:
-    def refuse(constant: str) -> None:
-        raise GapError(f"{name}: {constant} is no number of JSON; it may have been edited")
-
-    try:
-        # Whole numbers as float: one of a thousand digits is then infinite, and found out later.
-        return json.loads(text, parse_int=float, parse_constant=refuse)
-    except json.JSONDecodeError as error:
-        raise GapError(f"{name}:{error.lineno}: not valid JSON: {error.msg}") from error
-    except RecursionError as error:
-        raise GapError(f"{name}: tables or lists are nested too deeply") from error
 
 
 def _table(name: str, value: object, key: str) -> Json:
@@ -119,6 +96,32 @@ def _verdict(name: str, key: str, value: object) -> Verdict:
     if not isinstance(value, str) or value not in list(Verdict):
         raise GapError(f"{name}: {key} = {_short(value)}: must be one of {', '.join(Verdict)}")
     return Verdict(value)
+
+
+def _offsets(name: str, robot: Robot, table: Json) -> dict[str, dict[Tap, Offset]]:
+    """Return the offsets of each axis; taps whose offset is null have none."""
+    found: dict[str, dict[Tap, Offset]] = {}
+    for axis, taps in table.items():
+        if axis not in robot.axes:
+            raise GapError(f"{name}: offset.{_short(axis)}: must be one of {list(robot.axes)}")
+        for tap, one in _table(name, taps, f"offset.{axis}").items():
+            where = f"offset.{axis}.{_short(tap)}"
+            if tap not in list(Tap):
+                raise GapError(f"{name}: {where}: must be one of {', '.join(Tap)}")
+            if one is not None:
+                numbers = _table(name, one, where)
+                value, deviation = (
+                    _finite(name, f"{where}.{key}", numbers.get(key))
+                    for key in ("value", "deviation")
+                )
+                found.setdefault(axis, {})[Tap(tap)] = Offset(value, deviation)
+    return found
+
+
+def _finite(name: str, key: str, value: object) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
+        raise GapError(f"{name}: {key} = {_short(value)}: must be a finite number")
+    return float(value)
 
 
 def _robot(name: str, text: object) -> Robot:

@@ -2,10 +2,12 @@
 
 import numpy as np
 
-from rotemina.sim.gap.baseline import RESONANCE
+from rotemina.sim.effects.formulation import Part, Stage
+from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.models import Explanation
 from rotemina.sim.records.record import Tap
+from rotemina.sim.robot.model import AxisEffect
 
 _ONE_MODE = 0.03  # relative difference of frequencies that are one mode's
 _ONE_PERIOD = 0.003  # the same of periods, as multiples of another's
@@ -15,17 +17,28 @@ _HARMONICS = 8
 def is_own_mode(evidence: Evidence, tuned: Explanation, one: Explanation) -> bool:
     """Tell whether a further mode of an explanation is at the resonance as another has it."""
     inertia = evidence.robot.axes[evidence.axis].inertia
-    off = [own.parameters["frequency_error"] for own in tuned.fit.effects if own.id == RESONANCE]
+    off = [
+        own.parameters["frequency_error"]
+        for own in tuned.fit.effects
+        if "frequency_error" in own.parameters
+    ]
     if inertia is None or not off:
         return False
     rings_hz = np.sqrt(inertia.stiffness / inertia.mass) / (2.0 * np.pi) * (1.0 + off[0])
     return any(
         abs(value - rings_hz) < _ONE_MODE * rings_hz
         for cause in one.causes
-        if cause.id == "flexible_mode"
+        if _is_mode(cause)
         for name, value in cause.parameters.items()
         if name.startswith("frequency")
     )
+
+
+def _is_mode(cause: AxisEffect) -> bool:
+    """Tell whether a cause is linear states that the axis' own input drives."""
+    effect = effect_named(cause.id)
+    form = effect.formulation(cause.formulation)
+    return form is not None and isinstance(form.acts, Part) and not effect.coupled
 
 
 def has_overtone(evidence: Evidence, one: Explanation) -> bool:
@@ -33,11 +46,12 @@ def has_overtone(evidence: Evidence, one: Explanation) -> bool:
 
     What a reference does not see is the sensor's own all the same.
     """
-    apart = {"encoder_interpolation"} if evidence.has(Tap.REF) else set()
+    told = evidence.has(Tap.REF)
     periods = [
         cause.parameters["period"]
         for cause in one.causes
-        if cause.id not in apart and "period" in cause.parameters
+        if "period" in cause.parameters
+        and not (told and effect_named(cause.id).stage is Stage.SENSOR)
     ]
     for long in periods:
         for short in periods:

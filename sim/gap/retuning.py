@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from rotemina.sim.gap.baseline import RESONANCE, baseline
+from rotemina.sim.gap.baseline import baseline
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import fit
 from rotemina.sim.gap.models import Explanation, explanation
@@ -23,7 +23,7 @@ def retuned(evidence: Evidence) -> Explanation:
     """
     own = baseline(evidence)
     near = fit(evidence, own, most_steps=_STEPS)
-    if any(one.id == RESONANCE for one in own):
+    if any("frequency_error" in one.parameters for one in own):
         begun = min(
             (_off(own, float(share)) for share in _OFF), key=lambda one: _left(evidence, one)
         )
@@ -36,7 +36,7 @@ def retuned(evidence: Evidence) -> Explanation:
 def _off(own: tuple[AxisEffect, ...], share: float) -> tuple[AxisEffect, ...]:
     return tuple(
         replace(one, parameters={**one.parameters, "frequency_error": share})
-        if one.id == RESONANCE
+        if "frequency_error" in one.parameters
         else one
         for one in own
     )

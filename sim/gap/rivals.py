@@ -1,17 +1,21 @@
 """How sure a cause is: its rivals, and which of them the data cannot tell from it."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.gap.baseline import OWN, RESONANCE
+from rotemina.sim.effects.kinship import Family
+from rotemina.sim.effects.registry import effect_named
+from rotemina.sim.gap.baseline import is_whole_own
 from rotemina.sim.gap.blocks import Blocks
+from rotemina.sim.gap.catalogue import is_of, kinship_of, with_parameter
+from rotemina.sim.gap.closing import closed
 from rotemina.sim.gap.evidence import Evidence, block_rows
 from rotemina.sim.gap.models import Explanation
-from rotemina.sim.gap.verdict import closed
 from rotemina.sim.records.record import Tap
+from rotemina.sim.robot.model import AxisEffect
 
 _POWER = 2.0  # of what is left: how fast a rival loses with what it leaves
 _SLACK = 0.03  # of the floor's power, which two scores at the floor differ by chance
@@ -27,23 +31,8 @@ _ANOTHER_MACHINE = 0.02  # times as likely, with an own parameter of the model a
 _AT_AN_END = 0.01  # of a parameter's bounds apart, how near to one it is at it
 _SLIGHT = 0.01  # error of a frequency, below which a small mass on a spring may do it
 _SLIGHTLY_DAMPED = 0.1  # the same for damping
-_PRIOR: Mapping[str, float] = {  # others: 1
-    "sensor_gain": 0.5,
-    "sensor_nonlinearity": 0.5,
-    "amplifier_lag": 0.6,
-    "sensor_lag": 0.3,
-    "vibration": 0.5,
-    "contact": 0.5,
-    "cross_coupling": 0.7,
-    "clock_skew": 0.5,
-}
-_KIN = {"backlash", "friction"}
 _FAR_OFF = 25.0  # mean square over the floor, from which a formula is far from right
 _NEARLY_ALL = 0.9  # of the gap's power
-_LAGS = {"amplifier_lag", "sensor_lag"}
-_SHAPE = {"second_order": 1, "third_order": 2}  # parameters of a lag beside its lateness
-
-DELAY = "delay"
 
 Key = tuple[str, str | None]
 
@@ -66,10 +55,10 @@ def rivals(
     The model's own parameters take part in all of them, causes or not. ``raw`` is the mean square
     of the gap over the floor.
     """
-    others = [key for key in best.ids if key != cause and key[0] not in OWN]
+    others = [key for key in best.ids if key != cause and not is_whole_own(key[0])]
     found = [(cause, best)]
     for one in tried:
-        keys = [key for key in one.ids if key[0] not in OWN or not others]
+        keys = [key for key in one.ids if not is_whole_own(key[0]) or not others]
         if one is best or len(keys) != len(others) + 1 or any(key not in keys for key in others):
             continue
         (own,) = [key for key in keys if key not in others] or [cause]
@@ -109,7 +98,9 @@ def not_ruled_out(ranked: Sequence[Rival], cause: Key, raw: float) -> tuple[str,
     closest = min(ranked, key=lambda one: one.explanation.score)
     if own is not None and own.explanation.score >= _INEXACT and closest.effect != cause[0]:
         names.append(closest.effect)
-    names += [other for own, other, tells in _IMITATED if own == cause and tells(ranked)]
+    load = with_parameter("mass_ratio")
+    if load is not None and is_of(Family.RESONANCE, cause[0]) and _is_slight(ranked, cause):
+        names.append(load[0].id)
     names += [other.effect for other in ranked if _is_kin(ranked, cause, other, raw)]
     return tuple(dict.fromkeys(names))
 
@@ -120,7 +111,8 @@ def _is_kin(ranked: Sequence[Rival], cause: Key, other: Rival, raw: float) -> bo
     A screw that sticks and one that is loose stay behind at each reversal. How softly they are
     taken along, and what a dither does to them, is each machine's own; no formula is quite right.
     """
-    if {cause[0], other.effect} != _KIN or cause[1] is not None:
+    kin = is_of(Family.LOST_MOTION, cause[0]) and is_of(Family.LOST_MOTION, other.effect)
+    if not kin or other.effect == cause[0] or cause[1] is not None:
         return False
     left = next(one.explanation.score for one in ranked if one.effect == cause[0])
     return left >= _FAR_OFF and closed(raw, other.explanation.score) >= _NEARLY_ALL
@@ -132,27 +124,21 @@ def _fitted_value(ranked: Sequence[Rival], cause: Key, name: str) -> float:
     return effect.parameters[name]
 
 
-def _is_slight(ranked: Sequence[Rival]) -> bool:
+def _is_slight(ranked: Sequence[Rival], cause: Key) -> bool:
     """Tell whether a resonance is so little off that a small mass on a spring may do it.
 
     A mass m there, at a frequency well apart from the axis' own, moves that by about m/2M, and
     shows by nothing else where its own narrow line is not excited.
     """
     error, damping = (
-        _fitted_value(ranked, (RESONANCE, None), name)
-        for name in ("frequency_error", "damping_error")
+        _fitted_value(ranked, cause, name) for name in ("frequency_error", "damping_error")
     )
     return abs(error) < _SLIGHT and abs(damping) < _SLIGHTLY_DAMPED
 
 
-_IMITATED: Sequence[tuple[Key, str, Callable[[Sequence[Rival]], bool]]] = (
-    ((RESONANCE, None), "flexible_mode", _is_slight),
-)
-
-
 def _prior(effect: str, more_parameters: int) -> float:
     """Return how likely an effect is before any record: the simpler one on a tie."""
-    return _PRIOR.get(effect, 1.0) * _SIMPLER ** -min(more_parameters, _MOST_MORE)
+    return kinship_of(effect).prior * _SIMPLER ** -min(more_parameters, _MOST_MORE)
 
 
 def probability(ranked: Sequence[Rival], cause: Key) -> float:
@@ -162,7 +148,7 @@ def probability(ranked: Sequence[Rival], cause: Key) -> float:
 
 def _as_the_machine(one: Explanation) -> float:
     """Return how likely it is that the model's own parameters are so far off."""
-    own = [number for number, effect in enumerate(one.fit.effects) if effect.id in OWN]
+    own = [number for number, effect in enumerate(one.fit.effects) if is_whole_own(effect.id)]
     reached = (
         min(x * free.size - free.low, free.high - x * free.size)
         < _AT_AN_END * (free.high - free.low)
@@ -177,9 +163,16 @@ def _counted(one: Explanation, cause: Key) -> int:
 
     A filter has some order: that a delay knows none makes it no likelier.
     """
-    late = cause[0] == DELAY or cause[0] in _LAGS
-    forms = [own.formulation for own in one.causes if late and own.id in _LAGS]
-    return one.fit.parameters - sum(_SHAPE.get(form or "", 0) for form in forms)
+    if not is_of(Family.LATE, cause[0]):
+        return one.fit.parameters
+    shapes = [_shape(own) for own in one.causes if is_of(Family.LATE, own.id)]
+    return one.fit.parameters - sum(shapes)
+
+
+def _shape(late: AxisEffect) -> int:
+    """Return how many parameters an effect has beside its lateness."""
+    formulation = effect_named(late.id).formulation(late.formulation)
+    return len(formulation.parameters) - 1 if formulation is not None else 0
 
 
 def _more_parameters(

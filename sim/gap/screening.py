@@ -14,21 +14,17 @@ from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.gap.candidates import is_slow
 from rotemina.sim.gap.descent import one_step
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.fit import Fit, bounds, free_parameters, with_values
+from rotemina.sim.gap.fit import (
+    NUMERICAL,
+    Fit,
+    bounds,
+    free_parameters,
+    lost,
+    residual_of,
+    with_values,
+)
 from rotemina.sim.gap.starts import starts
 from rotemina.sim.robot.model import AxisEffect
-
-_AMOUNTS = (  # what parameters begin with in which an effect is linear, of either sign
-    "sine",
-    "cosine",
-    "second_sine",
-    "second_cosine",
-    "amplitude",
-    "bow",
-    "s_shape",
-    "cubic",
-    "hardening",
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,8 +39,15 @@ def screen(evidence: Evidence, fitted: Fit, candidate: AxisEffect, *, briefly: b
     """Take a first look at a candidate: a step downhill from the best of its starts.
 
     A start is as good as what it takes away in the amount that suits best. ``briefly`` leaves it
-    there.
+    there. A candidate whose numbers fail leaves more than any other.
     """
+    try:
+        return _screened(evidence, fitted, candidate, briefly=briefly)
+    except NUMERICAL as error:
+        return Screened(candidate, lost(evidence, [candidate], error).cost)
+
+
+def _screened(evidence: Evidence, fitted: Fit, candidate: AxisEffect, *, briefly: bool) -> Screened:
     begun = [_begun(evidence, fitted, start) for start in starts(evidence, fitted, candidate)]
     best = min(begun, key=lambda one: one.cost)
     if briefly or is_slow(evidence, candidate):
@@ -57,7 +60,7 @@ def _begun(evidence: Evidence, fitted: Fit, candidate: AxisEffect) -> Screened:
     names = _amounts(evidence, candidate)
     directions = _directions(evidence, candidate, names)
     changes = [
-        _beside(fitted, evidence.residual([*fitted.effects, one]) - fitted.residual)
+        _beside(fitted, residual_of(evidence, [*fitted.effects, one]) - fitted.residual)
         for one in directions
     ]
     basis = np.stack(changes, axis=1)
@@ -73,8 +76,8 @@ def _begun(evidence: Evidence, fitted: Fit, candidate: AxisEffect) -> Screened:
 
 
 def _amounts(evidence: Evidence, candidate: AxisEffect) -> list[str]:
-    values = Attached.of(evidence.robot, candidate).values
-    return [name for name in values if name.startswith(_AMOUNTS)]
+    formulation = Attached.of(evidence.robot, candidate).formulation
+    return [parameter.name for parameter in formulation.parameters if parameter.linear]
 
 
 def _directions(
@@ -115,7 +118,7 @@ def _followed(evidence: Evidence, fitted: Fit, candidate: AxisEffect) -> Screene
 
     def residual(x: FloatArray) -> FloatArray:
         effects = [*fitted.effects, *with_values([candidate], free, x)]
-        return _beside(fitted, evidence.residual(effects))
+        return _beside(fitted, residual_of(evidence, effects))
 
     x, left = one_step(residual, start, low, high)
     (effect,) = with_values([candidate], free, x)

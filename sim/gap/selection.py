@@ -1,14 +1,19 @@
 """Which effects explain the gap of an axis: forward selection on data that no fit has seen."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from math import inf
 
-import numpy as np
-
+from rotemina.sim.effects.formulation import Stage
+from rotemina.sim.effects.identification import Sign
+from rotemina.sim.effects.kinship import Family
+from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.attempts import fitted, looked_at
 from rotemina.sim.gap.baseline import is_own
 from rotemina.sim.gap.candidates import candidates, is_slow, scouts, siblings
+from rotemina.sim.gap.catalogue import brought_along, is_of, kinship_of
+from rotemina.sim.gap.closing import closed
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import fit
 from rotemina.sim.gap.models import (
@@ -23,21 +28,16 @@ from rotemina.sim.gap.repeats import has_overtone, is_own_mode
 from rotemina.sim.gap.retuning import retuned
 from rotemina.sim.gap.screening import Screened
 from rotemina.sim.gap.standing import Grade
-from rotemina.sim.gap.starts import from_stop
-from rotemina.sim.gap.verdict import closed
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
 MOST_CAUSES = 3
 LEAST_SHARE = 0.03  # of the gap's power, that a cause must close
-_NARROW = {
-    "bouc_wen": 1.3
-}  # times a score, of what hardly holds beyond the swings it was fitted to
-_SENSORS_OWN = {"sensor_gain"}  # what a gain of the axis does as well: a rival, no cause beside it
-STEPS = "sensor_quantization"  # rounded as well, an answer may be off by two halves of a cell
-_BENT_LOOP = {"hysteresis", "static_nonlinearity"}
-_BENT_SHARE = 0.1  # the same for what may be but the asymmetry of a real loop
+_NARROW = 1.3  # times a score, of what hardly holds beyond the swings it was fitted to
 LEAST_POWER = 0.2  # in floors squared, that a cause must close
+SEEN = float(
+    "inf"
+)  # floors squared from which an effect counts whatever its share; 9 costs minutes
 CLEARLY = 0.8  # of what is left: so much closed counts as well
 _LEFT_ASIDE = 0.01  # of the power of what was set aside, that it may leave of itself
 ADEQUATE = 1.3  # mean square over the floor that leaves nothing to explain
@@ -53,7 +53,6 @@ _HOPELESS = 10.0  # times the cost of the best candidate
 _WORTH_GOING_ON = (0.25, 0.5, 1.0)  # share closed by one, two causes, to look for another
 _WORTH_A_FIRST_TRY = 4.0  # times what quick formulations leave, that a slow one may promise
 _WORTH_A_TRY = 0.8  # the same beside other causes, where each step takes longer still
-_CURVES = {"static_nonlinearity", "sensor_nonlinearity", "saturation"}  # that bends softly
 _MUCH_OF_IT = 0.7  # of a gap, that a stop closes where a curve may but follow a softer contact
 _PROMISING = 0.3  # of what a quick form leaves, that a slow one leaves at first sight
 _MOSTLY_OWN = 0.9  # of the gap, that re-tuning closes for causes to be looked for beside it
@@ -130,11 +129,24 @@ def select(
 
 def possible_causes(evidence: Evidence) -> list[AxisEffect]:
     """Return what may be a cause beside the model's own parameters."""
-    apart = set() if evidence.has(Tap.REF) else set(_SENSORS_OWN)
-    if evidence.in_cells:
-        apart.add(STEPS)
-    found = [one for one in candidates(evidence) if not is_own(evidence, one)]
-    return [one for one in found if one.id not in apart]
+    return [
+        one
+        for one in candidates(evidence)
+        if not is_own(evidence, one) and not _is_told_otherwise(evidence, one)
+    ]
+
+
+def _is_told_otherwise(evidence: Evidence, candidate: AxisEffect) -> bool:
+    """Tell whether something else says the same as a candidate.
+
+    A gain of the axis says what one of the sensor does, where no reference tells them apart. And
+    rounded as well, an answer may be off by two halves of a cell.
+    """
+    effect = effect_named(candidate.id)
+    of_the_sensor = effect.stage is Stage.SENSOR and is_of(Family.GAIN, effect.id)
+    if of_the_sensor and not evidence.has(Tap.REF):
+        return True
+    return evidence.in_cells and effect.identification.shows_as is Sign.STEPS
 
 
 def _enters(
@@ -145,9 +157,7 @@ def _enters(
     It closes its share of the gap of the ``bare`` model, or by itself clearly most of what a
     re-tuning left; and more than what is set ``aside`` may leave of itself.
     """
-    least = LEAST_SHARE
-    if _BENT_LOOP.issubset(cause.id for cause in after.causes):
-        least = _BENT_SHARE
+    least = max([LEAST_SHARE, *_needed(after.causes)])
     return any(
         _closes(bare.by_tap[tap], before.by_tap[tap], left, least, alone=not before.causes)
         and before.by_tap[tap] - left >= _LEFT_ASIDE * aside.get(tap, 0.0)
@@ -155,18 +165,29 @@ def _enters(
     )
 
 
+def _needed(causes: Sequence[AxisEffect]) -> Iterator[float]:
+    """Give the shares that causes must close beside others of their stage that bring them along."""
+    for one in causes:
+        for other in causes:
+            if effect_named(one.id).stage is effect_named(other.id).stage and other is not one:
+                share = brought_along(one.id, other.id)
+                if share < 1.0:
+                    yield share
+
+
 def _closes(raw: float, before: float, after: float, least: float, *, alone: bool) -> bool:
     closing = before - after
     if closing >= max(least * (raw - 1.0), LEAST_POWER):
         return True
-    # Beside other causes, that is how these differ from their formulas.
-    return alone and before >= NOTICED and closing >= CLEARLY * (before - 1.0)
+    # Beside other causes, little of it is how these differ from their formulas.
+    enough = 0.0 if alone else SEEN
+    return before >= NOTICED and closing >= max(CLEARLY * (before - 1.0), enough)
 
 
-def _is_little(bare: Explanation, begun: Explanation) -> bool:
-    """Tell whether no single further cause can close its share of any tap's gap."""
+def _is_little(bare: Explanation, begun: Explanation, seen: float = SEEN) -> bool:
+    """Tell whether no single further cause can close its share of any tap's gap, or be seen."""
     return all(
-        left - 1.0 < max(LEAST_SHARE * (bare.by_tap[tap] - 1.0), LEAST_POWER)
+        left - 1.0 < min(max(LEAST_SHARE * (bare.by_tap[tap] - 1.0), LEAST_POWER), seen)
         for tap, left in begun.by_tap.items()
     )
 
@@ -223,10 +244,11 @@ def _extended(
     free = [one for one in own if (one.id, one.from_axis) not in named]
     # No single further cause closes its share where less than that is left; only one that takes
     # nearly all of it away is looked for then, and that shows at once.
-    little = begun is not bare and _is_little(bare, begun)
+    slow = any(is_slow(evidence, cause) for cause in begun.causes)
+    # Beside what takes long to simulate, only what closes its share is worth the runs.
+    little = begun is not bare and _is_little(bare, begun, inf if slow else SEEN)
     account.tell("screening", None)
     first = scouts(evidence, free)
-    slow = any(is_slow(evidence, cause) for cause in begun.causes)
     looks = looked_at(evidence, begun, first, account, jobs, briefly=little or slow)
     if little and min(one.cost for one in looks) > _LEAST_PROMISE * begun.score:
         return []
@@ -262,21 +284,20 @@ def _is_bent_to(
 
     Its quick form does much of it then.
     """
-    curved = best.causes[-1].id in _CURVES and slow.id == "contact"
-    return curved and closed(begun.fit.cost, _quick(slow, found)) >= _MUCH_OF_IT
+    imitates = kinship_of(best.causes[-1].id).family in kinship_of(slow.id).imitated_by
+    return imitates and closed(begun.fit.cost, _quick(slow, found)) >= _MUCH_OF_IT
 
 
 def _informed(slow: AxisEffect, found: Sequence[Explanation]) -> AxisEffect:
-    """Return another form of a contact or a spring from where its first form was fitted.
+    """Return another form of an effect from where its first form was fitted, if it knows how.
 
-    Anything else is returned as it is.
+    Any other is returned as it is.
     """
-    for own in (cause for one in found for cause in one.causes if cause.id == slow.id):
-        if slow.id == "contact":
-            return replace(slow, parameters=from_stop(own.parameters))
-        if slow.id == "stiffness_nonlinearity":
-            return replace(slow, parameters=own.parameters)
-    return slow
+    begin = effect_named(slow.id).identification.from_other
+    own = next((cause for one in found for cause in one.causes if cause.id == slow.id), None)
+    if begin is None or own is None:
+        return slow
+    return replace(slow, parameters=dict(begin(own.parameters)))
 
 
 def _quick(slow: AxisEffect, found: Sequence[Explanation]) -> float:
@@ -352,8 +373,8 @@ def _unique(found: Sequence[Explanation]) -> list[Explanation]:
 
 
 def _merit(one: Explanation) -> float:
-    handicap = [_NARROW.get(cause.formulation or "", 1.0) for cause in one.causes]
-    return one.score * float(np.prod(handicap))
+    narrow = sum(cause.formulation in kinship_of(cause.id).narrow for cause in one.causes)
+    return one.score * _NARROW**narrow
 
 
 def _simplified(

@@ -16,6 +16,7 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.effects.errors import EffectError
+from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.descent import begun, descend
 from rotemina.sim.gap.fit import Fit, bounds, with_values
 from rotemina.sim.plant.errors import PlantError
@@ -27,8 +28,6 @@ from rotemina.sim.trajectory.prediction import OVERSHOOT_SHARE
 _LOST = 1e6  # floors by which a rival that cannot be simulated is off
 _STEPS = 4  # of a fit to a test
 _CLOSEST = 1  # pairs of rivals that are fitted to each other
-
-_OF_THE_RUN = ("vibration", ("sine", "cosine"))  # whose phase is another one in each run
 
 Answer = Mapping[Tap, FloatArray]
 
@@ -98,13 +97,12 @@ class Yielding:
     def left_of(self, other: "Yielding") -> float:
         """Return the square sum of another's answer that this rival, as if linear, keeps off."""
         apart = other.answer - self.answer
-        along = self.slopes.T @ apart
-        step = np.linalg.solve(self.slopes.T @ self.slopes + self.information, along)
-        return max(float(apart @ apart - along @ step), 0.0)
+        slopes = np.linalg.qr(np.vstack([self.slopes, _root(self.information)]))[0][: len(apart)]
+        return max(float(apart @ apart - np.sum((slopes.T @ apart) ** 2)), 0.0)
 
     def left_by_fit_of(self, other: "Yielding") -> float:
         """Return the same, found by fitting."""
-        root = np.linalg.cholesky(self.information).T
+        root = _root(self.information)
         low, high, _ = bounds(self.fitted.free)
         start = self.fitted.x
 
@@ -118,11 +116,18 @@ class Yielding:
 def _information(fitted: Fit) -> FloatArray:
     """Return what the records say of parameters; what they leave unexplained makes that less."""
     known = fitted.jacobian.T @ fitted.jacobian / max(fitted.cost, 1.0)
-    effect, names = _OF_THE_RUN
     for column, free in enumerate(fitted.free):
-        if fitted.effects[free.effect].id == effect and free.name.startswith(names):
+        effect = effect_named(fitted.effects[free.effect].id)
+        if free.name in effect.identification.of_the_record:
             known[column, :] = known[:, column] = 0.0
     return np.asarray(known + np.diag(1.0 / np.maximum(1.0, np.abs(fitted.x)) ** 2))
+
+
+def _root(information: FloatArray) -> FloatArray:
+    """Return rows R (parameters, parameters) with RᵀR the information, which may be singular."""
+    sizes = np.sqrt(np.diag(information))
+    values, vectors = np.linalg.eigh(information / np.outer(sizes, sizes))
+    return np.asarray(np.sqrt(np.maximum(values, 0.0))[:, None] * vectors.T * sizes)
 
 
 def apart(rivals: Sequence[Yielding], rows: int) -> float:

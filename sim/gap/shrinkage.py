@@ -8,12 +8,12 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.blocks import drawn_means
+from rotemina.sim.gap.closing import closed
 from rotemina.sim.gap.diagnosis import Interval, Shrinkage, ShrinkageStep
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.models import Explanation
 from rotemina.sim.gap.probe import Probe
 from rotemina.sim.gap.rivals import paired_blocks
-from rotemina.sim.gap.verdict import closed
 from rotemina.sim.records.record import Tap
 
 _TAIL = 2.5  # percent on either side of an interval
@@ -24,7 +24,7 @@ def shrinkage(
     evidence: Evidence,
     retuned: Explanation,
     best: Explanation,
-    probe: Probe,
+    black_box: Probe,
     tap: Tap,
     rng: np.random.Generator,
 ) -> Shrinkage:
@@ -40,7 +40,7 @@ def shrinkage(
         retuned=floor * rms(retuned.held_out[shown]),
         corrected=floor * rms(best.held_out[shown]),
         floor=floor,
-        ceiling=floor * min(rms(best.held_out[shown]), rms(probe.left[shown])),
+        ceiling=floor * rms(black_box.left[shown]),
         closed=share,
         closed_interval=interval,
         steps=_steps(evidence, raw, best, shown, floor),

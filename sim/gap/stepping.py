@@ -1,11 +1,14 @@
 """The steps of a coarse reading as an effect, with which the model reads as the sensor does."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.effects.attachment import Attached
+from rotemina.sim.effects.identification import Sign
+from rotemina.sim.gap.catalogue import shown_as
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
@@ -18,11 +21,14 @@ _CLOSES = 0.9  # of what was left, that is left with steps at most
 
 
 def steps_of(evidence: Evidence, effects: Sequence[AxisEffect], step: float) -> AxisEffect | None:
-    """Return ``sensor_quantization`` as the readings show it beside other effects.
+    """Return the effect of a coarse sensor as the readings show it beside other effects.
 
     ``step`` is roughly known, SI. None where a model that reads in steps is no nearer to the
     readings, as where the motion is not known to a part of a step.
     """
+    effect = shown_as(Sign.STEPS)
+    if effect is None:
+        return None
     pairs = []
     for observation, answer in zip(evidence.observations, evidence.response(effects), strict=True):
         if Tap.MEAS in observation.real:
@@ -39,10 +45,8 @@ def steps_of(evidence: Evidence, effects: Sequence[AxisEffect], step: float) -> 
     if min(left) > _CLOSES * plain:
         return None
     numbers = {"step": width, "shift": (best + 0.5) % 1.0 - 0.5}
-    bare = Attached.of(evidence.robot, AxisEffect(axis=evidence.axis, id="sensor_quantization"))
-    return AxisEffect(
-        axis=evidence.axis, id="sensor_quantization", parameters=bare.clipped(numbers)
-    )
+    asked = AxisEffect(axis=evidence.axis, id=effect)
+    return replace(asked, parameters=Attached.of(evidence.robot, asked).clipped(numbers))
 
 
 def grid_width(readings: Sequence[FloatArray], step: float) -> float:

@@ -117,7 +117,7 @@ def _standing(robot: Robot, record: Record, axis: str) -> _Runs:
     long = end - begin >= _RUN_ROWS
     begin, end = begin[long], end[long]
     # The last command of a hold may be the next one's, to which the axis has yet to answer.
-    late = round(_ANSWERS_S / float(np.median(np.diff(record.time_s))))
+    late = max(round(_ANSWERS_S / float(np.median(np.diff(record.time_s)))), 1)
     last = np.maximum(end - late, begin + 1)
     way = np.array([np.ptp(command[a:b]) for a, b in zip(begin, last, strict=True)])
     runs = _Runs(begin, end, reading[begin], way, np.abs(command[end - 1] - command[begin]))

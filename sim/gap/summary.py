@@ -22,12 +22,14 @@ from rotemina.sim.records.record import Record
 _VERDICTS = {
     Verdict.NONE: "no gap: the model explains the records up to their noise",
     Verdict.EXPLAINED: "the gap is explained",
+    Verdict.PARTLY: "the gap is explained in part; what causes the rest is not known",
     Verdict.UNKNOWN: "there is a gap that no known effect explains",
     Verdict.INSUFFICIENT: "the records cannot tell",
 }
 _TITLES = {
     Verdict.NONE: "no gap of its own",
     Verdict.EXPLAINED: "explained",
+    Verdict.PARTLY: "explained in part",
     Verdict.UNKNOWN: "unknown effect",
     Verdict.INSUFFICIENT: "insufficient excitation",
 }
@@ -106,6 +108,10 @@ def _cause(cause: Cause, records: Sequence[Record]) -> Iterator[str]:
     yield text
     if cause.ambiguous_with:
         yield f"  cannot be told from: {', '.join(cause.ambiguous_with)}"
+    yield from (
+        f"  {one.name} {amount(one.value, one.unit)} ({amounts(one.interval, one.unit)})"
+        for one in cause.derived
+    )
     yield from (f"  {_parameter(one, cause, records)}" for one in cause.parameters)
 
 

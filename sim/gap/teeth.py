@@ -14,7 +14,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import Fit
-from rotemina.sim.gap.inverse import at_input
+from rotemina.sim.gap.inverse import inputs_left
 from rotemina.sim.gap.lines import line_over
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
@@ -44,6 +44,8 @@ def likeliest_grid(
     bounds: tuple[float, float],
     origin: float,
     gain: float,
+    *,
+    at_input: bool,
 ) -> dict[str, float] | None:
     """Return step and shift of a quantization; None where no record shows teeth.
 
@@ -55,8 +57,10 @@ def likeliest_grid(
         Where the grid is counted from, m or rad.
     gain : float
         Of the step's own unit to m or rad.
+    at_input : bool
+        Whether the converter is at the command, and not at the sensor.
     """
-    seen = _seen(evidence, fitted, candidate, origin)
+    seen = _seen(evidence, fitted, origin, at_input=at_input)
     found: tuple[float, Grid] | None = None
     for line in _lines(seen, bounds):
         share, grid = _matched(seen, line)
@@ -89,13 +93,13 @@ class Grid(NamedTuple):
         return float(max(teeth @ one.left, 0.0) ** 2 / (teeth @ teeth + 1e-30))
 
 
-def _seen(evidence: Evidence, fitted: Fit, candidate: AxisEffect, origin: float) -> list[Seen]:
+def _seen(evidence: Evidence, fitted: Fit, origin: float, *, at_input: bool) -> list[Seen]:
     """Return what is left where the converter is: at the command, or at the sensor."""
-    if candidate.id == "quantization":
+    if at_input:
         places = [o.record.signal(evidence.axis, Tap.CMD) - origin for o in evidence.observations]
         return [
             Seen(part.record, places[part.record], _without_bursts(left))
-            for part, left in at_input(evidence, fitted)
+            for part, left in inputs_left(evidence, fitted)
         ]
     answers = evidence.response(fitted.effects)
     return [

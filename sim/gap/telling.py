@@ -4,24 +4,30 @@ import numpy as np
 
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.formulation import Stage
+from rotemina.sim.effects.identification import Sign
 from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.blocks import drawn_means
+from rotemina.sim.gap.closing import closed
 from rotemina.sim.gap.diagnosis import (
+    CORRECTING,
     UNKNOWN,
     AxisDiagnosis,
     Cause,
+    Derived,
     FittedParameter,
     Ranked,
+    Remainder,
+    Suspected,
     Verdict,
 )
 from rotemina.sim.gap.disturbances import Disturbance
-from rotemina.sim.gap.evidence import Evidence, block_rows
+from rotemina.sim.gap.evidence import Evidence, Part, block_rows
 from rotemina.sim.gap.examination import Examination
 from rotemina.sim.gap.models import Explanation
+from rotemina.sim.gap.origins import origin_remarks
 from rotemina.sim.gap.rivals import not_ruled_out, paired_blocks, probability
 from rotemina.sim.gap.selection import NOTICED
 from rotemina.sim.gap.shrinkage import at_tap, closing, rms, shrinkage
-from rotemina.sim.gap.verdict import closed
 from rotemina.sim.gap.where import Place
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
@@ -31,6 +37,8 @@ _SURE = 1.96  # standard deviations of a 95 % interval
 # that was tried is quite the machine. Counted on 330 blind cases that the report does not contain.
 _TRUE = 0.99  # a cause alone on its axis
 _BESIDE = 0.9  # times that, for each other cause there
+_IN_MODEL_ALONE = 0.3  # probability of what corrects the model but is too small to be named
+_SMALL = 1e-4  # of a parameter's size, for a derivative
 _RANKED = 8  # rivals that are listed
 
 
@@ -39,15 +47,16 @@ def told_of(
 ) -> AxisDiagnosis:
     """Put an examination into words and numbers."""
     evidence, best = examination.evidence, examination.best
-    explained = examination.verdict is Verdict.EXPLAINED
+    explained = examination.verdict in CORRECTING
     causes: list[Cause] = []
     if explained:
         causes = [_cause(examination, number, rng) for number in range(len(best.causes))]
         named = {one.effect for one in causes}
         causes += [
-            _disturbance(examination, one)
+            _disturbance(examination, one, one.effect)
             for one in examination.disturbances
-            if one.effect not in named  # what was set aside may leave more of the same
+            # What was set aside may leave more of the same.
+            if one.effect is not None and one.effect not in named
         ]
         causes.sort(key=lambda one: -one.gap_before)
     elif examination.verdict is Verdict.UNKNOWN:
@@ -59,13 +68,49 @@ def told_of(
         places=places,
         causes=tuple(causes),
         shrinkage=tuple(
-            shrinkage(evidence, examination.selection.retuned, shown, examination.probe, tap, rng)
+            shrinkage(
+                evidence, examination.selection.retuned, shown, examination.black_box, tap, rng
+            )
             for tap in dict.fromkeys(place.tap for place in places if place.significant)
         ),
         ranking=_ranking(examination, rng),
         remarks=_remarks(examination),
         fitted=examination.fitted,
+        suspected=_suspected(examination),
+        remainder=_remainder(examination, shown),
     )
+
+
+def _suspected(examination: Examination) -> tuple[Suspected, ...]:
+    """Return what corrects the model without being named."""
+    causes = {(one.id, one.from_axis) for one in examination.best.causes}
+    return tuple(
+        Suspected(one.id, one.from_axis, _IN_MODEL_ALONE, in_model=True)
+        for one in examination.fitted
+        if (one.id, one.from_axis) not in causes and one not in examination.steps
+    )
+
+
+def _remainder(examination: Examination, shown: Explanation) -> Remainder:
+    """Return what is left at the last tap, beyond the floor."""
+    evidence = examination.evidence
+    tap = _last_tap(evidence)
+    rows, floor = at_tap(evidence, tap), evidence.floor(tap)
+    left = float(np.mean(shown.held_out[rows] ** 2))
+    raw = float(np.mean(evidence.residual()[rows] ** 2))
+    return Remainder(
+        rms=floor * float(np.sqrt(max(left - 1.0, 0.0))),
+        share=1.0 - closed(raw, left),
+        depends_on=examination.probe.depends_on,
+    )
+
+
+def _last_tap(evidence: Evidence) -> Tap:
+    return list(dict.fromkeys(part.tap for part in sorted(evidence.parts, key=_place)))[-1]
+
+
+def _place(part: Part) -> int:
+    return list(Tap).index(part.tap)
 
 
 def _cause(examination: Examination, number: int, rng: np.random.Generator) -> Cause:
@@ -93,6 +138,7 @@ def _cause(examination: Examination, number: int, rng: np.random.Generator) -> C
         closed=share,
         closed_interval=interval,
         parameters=_parameters(evidence, best, asked),
+        derived=derived(evidence, best, asked),
     )
 
 
@@ -102,19 +148,19 @@ def _trust(examination: Examination) -> float:
     return _TRUE * _BESIDE ** max(causes - 1, 0)
 
 
-def _disturbance(examination: Examination, one: Disturbance) -> Cause:
+def _disturbance(examination: Examination, one: Disturbance, effect: str) -> Cause:
     evidence, best = examination.evidence, examination.best
     floor = examination.declared[one.tap]  # that its power counts in
     left = best.by_tap[one.tap]
-    if one.effect == "sensor_drift":
+    if one.sign is Sign.WANDER:
         left = max(left - one.power, 1.0)
     before = left + one.power
     share = closed(before, left)
     return Cause(
         axis=evidence.axis,
-        effect=one.effect,
+        effect=effect,
         formulation=None,
-        stage=effect_named(one.effect).stage.value,
+        stage=effect_named(effect).stage.value,
         tap=one.tap,
         from_axis=None,
         probability=_trust(examination),
@@ -168,7 +214,10 @@ def _parameters(
     told = []
     for parameter in attached.formulation.parameters:
         size, x, spread = spreads.get(parameter.name, (1.0, 0.0, np.inf))
-        low, high = (float((x + sign * _SURE * spread) * size) for sign in (-1.0, 1.0))
+        least, most = parameter.bounds(attached.facts)
+        low, high = (
+            float(np.clip((x + sign * _SURE * spread) * size, least, most)) for sign in (-1.0, 1.0)
+        )
         told.append(
             FittedParameter(
                 name=parameter.name,
@@ -179,6 +228,30 @@ def _parameters(
             )
         )
     return tuple(told)
+
+
+def derived(evidence: Evidence, best: Explanation, asked: AxisEffect) -> tuple[Derived, ...]:
+    """Return what the records tell of a cause whatever its kin it comes from: how late it makes.
+
+    Its interval is by the gradient with respect to the parameters that were fitted.
+    """
+    late_s = effect_named(asked.id).identification.lateness_s
+    if late_s is None:
+        return ()
+    fitted = best.fit
+    number = next(n for n, one in enumerate(fitted.effects) if one is asked or one == asked)
+    values = Attached.of(evidence.robot, asked).values
+    value = late_s(values)
+    slopes = np.zeros(len(fitted.free))
+    for column, free in enumerate(fitted.free):
+        if free.effect == number:
+            then = late_s({**values, free.name: values[free.name] + _SMALL * free.size})
+            slopes[column] = (then - value) / _SMALL
+    (spread,) = fitted.deviation_along(slopes[None, :], block_rows(evidence))
+    if not np.isfinite(spread):
+        return ()
+    interval = max(value - _SURE * spread, 0.0), value + _SURE * spread
+    return (Derived("lateness", float(value), interval, "s"),)
 
 
 def _first_tap(evidence: Evidence, stage: Stage) -> Tap:
@@ -219,7 +292,10 @@ def _ranking(examination: Examination, rng: np.random.Generator) -> tuple[Ranked
 
 def _remarks(examination: Examination) -> tuple[str, ...]:
     best, probe = examination.best, examination.probe
-    said = tuple(one.note for one in examination.disturbances)
+    said = (
+        *(one.note for one in examination.disturbances),
+        *origin_remarks(examination.evidence),
+    )
     if best.score <= NOTICED or not probe.depends_on:
         return said
     groups = ", ".join(f"{name} ({share:.0%})" for name, share in probe.depends_on[:3])

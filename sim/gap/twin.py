@@ -2,12 +2,11 @@
 
 from collections.abc import Sequence
 from dataclasses import fields, replace
-from importlib import resources
 from os import PathLike, fspath
 from pathlib import Path
 
 from rotemina.sim.gap.errors import GapError
-from rotemina.sim.robot.file import SHIPPED, load_robot, shipped_robots
+from rotemina.sim.robot.file import load_robot, robot_file_text, shipped_robots
 from rotemina.sim.robot.model import AxisEffect, Robot
 from rotemina.sim.robot.writing import by_axis, robot_text, with_effects
 from rotemina.sim.whole_files import FileWriteError, replaced
@@ -39,14 +38,15 @@ def twin_text(
     if source is None:
         return with_effects(robot_text(robot), effects, robot.name)
     name = fspath(source)
-    found = load_robot(source if isinstance(source, str) else Path(source))
+    source = source if isinstance(source, str) else Path(source)
+    found = load_robot(source)
     if not _same(found, robot):
         raise GapError(
             f"{name}: it describes another robot than the one that was diagnosed, {robot.name!r}: "
             f"they differ in {_differences(found, robot)}; diagnose again with this file, or leave "
             "it out to write the diagnosed one"
         )
-    return with_effects(_text(name), effects, name)
+    return with_effects(robot_file_text(source), effects, name)
 
 
 def write_twin(text: str, path: str | PathLike[str]) -> None:
@@ -81,9 +81,3 @@ def _differences(one: Robot, other: Robot) -> str:
         differing = [axis for axis in one.axes if one.axes[axis] != other.axes[axis]]
         names[names.index("axes")] = f"axis {', '.join(differing)}"
     return ", ".join(names)
-
-
-def _text(name: str) -> str:
-    if name in shipped_robots():
-        return resources.files(SHIPPED).joinpath(f"{name}.toml").read_text("utf-8")
-    return Path(name).read_text("utf-8-sig")

@@ -5,8 +5,10 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from scipy.fft import dct
 
 from rotemina.sim.arrays import BoolArray, FloatArray
+from rotemina.sim.effects.identification import Sign
 from rotemina.sim.gap.disturbances import Disturbance, resting
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.records.record import Tap
@@ -20,6 +22,8 @@ _WALKED_S = (0.1, 0.4, 1.6)
 _WALKS_A_RECORD = 6  # of such times, that a record holds at least
 _WALKING = 0.5  # exponent of time from which what is left walks; of a random walk: 1
 _SEEN_BY_REF = 0.3  # of a wander, that the reference may see of what is left
+_SLOWEST = 12  # terms of a cosine transform, that are slow
+_SLOW = 0.1  # of what is not white, that lies in these
 _ROUGH = 1.6  # exponent of time, with which a wander's squared change grows at most; motion: 2
 
 
@@ -43,9 +47,19 @@ def wandering(time_s: FloatArray, left: FloatArray, resting: BoolArray) -> Wande
     by less than in proportion to time.
     """
     white = _white(left)
-    if white > _WHITE * float(np.mean(left**2)):
+    if white > _WHITE * float(np.mean(left**2)) or not _is_slow(left, white):
         return None
     return Wander(_goes_on(time_s, left, resting, white), _walks(time_s, left, white))
+
+
+def _is_slow(left: FloatArray, white: float) -> bool:
+    """Tell whether what is not white of a residual (n,) lies in the slowest terms of a record.
+
+    So does what wanders; what a command, a speed or a place brings about returns with these.
+    """
+    power = dct(left - left.mean(), norm="ortho") ** 2
+    slow = float(power[: _SLOWEST + 1].sum())
+    return slow >= _SLOW * max(float(power.sum()) - len(left) * white, 0.0)
 
 
 def _white(left: FloatArray) -> float:
@@ -135,7 +149,7 @@ def wander(evidence: Evidence, left: FloatArray) -> Disturbance | None:
         return None
     also = ", at rest as well," if rested else ", though the reference does not,"
     note = f"The reading wanders{also} whatever the axis does."
-    return Disturbance("sensor_drift", Tap.MEAS, total / rows, note)
+    return Disturbance(Sign.WANDER, Tap.MEAS, total / rows, note)
 
 
 def _true_motion_left(evidence: Evidence, left: FloatArray) -> float:

@@ -9,13 +9,14 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.diagnosis import Diagnosis
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.leaps import pieces
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Axis
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Trace:
-    """One record at one tap of one axis; signals (n,), SI.
+    """One record, or a piece between leaps of time, at one tap of one axis; signals (n,), SI.
 
     Attributes
     ----------
@@ -82,7 +83,7 @@ def traces(diagnosis: Diagnosis, axis: str, records: Sequence[Record]) -> tuple[
         If a record does not fit the robot, or the corrected model cannot be simulated.
     """
     found: list[Trace] = []
-    for number, record in enumerate(records):
+    for record, number in ((one.record, one.number) for one in pieces(records)):
         try:
             evidence = Evidence.of(diagnosis.robot, axis, [record])
         except GapError:

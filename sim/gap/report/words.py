@@ -19,6 +19,7 @@ from rotemina.sim.records.record import Record, Tap
 VERDICTS = {
     Verdict.NONE: "No gap: model and machine differ by no more than noise",
     Verdict.EXPLAINED: "Explained: the effects below account for the gap",
+    Verdict.PARTLY: "Explained in part: what causes the rest is not known",
     Verdict.UNKNOWN: "Unknown: there is a gap that no effect of the catalogue explains",
     Verdict.INSUFFICIENT: "The records cannot tell: the excitation is insufficient",
 }
@@ -26,6 +27,7 @@ AXIS_VERDICTS = {
     **VERDICTS,
     Verdict.NONE: "No gap of its own",
     Verdict.EXPLAINED: "Explained",
+    Verdict.PARTLY: "Explained in part",
 }
 
 
@@ -70,6 +72,8 @@ def _of_axis(one: AxisDiagnosis, records: Sequence[Record]) -> list[str]:
         return [f"{one.axis}: the records do not move it in a way that could tell what it lacks."]
     named = [_named(cause) for cause in one.causes if cause.effect != UNKNOWN]
     sentences = [f"{one.axis}: the model lacks {listed(named)}."] if named else []
+    if one.verdict is Verdict.PARTLY:
+        sentences.append(f"{one.axis}: what else is there, no effect here explains.")
     if one.verdict is Verdict.UNKNOWN:
         more = " beside that" if named else ""
         sentences.append(f"{one.axis}: there is a gap{more} that no effect here explains.")

@@ -1,0 +1,1 @@
+"""Machines whose causes are known: the diagnosis of each, beside what is known."""

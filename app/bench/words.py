@@ -1,0 +1,149 @@
+"""The bench in words: one line a machine, and a page."""
+
+from collections.abc import Sequence
+
+from rotemina.app.bench.result import LARGEST_SET, LONGEST_S, MOST_OVER, Named, Result
+from rotemina.sim.gap.report.quantities import amount
+
+_HEADER = (
+    "machine",
+    "first cause",
+    "sets",
+    "closed on test",
+    "left",
+    "to beat",
+    "time",
+    "verdict",
+)
+
+
+def line(result: Result) -> str:
+    """Return one line about a machine."""
+    name = result.machine.name
+    if result.not_run:
+        return f"{name}: not run: {result.not_run}"
+    _, first, sets, closed, left, to_beat, seconds, verdict = _cells(result)
+    beside = f" (to beat: {to_beat})" if to_beat != "–" else ""
+    return (
+        f"{name}: {first}; {sets}; closed {closed} on the test record; left {left}{beside}; "
+        f"{seconds}; {verdict}"
+    )
+
+
+def page(results: Sequence[Result]) -> str:
+    """Return the page on machines, in Markdown."""
+    rows = ["| " + " | ".join(_HEADER) + " |", "|" + "---|" * len(_HEADER)]
+    rows += ["| " + " | ".join(_cells(result)) + " |" for result in results]
+    missing = [
+        f"- `{result.machine.name}`: {'; '.join(result.not_reached)}."
+        for result in results
+        if result.not_reached
+    ]
+    titles = [f"- `{one.machine.name}`: {one.title}." for one in results if one.title]
+    known = [
+        f"- `{one.machine.name}`: "
+        + ", ".join(" or ".join(f"`{effect}`" for effect in each) for each in truth.causes)
+        + "."
+        for one in results
+        if (truth := one.machine.truth) is not None and truth.causes
+    ]
+    return _PAGE.format(
+        table="\n".join(rows),
+        missing="\n".join(missing) or "Nothing: every level is reached on every machine.",
+        titles="\n".join(titles),
+        known="\n".join(known),
+        over=MOST_OVER,
+        largest=LARGEST_SET,
+        longest=f"{LONGEST_S:.0f}",
+        reached=sum(not one.not_reached for one in results),
+        number=len(results),
+        below=sum(
+            one.left is not None and one.to_beat is not None and one.left < one.to_beat
+            for one in results
+        ),
+    )
+
+
+def _cells(result: Result) -> tuple[str, ...]:
+    name = f"`{result.machine.name}`"
+    if result.not_run:
+        return (name, "–", "–", "–", "–", "–", "–", f"not run: {result.not_run}")
+    first = _effect(result.causes[0]) if result.causes else "none"
+    sets = ", ".join(map(_set, result.causes)) or "no cause"
+    closed = "–" if result.closed is None else f"{100.0 * result.closed:.1f} %"
+    return (
+        name,
+        first,
+        sets,
+        closed,
+        _figure(result, result.left),
+        _figure(result, result.to_beat),
+        f"{result.seconds:.0f} s",
+        result.verdict,
+    )
+
+
+def _effect(cause: Named) -> str:
+    return f"{cause.effect} on {cause.axis} ({100.0 * cause.probability:.0f} %)"
+
+
+def _set(cause: Named) -> str:
+    return "{" + " ".join((cause.effect, *cause.ambiguous_with)) + "}"
+
+
+def _figure(result: Result, value: float | None) -> str:
+    if value is None:
+        return "–"
+    if result.is_relative:
+        return f"{100.0 * value:.2g} %"
+    return amount(value, result.unit)
+
+
+_PAGE = """\
+# Real machines
+
+What `rotemina gap diagnose` says of machines that others built and measured. Made by
+
+<!-- not run: needs the records of the machines, which are no part of the program -->
+
+```sh
+rotemina gap bench machines/* --report docs/real-machines.md
+```
+
+Each machine is a folder with `robot.toml`, records `train_*.csv` that are diagnosed and
+`test_*.csv` that no fit sees, and `truth.toml`: what is known of it. Anyone can run it on a folder
+of his own:
+
+```toml
+causes = [["friction", "backlash"]]  # sets of effects that stand for each other in these records
+also = ["gain_error"]                # right wherever they stand, not demanded
+tap = "meas"                         # where it is compared
+relative = false                     # whether to_beat is a relative error
+to_beat = 1.45e-3                    # what a plain fit leaves of the test records, SI
+```
+
+{table}
+
+*Sets*: each cause with what it cannot be told from. *Closed*: share of the gap's power above the
+noise floor, on the test records. *Left*: rms of what the corrected model leaves of the test
+records, or the relative error; of positions the mean and what the axis remembers from before are
+taken off. *To beat*: the same of a plain output-error or least-squares fit. *Time*: of the
+diagnosis.
+
+## What is not reached
+
+A machine is as it should be where the first cause is known of it, every known cause is named or in
+a set of at most {largest} (or of those that are known to stand for each other), at most {over} ×
+the figure to beat is left, and the diagnosis takes at most {longest} s. That holds for {reached} of
+{number}; {below} of {number} are below the figure to beat.
+
+{missing}
+
+## The machines
+
+{titles}
+
+Known of them:
+
+{known}
+"""

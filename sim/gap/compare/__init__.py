@@ -1,0 +1,1 @@
+"""Hypotheses weighed by what they leave of data that their fits have not seen."""

@@ -1,0 +1,81 @@
+"""What may be said of an axis: all that decides, in one place.
+
+A verdict weighs; it never hides a cause that is sure because something else is left.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from rotemina.sim.gap.closing import closed
+from rotemina.sim.gap.compare.score import held_out_powers
+from rotemina.sim.gap.compare.weights import weigh
+from rotemina.sim.gap.diagnosis import Verdict
+from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.models import Explanation
+from rotemina.sim.gap.rivals import Rival
+
+_EXPLAINED = 0.95  # of the gap's power, that causes close which leave nothing worth a word
+_AT_THE_FLOOR = 1.3  # mean square over the floor, up to which what is left may be all noise
+_NAMED = 0.7  # of the gap's power, below which causes may be but what bends to anything
+_MOST_RIVALS = 4  # from which a set tells nothing
+_SURE = 0.9  # weight of a cause among its rivals, that no poor motion makes doubtful
+_AS_WELL = 1.05  # times what a black box leaves
+_VOUCHES = 1.25  # times what causes leave, beyond which a black box knows too little to compare
+
+
+@dataclass(frozen=True, slots=True)
+class Closing:
+    """How far a gap closes: mean squares over the floor, on data that no fit saw.
+
+    ``raw`` of the gap, ``left`` by the causes, ``black_box`` by a model without any knowledge.
+    """
+
+    raw: float
+    left: float
+    black_box: float
+
+    @property
+    def share(self) -> float:
+        """The share of the gap's power that is closed."""
+        return closed(self.raw, self.left)
+
+
+def decide(closing: Closing, ambiguous: Sequence[Sequence[str]], *, doubtful: bool) -> Verdict:
+    """Return the verdict on an axis that has a gap.
+
+    Parameters
+    ----------
+    closing : Closing
+    ambiguous : sequence of sequence of str
+        For each cause, the effects that cannot be told from it.
+    doubtful : bool
+        Whether the motion is too poor to tell effects apart, and none of them is sure all the same.
+    """
+    if doubtful:
+        return Verdict.INSUFFICIENT
+    if closing.share < _NAMED:
+        return Verdict.UNKNOWN
+    if any(len(others) >= _MOST_RIVALS for others in ambiguous):
+        return Verdict.INSUFFICIENT
+    left, black_box = closing.left, closing.black_box
+    as_well = left <= _AS_WELL * black_box and black_box <= _VOUCHES * left
+    if closing.share >= _EXPLAINED or left <= _AT_THE_FLOOR or as_well:
+        return Verdict.EXPLAINED
+    return Verdict.PARTLY
+
+
+def is_sure(evidence: Evidence, ranked: Sequence[Sequence[Rival]]) -> bool:
+    """Tell whether each cause stands out among its rivals by what it leaves of unseen data.
+
+    How well it does is all that counts, not how simple it is: a poor motion lets many do as well.
+    """
+    return bool(ranked) and all(_stands_out(evidence, rivals) for rivals in ranked)
+
+
+def _stands_out(evidence: Evidence, rivals: Sequence[Rival]) -> bool:
+    found: list[Explanation] = [one.explanation for one in rivals]
+    if len(found) < 2:
+        return False
+    effects = [len(one.causes) for one in found]
+    weights = weigh(held_out_powers(evidence, [one.held_out for one in found]), effects)
+    return float(weights.max()) >= _SURE

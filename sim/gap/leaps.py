@@ -1,0 +1,137 @@
+"""Leaps of time, by which a record falls into pieces of a history of their own."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+
+from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
+from rotemina.sim.gap.caution import Caution, Labelled
+from rotemina.sim.gap.errors import GapError
+from rotemina.sim.records.record import Record, Tap
+
+LEAST_ROWS = 100  # of a record, and of a piece of one
+_LEAP = 10.0  # usual intervals beyond which an interval is a leap of time
+_LEAP_S = 1.0  # that a leap lasts longer than
+_HOLE = 5.0  # usual intervals from which rows are lost if an axis is under way
+_UNUSUAL = 3.0  # and times what 95 % of the intervals stay below, for those that vary by nature
+
+
+def pieces(records: Sequence[Record], names: Sequence[str] = ()) -> list[Labelled]:
+    """Return the pieces into which leaps of time split records.
+
+    Time leaps where an interval is longer than ten usual ones and a second, or where rows are
+    lost while an axis is under way: a model that holds the command meanwhile would part from the
+    machine for no fault of either. What came before a piece is unknown, but for the first one.
+
+    Parameters
+    ----------
+    records : sequence of Record
+    names : sequence of str, optional
+        What messages call the records; by default their number, from 1, and length.
+
+    Returns
+    -------
+    list of Labelled
+        With the number of the record that a piece is of. A record without a leap is one piece;
+        of one with leaps, only pieces of 100 rows or more.
+    """
+    called = names or default_names(records)
+    found = []
+    for number, (record, name) in enumerate(zip(records, called, strict=True)):
+        slices = _contiguous(record)
+        for rows in slices:
+            label = name if len(slices) == 1 else f"{name}, rows {rows.start + 1} to {rows.stop}"
+            if len(slices) == 1 or rows.stop - rows.start >= LEAST_ROWS:
+                found.append(Labelled(_piece(record, rows), label, number))
+    return found
+
+
+def default_names(records: Sequence[Record]) -> list[str]:
+    """Return what messages call records without a name."""
+    return [
+        f"record {number} ({len(record.time_s)} rows, {record.duration_s:.6g} s)"
+        for number, record in enumerate(records, start=1)
+    ]
+
+
+def _contiguous(record: Record) -> list[slice]:
+    """Return the rows between leaps, all of them where there is none."""
+    ends = [0, *(_leaps(record) + 1), len(record.time_s)]
+    return [slice(int(begin), int(end)) for begin, end in pairwise(ends)]
+
+
+def _leaps(record: Record) -> IntArray:
+    """Return the rows behind which time leaps."""
+    intervals = np.diff(record.time_s)
+    if len(intervals) == 0:
+        return np.empty(0, dtype=np.intp)
+    usual = float(np.median(intervals))
+    leaps = (intervals > _LEAP * usual) & (intervals > _LEAP_S)
+    for row in np.flatnonzero(holes(intervals)):
+        leaps[row] |= _under_way(record, int(row))
+    return np.flatnonzero(leaps)
+
+
+def holes(intervals: FloatArray) -> BoolArray:
+    """Tell where rows seem to be lost, and are not just sparse by nature."""
+    usual, long = np.percentile(intervals, [50.0, 95.0])
+    return np.asarray(intervals > max(_HOLE * usual, _UNUSUAL * long))
+
+
+def _piece(record: Record, rows: slice) -> Record:
+    if rows.stop - rows.start == len(record.time_s):
+        return record
+    metadata = {key: value for key, value in record.metadata.items() if key != "period_samples"}
+    if rows.start > 0 or record.history == "periodic":
+        metadata["history"] = "unknown"
+    return replace(record.part(rows), metadata=metadata)
+
+
+def check_leaps(records: Sequence[Record], names: Sequence[str]) -> Iterator[Caution]:
+    """Tell which records are taken in pieces, and what of them is left out.
+
+    Raises
+    ------
+    GapError
+        If no piece of a record is long enough.
+    """
+    for number, (record, name) in enumerate(zip(records, names, strict=True)):
+        leaps = _leaps(record)
+        if len(leaps) == 0:
+            continue
+        rows = np.array([piece.stop - piece.start for piece in _contiguous(record)])
+        longest_s = np.diff(record.time_s)[leaps].max()
+        if rows.max() < LEAST_ROWS:
+            raise GapError(
+                f"{name}: time leaps {len(leaps)} ×, by up to {longest_s:.3g} s, and no piece "
+                f"between has more than {rows.max()} rows; a diagnosis needs {LEAST_ROWS} or more "
+                "without a leap: leave the record out, or record without losses"
+            )
+        said = (
+            f"Time leaps {len(leaps)} ×, by up to {longest_s:.3g} s: the record is split there, "
+            "and what came before a piece is unknown."
+        )
+        short = rows[rows < LEAST_ROWS].sum()
+        if short:
+            said = (
+                f"Time leaps {len(leaps)} ×, by up to {longest_s:.3g} s: the record is split "
+                f"there, and what came before a piece is unknown; {short} rows in pieces shorter "
+                f"than {LEAST_ROWS} are left out."
+            )
+        yield Caution(said, record=number)
+
+
+def _under_way(record: Record, row: int) -> bool:
+    """Whether an axis' command goes on changing through the interval behind ``row``.
+
+    One that steps from hold to hold there may have been written sparsely on purpose.
+    """
+    for axis in record.axes:
+        if record.has(axis, Tap.CMD):
+            around = record.signal(axis, Tap.CMD)[max(row - 1, 0) : row + 3]
+            across = record.signal(axis, Tap.CMD)[row : row + 2]
+            if np.diff(across).any() and np.count_nonzero(np.diff(around)) > 1:
+                return True
+    return False
