@@ -40,8 +40,10 @@ test-slow: system $(VENV)/.slow $(VENV)/src  ## run the long tests
 	@if grep -rqs --include='*.py' '^ *@pytest\.mark\.slow\|^pytestmark.*slow' tests; \
 	then $(PYTEST) -m slow; else echo 'There are no slow tests.'; fi
 
-soak: system $(VENV)/.test  ## an hour of random faults on the boards
-	@ROTEMINA_SOAK_S=3600 $(PYTEST) -s -m slow tests/drivers/mc68hc11/test_soak.py
+soak: system $(VENV)/.test  ## hours of random faults, requests and stops
+	@ROTEMINA_SOAK_S=3600 ROTEMINA_OPERATIONS=100000 ROTEMINA_STRESS=10000 $(PYTEST) -s -m slow \
+	tests/drivers/mc68hc11/test_soak.py tests/drivers/mc68hc11/test_random_run.py \
+	tests/app/motion/test_gate_stress.py
 
 lint: system $(VENV)/.lint $(VENV)/src  ## check style, types and the layers
 	@$(BIN)/ruff check .

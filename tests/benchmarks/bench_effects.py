@@ -95,7 +95,7 @@ def c_reference(plant, start, time_s, command, folder):
     run = ctypes.CDLL(str(library)).run
     run.restype = None
     machine = plant.assembly.machine
-    steps = plant._steps(time_s, 0, Behind.COMMAND)
+    steps = plant.steps(time_s, 0, Behind.COMMAND)
     longest = int(np.argmax(steps.length_s))
     order = [machine.function[c].tolist() for c in ("numbers_at", "memory_at")]
     matrices = [

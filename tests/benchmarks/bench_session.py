@@ -8,6 +8,8 @@ import os
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import replace
 
 import numpy as np
 import psutil
@@ -15,7 +17,11 @@ import psutil
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.samples import DeviceState
 from rotemina.drivers.simulator.driver import Simulator
+from rotemina.sim.errors import InputError
+from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import KeepOut
+from rotemina.sim.trajectory.checked import accepted
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
@@ -23,6 +29,7 @@ SECONDS = 10.0
 MOST_LATE_S = 2e-3
 MOST_LOAD = 0.15
 STOPS = 20
+PATH_ROWS, CALLS = 1_500_000, 5000
 
 
 class Timed(Simulator):
@@ -111,6 +118,44 @@ def test_simulated_axes_rest_soon_after_a_stop() -> None:
         calls.append(state.stop_latency_s)
     session.close()
     print(
-        f"stop: handed over in {1e3 * max(calls):.3f} ms at most, seen at rest "
+        f"stop: confirmed in {1e3 * max(calls):.3f} ms at most, seen at rest "
         f"{1e3 * np.median(excess):.1f} ms (at most {1e3 * max(excess):.1f} ms) after its braking"
     )
+
+
+def test_a_stop_beside_the_largest_check_of_a_path() -> None:
+    """A call of stop against what an idle thread of the same process waits, in turn."""
+    robot = replace(load_robot("rotemina"), keep_out=KeepOut(floor=-0.02))
+    session = MotionSession(Simulator(robot))
+    connected(session)
+    time_s = np.arange(PATH_ROWS) / 1000.0
+    signal = 0.0275 + 1e-3 * np.sin(0.5 * time_s)
+    checked = accepted(
+        robot, Record.from_signals(time_s, {("x", Tap.CMD): signal}, {"x": "m"}), 1e-3
+    )
+    ended = threading.Event()
+
+    def check() -> None:
+        while not ended.is_set():
+            with suppress(InputError):  # the stops overtake it
+                session.play(checked)
+
+    checker = threading.Thread(target=check)
+    checker.start()
+    waits, calls = [], []
+    for _ in range(CALLS):
+        begin = time.perf_counter()
+        time.sleep(2e-3)
+        woken = time.perf_counter()
+        session.stop()
+        calls.append(time.perf_counter() - woken)
+        waits.append(woken - begin - 2e-3)
+    ended.set()
+    checker.join()
+    session.close()
+    for name, times in (("an idle thread waits", waits), ("a stop takes", calls)):
+        late = np.percentile(times, [50.0, 99.9, 100.0])
+        print(
+            f"beside the check of {PATH_ROWS} rows {name} {1e3 * late[0]:.3f} ms (median), "
+            f"{1e3 * late[1]:.3f} (99.9 %), {1e3 * late[2]:.3f} (worst)"
+        )

@@ -344,6 +344,10 @@
         <translation>dieser Roboter hat keine Spitze, die ein Boden hielte</translation>
     </message>
     <message>
+        <source>there is no floor</source>
+        <translation>es gibt keinen Boden</translation>
+    </message>
+    <message>
         <source>State</source>
         <translation>Zustand</translation>
     </message>

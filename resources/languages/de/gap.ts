@@ -90,6 +90,14 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>„Zwilling …“ drücken, dann „Neue Bewegung …“, um die Lücke schrumpfen zu sehen.</translation>
     </message>
     <message>
+        <source>What is named below is there; something else, which no effect of the catalogue accounts for, is left beside it.</source>
+        <translation>Was unten genannt ist, ist da; daneben bleibt etwas, das kein Effekt des Katalogs erklärt.</translation>
+    </message>
+    <message>
+        <source>Press “Add to twin …”: the model follows the machine better with it. Look under Where what the rest depends on.</source>
+        <translation>Mit „Zum Zwilling hinzufügen …“ folgt das Modell der Maschine besser. Unter „Wo“ steht, wovon der Rest abhängt.</translation>
+    </message>
+    <message>
         <source>The gap is real, but no effect of the catalogue accounts for it. Nothing is guessed.</source>
         <translation>Die Lücke ist echt, aber kein Effekt des Katalogs erklärt sie. Nichts wird geraten.</translation>
     </message>
@@ -362,6 +370,10 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     <message>
         <source>Explained.</source>
         <translation>Erklärt.</translation>
+    </message>
+    <message>
+        <source>Explained in part.</source>
+        <translation>Zum Teil erklärt.</translation>
     </message>
     <message>
         <source>Unknown gap.</source>
@@ -892,6 +904,10 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Erklärt: die Effekte unten erklären die Lücke</translation>
     </message>
     <message>
+        <source>Explained in part: what causes the rest is not known</source>
+        <translation>Zum Teil erklärt: was den Rest verursacht, ist nicht bekannt</translation>
+    </message>
+    <message>
         <source>Unknown: there is a gap that no effect of the catalogue explains</source>
         <translation>Unbekannt: es gibt eine Lücke, die kein Effekt des Katalogs erklärt</translation>
     </message>
@@ -906,6 +922,10 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     <message>
         <source>Explained</source>
         <translation>Erklärt</translation>
+    </message>
+    <message>
+        <source>Explained in part</source>
+        <translation>Zum Teil erklärt</translation>
     </message>
     <message>
         <source>rest</source>
@@ -1032,6 +1052,14 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>drei Effekte genau</translation>
     </message>
     <message>
+        <source>a cause that is not there</source>
+        <translation>eine Ursache, die nicht da ist</translation>
+    </message>
+    <message>
+        <source>verdict explained or partly</source>
+        <translation>Urteil erklärt oder teilweise</translation>
+    </message>
+    <message>
         <source>healthy machines accused</source>
         <translation>gesunde Maschinen beschuldigt</translation>
     </message>
@@ -1086,6 +1114,10 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     <message>
         <source>{axis}: the model lacks {causes}.</source>
         <translation>{axis}: dem Modell fehlt {causes}.</translation>
+    </message>
+    <message>
+        <source>{axis}: what else is there, no effect here explains.</source>
+        <translation>{axis}: was sonst noch da ist, erklärt hier kein Effekt.</translation>
     </message>
     <message>
         <source>{axis}: there is a gap beside that that no effect here explains.</source>
@@ -1176,8 +1208,16 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Der Kanal {tap} ist {gain} × der Sollwert, was kein einzelner Effekt bewirkt: Vorzeichen, Einheiten und Verstärkung in der Roboterdatei prüfen.</translation>
     </message>
     <message>
-        <source>Time leaps {n} times in a record, by up to {time} s, where no axis is under way; the commands are taken as held meanwhile.</source>
-        <translation>Die Zeit springt {n}-mal in einer Aufzeichnung, um bis zu {time} s, wo keine Achse unterwegs ist; die Sollwerte gelten dabei als gehalten.</translation>
+        <source>Time leaps {n} ×, by up to {time} s: the record is split there, and what came before a piece is unknown.</source>
+        <translation>Die Zeit springt {n} ×, um bis zu {time} s: Die Aufzeichnung wird dort geteilt, und was vor einem Stück war, ist unbekannt.</translation>
+    </message>
+    <message>
+        <source>Time leaps {n} ×, by up to {time} s: the record is split there, and what came before a piece is unknown; {rows} rows in pieces shorter than {least} are left out.</source>
+        <translation>Die Zeit springt {n} ×, um bis zu {time} s: Die Aufzeichnung wird dort geteilt, und was vor einem Stück war, ist unbekannt; {rows} Zeilen in Stücken von weniger als {least} bleiben weg.</translation>
+    </message>
+    <message>
+        <source>Rows are missing in a record for up to {time} s while no axis is under way; the commands are taken as held meanwhile.</source>
+        <translation>In einer Aufzeichnung fehlen Zeilen für bis zu {time} s, während keine Achse unterwegs ist; die Sollwerte gelten dabei als gehalten.</translation>
     </message>
     <message>
         <source>Rows of a record are {low} to {high} s apart; if these are times of a computer and not of the device, their scatter passes for noise of the sensors.</source>

@@ -368,6 +368,42 @@
         <translation>die Verbindung ging verloren</translation>
     </message>
     <message>
+        <source>the joystick&apos;s stop</source>
+        <translation>das Stopp des Joysticks</translation>
+    </message>
+    <message>
+        <source>the window does not answer</source>
+        <translation>das Fenster antwortet nicht</translation>
+    </message>
+    <message>
+        <source>the device is let go of</source>
+        <translation>das Gerät wird losgelassen</translation>
+    </message>
+    <message>
+        <source>another device is connected</source>
+        <translation>ein anderes Gerät wird verbunden</translation>
+    </message>
+    <message>
+        <source>the input devices are let go of</source>
+        <translation>die Eingabegeräte werden losgelassen</translation>
+    </message>
+    <message>
+        <source>the playback is paused</source>
+        <translation>das Abspielen ist angehalten</translation>
+    </message>
+    <message>
+        <source>the playback is ended</source>
+        <translation>das Abspielen ist beendet</translation>
+    </message>
+    <message>
+        <source>the calibration is given up</source>
+        <translation>die Kalibrierung wird aufgegeben</translation>
+    </message>
+    <message>
+        <source>it was stopped</source>
+        <translation>es wurde angehalten</translation>
+    </message>
+    <message>
         <source>Panel</source>
         <translation>Panel</translation>
     </message>
@@ -790,6 +826,14 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     <message>
         <source>looks for its limit switches</source>
         <translation>sucht die Endschalter</translation>
+    </message>
+    <message>
+        <source>Stopped by the operator at {time}</source>
+        <translation>Vom Bediener um {time} gestoppt</translation>
+    </message>
+    <message>
+        <source>Stopped by the program at {time}</source>
+        <translation>Vom Programm um {time} gestoppt</translation>
     </message>
     <message>
         <source>Phase of the session</source>

@@ -150,7 +150,7 @@ def test_results_of_other_cases_are_not_mixed_in(tmp_path, own):
         BlindRun(tmp_path / "out", other)
 
 
-@pytest.mark.parametrize(("text", "said"), [("{", "it cannot be read"), ("{}", "it is no result")])
+@pytest.mark.parametrize(("text", "said"), [("{", "not valid JSON"), ("{}", "it is no result")])
 def test_a_result_that_is_none_is_said(tmp_path, own, text, said):
     run = BlindRun(tmp_path / "out", own)
     (tmp_path / "out" / "results" / "alpha.json").write_text(text)
@@ -189,7 +189,7 @@ def test_closure_is_told_of_the_axes_with_a_gap_that_can_be_predicted():
 @pytest.mark.parametrize(
     ("labels", "said"),
     [
-        ("{", "it is no JSON"),
+        ("{", "not valid JSON"),
         ("{}", "it has no label of alpha"),
         ('{"alpha": {"verdict": "fine"}}', "verdict is 'fine'; it must be one of explained"),
         ('{"alpha": {"verdict": "explained", "effects": []}}', "effects must be a list"),
@@ -253,3 +253,17 @@ def test_the_command_scores_ones_own_cases(tmp_path, monkeypatch, capsys, own, p
     document = json.loads((tmp_path / "out.json").read_text())
     assert (document["done"], document["asked"]) == (1, 2)
     assert "1 of 2 cases of labels `" in (tmp_path / "page.md").read_text()
+
+
+@pytest.mark.parametrize(
+    ("option", "seed", "said"),
+    [
+        ("--report", 999, "seeds below 1000 are for development; report cases of a seed from 1000"),
+        ("--calibrate", 1000, "seeds from 1000 on are for reports; calibrate on one below 1000"),
+    ],
+)
+def test_development_and_reported_seeds_are_never_the_same(option, seed, said, tmp_path, capsys):
+    asked = ["gap", "blind", "--cases", "1", "--folder", str(tmp_path / "run")]
+    assert main([*asked, "--seed", str(seed), option, str(tmp_path / "out.md")]) == 2
+    assert said in capsys.readouterr().err
+    assert not (tmp_path / "run").exists()

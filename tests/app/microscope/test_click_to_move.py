@@ -114,7 +114,8 @@ def test_a_click_in_a_picture_of_another_resolution_is_refused(make_bench, click
 
 def test_the_keep_out_and_locks_hold_for_clicks(bench, clicks):
     move = clicks.plan(np.array([300.0, 250.0]))
-    bench.session.teach_floor(-1e-6)
+    height = bench.session.teach_floor()
+    bench.session._guard.teach_floor(height + 1e-6)
     with pytest.raises(OutOfLimitsError, match="floor"):
         clicks.go(move)
     bench.session.clear_floor()

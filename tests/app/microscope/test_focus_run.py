@@ -25,7 +25,7 @@ def test_the_focus_drive_ends_where_the_tip_is_sharp(bench):
     run = FocusRun(
         bench.session,
         bench.newest,
-        bench.camera.move_focus,
+        lambda place, _: bench.camera.move_focus(place),
         -30e-6,
         40e-6,
         now_s=bench.clock(),
@@ -39,7 +39,7 @@ def test_the_focus_drive_ends_where_the_tip_is_sharp(bench):
 
 
 def test_an_axis_moves_through_the_session_which_may_refuse(bench):
-    def move(place):
+    def move(place, _):
         bench.session.go_to({"z": place})
 
     with pytest.raises(InputError, match="axis z"):
@@ -54,7 +54,7 @@ def test_an_empty_field_has_no_focus(bench):
     run = FocusRun(
         bench.session,
         bench.newest,
-        bench.camera.move_focus,
+        lambda place, _: bench.camera.move_focus(place),
         -30e-6,
         30e-6,
         now_s=bench.clock(),

@@ -303,3 +303,7 @@ def test_neither_meshcat_nor_its_servers_are_loaded():
     )
     told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert told.stdout.strip() == "set()"
+
+
+def test_a_request_about_the_server_as_a_whole_is_refused(server):
+    assert ask(server, "*", "OPTIONS")[0] == 403

@@ -259,7 +259,7 @@ def test_quitting_during_a_playback_stops_first_and_then_asks(qtbot, window, tmp
     stopped_before_asking = []
 
     def ask(*_):
-        stopped_before_asking.append(session.snapshot().stop_latency_s is not None)
+        stopped_before_asking.append(session.snapshot().stop is not None)
         return QMessageBox.StandardButton.No
 
     monkeypatch.setattr(QMessageBox, "question", ask)

@@ -3,8 +3,9 @@
 import pytest
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QApplication, QMessageBox
+from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox, QWidget
 
+from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.shell.motion_bar import RELEASE_AFTER_S, EmergencyButton
 from rotemina.drivers.samples import DeviceState
 
@@ -47,7 +48,7 @@ def test_escape_with_shift_latches_and_without_does_not(qtbot, window):
     session = window.workbench.session
     qtbot.keyClick(window, Qt.Key.Key_Escape)
     assert session.snapshot().latched is None
-    session.go_to({"x": 0.05})
+    session.go_to({"x": 0.05}, speeds={"x": 1e-4})
     qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.MOVING, timeout=LONG_MS)
     dialog = QMessageBox(window)
     dialog.open()
@@ -110,3 +111,33 @@ def test_the_status_line_tells_link_age_and_the_driver_in_use(qtbot, window):
     qtbot.waitUntil(lambda: "last stop" in status.text(), timeout=LONG_MS)
     window.workbench.let_go()
     qtbot.waitUntil(lambda: "simulator: disconnected" in status.text(), timeout=LONG_MS)
+
+
+def test_escape_stops_under_a_modal_dialog_and_a_file_dialog(qtbot, window, tmp_path):
+    session = window.workbench.session
+    qtbot.waitUntil(lambda: session.snapshot().position_known, timeout=LONG_MS)
+    for dialog in (QMessageBox(window), QFileDialog(window, "Open", str(tmp_path))):
+        dialog.open()
+        assert dialog.findChildren(QWidget), "a dialog of the desktop's own sees the keys alone"
+        session.go_to({"x": 0.05}, speeds={"x": 1e-4})
+        qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.MOVING, timeout=LONG_MS)
+        qtbot.keyClick(dialog, Qt.Key.Key_Escape)
+        qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
+        assert session.snapshot().stop.by == OPERATOR
+        session.stop()
+        dialog.close()
+
+
+def test_no_dialog_is_the_desktops_own(window):
+    assert QApplication.testAttribute(Qt.ApplicationAttribute.AA_DontUseNativeDialogs)
+
+
+def test_who_stopped_is_shown_until_something_moves(qtbot, window):
+    bar, session = window._bar, window.workbench.session
+    qtbot.waitUntil(lambda: bar.phase.text() == "ready", timeout=LONG_MS)
+    window.workbench.stop()
+    told = f"Stopped by the operator at {session.snapshot().stop.at:%H:%M:%S}"
+    qtbot.waitUntil(lambda: bar.doing.text() == told, timeout=LONG_MS)
+    session.stop("the window does not answer")
+    qtbot.waitUntil(lambda: bar.doing.text().startswith("Stopped by the program"), timeout=LONG_MS)
+    assert bar.doing.text().endswith(": the window does not answer")

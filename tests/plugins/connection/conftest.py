@@ -30,7 +30,7 @@ class Differing(Simulator, Parameterised):
         self.accepted += 1
         self._open_questions = ()
 
-    def _write_parameters(self):
+    def _write_parameters(self, permit):
         self.written += 1
         self._open_questions = ()
 
@@ -65,7 +65,7 @@ class Losing(Simulator):
             return status
         return DeviceStatus(DeviceState.FAULT, status.progress, self.trouble, True, ())
 
-    def _clear_fault(self):
+    def _clear_fault(self, permit):
         self.trouble = None
 
 

@@ -299,9 +299,9 @@ def test_what_takes_long_is_prepared_while_the_window_lives(qtbot, window, sessi
     driver = session.driver
     plain, gate = driver._set_effects, threading.Event()
 
-    def slow(effects):
+    def slow(effects, permit):
         gate.wait(30.0)
-        plain(effects)
+        plain(effects, permit)
 
     driver._set_effects = slow
     try:
@@ -319,7 +319,7 @@ def test_what_the_simulator_refuses_later_is_shown_as_not_applied(qtbot, window,
     driver = session.driver
     plain = driver._set_effects
 
-    def refuse(effects):
+    def refuse(effects, permit):
         raise EffectError("unstable with it")
 
     driver._set_effects = refuse

@@ -27,14 +27,14 @@ class HiddenMachine(Simulator):
         self._readings = np.empty((0, len(self._columns)))
         self._played = len(case.training)
 
-    def _play(self, trajectory):
+    def _play(self, trajectory, permit):
         interval_s = float(np.diff(trajectory.time_s).mean())
         values = np.stack(
             [trajectory.signal(axis.name, Tap.CMD) for axis in self._case.machine.axes], axis=1
         )
         self._played += 1
         _, self._readings = measured(self._case, Commands(interval_s, values), self._played)
-        super()._play(trajectory)
+        super()._play(trajectory, permit)
 
     def _read(self):
         samples = super()._read()

@@ -1,7 +1,5 @@
 """The picture and the hands in it, on a microscope that does what the test says."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
@@ -15,6 +13,7 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.requests import Requests
 from rotemina.app.shell.theme import DARK
 from rotemina.drivers.cameras.frame import Frame, Region
+from rotemina.drivers.gate import Gate
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.microscope.contrast import Contrast
 from rotemina.plugins.microscope.hands import Hands
@@ -35,12 +34,25 @@ def view(qtbot, microscope):
     return made
 
 
+class Standing:
+    """A session of which hands ask state, permits and stops."""
+
+    def __init__(self):
+        gate = Gate()
+        self.robot, self.state = None, SessionState(activity=DeviceState.IDLE)
+        self.stop, self.permit = gate.stop, gate.permit
+
+    @property
+    def epoch(self):
+        return self.permit().epoch
+
+    def snapshot(self):
+        return self.state
+
+
 @pytest.fixture
 def session():
-    state = SessionState(activity=DeviceState.IDLE)
-    made = SimpleNamespace(robot=None, stop_asked_s=0.0, state=state)
-    made.snapshot = lambda: made.state
-    return made
+    return Standing()
 
 
 @pytest.fixture
@@ -171,7 +183,7 @@ def test_what_ends_the_mode_forgets_the_move(qtbot, view, microscope, hands, ses
     if way == "Esc":
         qtbot.keyClick(view, Qt.Key.Key_Escape)
     elif way == "stop":
-        session.stop_asked_s = 8.0
+        session.stop()
     elif way == "hidden":
         view.hide()
     elif way == "frozen":

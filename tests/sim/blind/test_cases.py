@@ -7,11 +7,12 @@ from itertools import islice
 import numpy as np
 import pytest
 
-from rotemina.sim.blind.case import draw_case, measured, significant
+from rotemina.sim.blind.case import _beside, draw_case, measured, significant
 from rotemina.sim.blind.catalogue import CATALOGUE
 from rotemina.sim.blind.files import kinds, write_case, write_cases
 from rotemina.sim.blind.force import draw_force_case
-from rotemina.sim.blind.trial import LEAST_FLOORS, LEAST_SHARE, Trial, beyond
+from rotemina.sim.blind.remainder import LEAST_SHARE, MOST_SHARE
+from rotemina.sim.blind.trial import LEAST_BESIDE, LEAST_FLOORS, OVER_REMAINDER, Trial, beyond
 from rotemina.sim.effects.registry import all_effects
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Tap
@@ -41,8 +42,28 @@ def test_every_effect_makes_a_case_whose_gap_shows(effect):
 def test_two_effects_both_count(seed):
     case = draw_case(ROBOT, "double", seed)
     assert len(case.present) == 2
-    assert all(one.floors >= LEAST_FLOORS and one.share >= LEAST_SHARE for one in case.present)
+    assert all(one.floors >= LEAST_FLOORS for one in case.present)
     assert case.label()["verdict"] == "explained"
+
+
+@pytest.mark.parametrize("seed", [9, 13])
+def test_half_of_the_faulty_machines_do_something_that_no_catalogue_holds(seed):
+    case = draw_case(ROBOT, "single", seed, "gain_error")
+    assert LEAST_SHARE <= case.remainder.share <= MOST_SHARE
+    assert all(one.floors >= OVER_REMAINDER * case.remainder.floors for one in case.present)
+    assert case.label()["verdict"] == "explained"
+    assert case.label()["remainder"]["axis"] == case.present[0].part.axis.name
+    assert draw_case(ROBOT, "single", seed + 1, "gain_error").remainder is None
+    # The same motion, the same remainder: it is no noise.
+    first, again = (case.machine.respond(case.training[0], chance).reading for chance in (1, 2))
+    assert np.array_equal(first, again)
+
+
+def test_a_further_effect_may_be_small_beside_the_first():
+    rng = np.random.default_rng(0)
+    drawn = [_beside(200.0, rng) for _ in range(500)]
+    assert LEAST_BESIDE < min(drawn) < 8.0
+    assert max(drawn) > 300.0
 
 
 def test_a_healthy_machine_stays_within_its_floor():
@@ -55,6 +76,7 @@ def test_a_healthy_machine_stays_within_its_floor():
             "hidden": [],
             "kind": "healthy",
             "floors": 0.0,
+            "remainder": None,
         }
         for number, commands in enumerate(case.training):
             _, reading = measured(case, commands, number)
@@ -120,13 +142,13 @@ def test_an_axis_under_force_is_recorded_in_closed_loop(tmp_path):
     assert record.has("q", Tap.U)
 
 
-def test_each_effect_under_force_has_its_share_of_the_gap():
+def test_each_effect_under_force_is_clear_beside_the_other():
     robot = load_robot("emps")
     cases = [draw_force_case(robot, seed) for seed in (1, 17, 19, 23)]
     assert {case.kind for case in cases} == {"double"}
     for case in cases:
         floors = [floors for _, floors in case.present]
-        assert min(floors) >= max(1.5, 0.2 * max(floors))
+        assert min(floors) >= LEAST_BESIDE
 
 
 def test_labels_lie_apart_from_the_records(tmp_path):

@@ -1,6 +1,7 @@
 """Figures of the test from answers made by hand."""
 
 import io
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,9 +10,11 @@ from rotemina.sim.blind.intervals import resampled, share
 from rotemina.sim.blind.picture import draw_confusion
 from rotemina.sim.blind.scoring import (
     Outcome,
+    calibration_curve,
     calibration_table,
     confusion,
     expected_calibration_error,
+    halves,
     score,
 )
 from rotemina.sim.blind.sealing import SealError, seal
@@ -161,3 +164,32 @@ def test_a_sealed_label_cannot_be_exchanged():
         with pytest.raises(SealError, match="case: its label is not the one that was sealed"):
             sealed.check(other, salt, "case")
     assert seal(label, "one").digest != seal(label, "two").digest
+
+
+def test_causes_count_beside_a_remainder_and_halves_are_told_apart():
+    partly = outcome([effect("creep")], [cause("creep")], told="partly")
+    rest = replace(partly, label={**partly.label, "remainder": {"axis": "x", "floors": 2.0}})
+    extra = outcome([effect("creep")], [cause("creep"), cause("delay")])
+    assert score([partly])["top_1"].value == score([partly])["single_exact"].value == 1.0
+    figures = score([partly, extra])
+    assert figures["extra_causes"].value == 0.5
+    assert figures["causes_named"].value == 1.0
+    parts = halves([rest, extra, outcome([], [])])
+    assert parts == {"without_remainder": [extra], "with_remainder": [rest]}
+
+
+def test_the_calibration_rises_with_the_weight():
+    weights = [0.9, 0.5, 0.7, 0.95, 0.6]
+    right = [True, False, False, True, True]
+    made = [
+        outcome(
+            [effect("creep" if there else "delay")], [{**cause("creep"), "probability": weight}]
+        )
+        for weight, there in zip(weights, right, strict=True)
+    ]
+    curve = calibration_curve(made)
+    assert curve == [
+        (0.5, 0.0),
+        (pytest.approx(0.65), 0.5),
+        (pytest.approx(0.925), 1.0),
+    ]

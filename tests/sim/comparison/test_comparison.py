@@ -224,3 +224,19 @@ def test_the_steering_mirror_leaves_its_known_gap(real_dir):
                 gap += tap.rms**2
                 size += (tap.rms / tap.relative_error) ** 2
     assert np.sqrt(gap / size) == pytest.approx(1.31, abs=0.03)
+
+
+@pytest.mark.parametrize("moving", [0, 1, 2])
+def test_a_playback_that_was_cut_off_when_it_began_is_not_compared(moving):
+    """Not a single figure says how good the model is where nothing has moved yet."""
+    command = np.zeros(max(moving, 1) + 1)
+    command[len(command) - moving :] = 1e-6
+    short = Record.from_signals(
+        TIME_S[: len(command)], {("x", Tap.CMD): command, ("x", Tap.MEAS): command}, {"x": "m"}
+    )
+    with pytest.raises(InputError, match=f"{len(command)} rows, {moving} of them in motion"):
+        compare(ROBOT, short)
+
+
+def test_a_machine_that_holds_still_can_be_compared():
+    assert only(compare(ROBOT, record_of(lambda answer: answer, np.full(8000, 5e-4)))).rms == 0.0

@@ -133,7 +133,7 @@ def test_noise_comes_from_the_seed_alone(worn_loop):
         ("q", RATE_HZ, 0, "has no such axis; use one of x, y"),
         ("zn", 0.0, 0, "loop rate 0"),
         ("zn", float("inf"), 0, "loop rate inf"),
-        ("zn", RATE_HZ, -1, "0 or more"),
+        ("zn", RATE_HZ, -1, "0 to 1000"),
     ],
 )
 def test_what_cannot_be_a_loop_is_refused(robot, axis, rate_hz, delay, message):

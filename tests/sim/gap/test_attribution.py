@@ -4,7 +4,6 @@ import numpy as np
 
 from rotemina.sim.gap import attribution
 from rotemina.sim.gap.attribution import attributed, without_own
-from rotemina.sim.gap.baseline import GAIN, RESONANCE
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.models import explain, untouched
 from rotemina.sim.records.record import Record, Tap
@@ -12,6 +11,7 @@ from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.simulation.simulation import simulate
 
+GAIN, RESONANCE = "gain_error", "resonance_mismatch"
 ROBOT = load_robot("rotemina")
 TIME_S = np.arange(2000) / 1000.0
 SLOW_RING = AxisEffect(
@@ -48,3 +48,13 @@ def test_what_was_fitted_without_an_own_parameter_may_take_its_place(monkeypatch
     found = attributed(seen, bare, late)
     assert ("delay", None) in found.ids
     assert {name for name, _ in found.ids} <= {"delay", GAIN}
+
+
+def test_evidence_is_sent_without_its_caches():
+    seen = evidence(LATE)
+    residual = seen.residual()
+    assert seen._runs
+    make, figures = seen.__reduce__()
+    sent = make(*figures)
+    assert not sent._runs
+    np.testing.assert_allclose(sent.residual(), residual)

@@ -161,3 +161,18 @@ def test_a_fit_from_a_first_look_finds_a_flexure_wherever_it_is_straight(centre)
     found = fit(evidence, beside(evidence, [look.effect]))
     assert found.effects[0].parameters["hardening"] == pytest.approx(0.2, rel=0.05)
     assert found.effects[0].parameters["centre"] == pytest.approx(centre_m, rel=0.05)
+
+
+def test_a_delay_of_some_rings_is_found_among_the_minima_between_them():
+    truth = AxisEffect(axis="zn", id="delay", parameters={"delay": 5.07e-3})
+    time_s = np.arange(2400) / 4000.0
+    own = ROBOT.axes["zn"]
+    steps = own.range[0] + own.span * np.where(time_s % 0.2 < 0.1, 0.3, 0.6)
+    commands = Record.from_signals(time_s, {("zn", Tap.CMD): steps}, {"zn": "m"})
+    evidence = Evidence.of(
+        ROBOT, "zn", [simulate(ROBOT, [truth], commands, np.random.default_rng(0))]
+    )
+    bare = AxisEffect(axis="zn", id="delay")
+    found = screen(evidence, fit(evidence, []), bare, briefly=True)
+    assert found.effect.parameters["delay"] == pytest.approx(5.07e-3, abs=1e-4)
+    assert fit(evidence, [found.effect]).cost < 1.2

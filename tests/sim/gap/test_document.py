@@ -1,6 +1,7 @@
 """A diagnosis as JSON: what the contract asks for, and what is read back or refused."""
 
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,9 +10,18 @@ import pytest
 from rotemina.app.files import json_text
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap import reading
-from rotemina.sim.gap.diagnosis import Diagnosis, FittedParameter, Verdict
+from rotemina.sim.gap.diagnosis import (
+    Diagnosis,
+    FittedParameter,
+    Offset,
+    Remainder,
+    Suspected,
+    Verdict,
+)
 from rotemina.sim.gap.document import ExperimentFiles, as_json, shares
+from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.reading import read_document
+from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 
@@ -207,19 +217,19 @@ LOOP = {"axis": "thx", "effect": "hysteresis"}
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"robot": 3}, "model.robot = 3.0: must be the text of a robot file"),
+        ({"robot": 3}, "model.robot = 3: must be the text of a robot file"),
         ({"robot": "\ud800"}, "must be the text of a robot file"),
         ({"robot": "[robot"}, "model.robot: not valid TOML"),
         ({"robot": "[robot]\nname = 'a'\n"}, "model.robot: "),
         ({"effects": {}}, "model.effects = {}: must be a list"),
-        ({"effects": [1]}, "model.effects[0] = 1.0: must be an object"),
+        ({"effects": [1]}, "model.effects[0] = 1: must be an object"),
         ({"effects": [{**LOOP, "axis": "w"}]}, "model.effects[0].axis = 'w': must be one of"),
         ({"effects": [{**LOOP, "axis": []}]}, "model.effects[0].axis = []: must be one of"),
         ({"effects": [{**LOOP, "effect": "os"}]}, "there is no effect 'os'"),
         ({"effects": [{**LOOP, "effect": None}]}, "must be the id of an effect"),
-        ({"effects": [{**LOOP, "formulation": 7}]}, "formulation = 7.0: must be a text"),
+        ({"effects": [{**LOOP, "formulation": 7}]}, "formulation = 7: must be a text"),
         ({"effects": [{**LOOP, "from_axis": "zn"}]}, "comes from no other axis"),
-        ({"effects": [{**LOOP, "parameters": 1}]}, "parameters = 1.0: must be an object"),
+        ({"effects": [{**LOOP, "parameters": 1}]}, "parameters = 1: must be an object"),
         ({"effects": [{**LOOP, "parameters": {"width": "wide"}}]}, "must be a number"),
         ({"effects": [{**LOOP, "parameters": {"width": None}}]}, "must be a number"),
         ({"effects": [{**LOOP, "parameters": {"width": 1.0}}]}, "width = 1: must be between 0"),
@@ -242,7 +252,7 @@ def test_a_model_that_is_none_is_refused_with_its_key(made_diagnosis, changes, m
         ("verdict", "fine", "verdict = 'fine': must be one of none, explained"),
         ("verdict", ["none"], "verdict = ['none']: must be one of"),
         ("axes", [], "axes = []: must be an object"),
-        ("axes", {"x": 1}, "axes.x = 1.0: must be one of"),
+        ("axes", {"x": 1}, "axes.x = 1: must be one of"),
     ],
 )
 def test_verdicts_are_checked(made_diagnosis, key, value, message):
@@ -250,3 +260,43 @@ def test_verdicts_are_checked(made_diagnosis, key, value, message):
     with pytest.raises(InputError) as caught:
         read_document("out.json")
     assert message in str(caught.value)
+
+
+def test_the_graded_answer_is_written_and_offsets_read_back(made_diagnosis, tmp_path):
+    diagnosis = made_diagnosis
+    name = next(iter(diagnosis.axes))
+    graded = replace(
+        diagnosis.axes[name],
+        verdict=Verdict.PARTLY,
+        remainder=Remainder(1e-7, 0.2, (("speed", 0.4),)),
+        suspected=(Suspected("creep", None, 0.4, in_model=False),),
+        offsets={Tap.REF: None, Tap.MEAS: Offset(1e-6, 2e-8)},
+    )
+    whole = as_json(replace(diagnosis, axes={**diagnosis.axes, name: graded}))
+    assert whole["axes"][name] == "partly"
+    assert whole["remainder"][name] == {
+        "rms": 1e-7,
+        "share": 0.2,
+        "depends_on": [{"what": "speed", "share": 0.4}],
+    }
+    assert whole["suspected"][0]["effect"] == "creep"
+    assert whole["offset"][name] == {"ref": None, "meas": {"value": 1e-6, "deviation": 2e-8}}
+    assert all(cause["in_model"] is True and cause["derived"] == {} for cause in whole["causes"])
+    path = tmp_path / "graded.json"
+    path.write_text(json.dumps(whole), encoding="utf-8")
+    assert read_document(path).offsets == {name: {Tap.MEAS: Offset(1e-6, 2e-8)}}
+
+
+@pytest.mark.parametrize(
+    ("offset", "message"),
+    [
+        ({"q": {}}, "offset.'q': must be one of"),
+        ({"thx": {"side": None}}, "offset.thx.'side': must be one of"),
+        ({"thx": {"meas": {"value": "1", "deviation": 0.0}}}, "offset.thx.'meas'.value = '1'"),
+    ],
+)
+def test_an_offset_that_is_none_is_refused(made_diagnosis, tmp_path, offset, message):
+    path = tmp_path / "edited.json"
+    path.write_text(json.dumps({**as_json(made_diagnosis), "offset": offset}), encoding="utf-8")
+    with pytest.raises(GapError, match=re.escape(message)):
+        read_document(path)

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from rotemina.sim.gap.errors import GapError
-from rotemina.sim.gap.evidence import Evidence, block_rows
-from rotemina.sim.gap.fit import fit, folds, held_out
+from rotemina.sim.gap.evidence import Evidence, beside, block_rows
+from rotemina.sim.gap.fit import _bounded_minimum, fit, folds, held_out
+from rotemina.sim.gap.screening import screen
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -106,3 +107,62 @@ def test_a_bound_that_is_hit_is_told():
     found = fit(evidence, [wrong, AxisEffect(axis="x", id="delay")])
     assert found.effects[1].parameters["delay"] == pytest.approx(0.002, rel=0.01)
     assert set(found.at_bound) <= {(0, "time_constant"), (0, "amplitude")}
+
+
+PARALLEL = np.outer(1e8 * np.sin(np.linspace(0.0, 9.0, 2000)), [1.0, 1.0])
+
+
+def test_memories_that_are_parallel_and_huge_are_nuisances_all_the_same():
+    """Normal equations of such columns are singular to the last digit."""
+    gap = PARALLEL[:, 0] * 1e-8 + np.cos(np.linspace(0.0, 40.0, 2000))
+    left = beside(list(PARALLEL.T), gap)
+    along = PARALLEL[:, 0] / np.linalg.norm(PARALLEL[:, 0])
+    expected = gap - along * (along @ gap)
+    assert np.max(np.abs(left - expected)) < 1e-3
+
+
+def test_a_memory_is_taken_in_amounts_of_about_one():
+    memory = np.full(4, 0.5)
+    left = beside([memory], 3.0 * memory)
+    assert left == pytest.approx(1.5 * memory)  # mᵀm = 1: half of what would take all away
+
+
+class Broken(Evidence):
+    """Evidence on which the equations of a delay fail."""
+
+    def residual(self, effects=(), only=None):
+        if any(one.id == "delay" for one in effects):
+            raise np.linalg.LinAlgError("Singular matrix")
+        return super().residual(effects, only)
+
+
+def test_a_candidate_whose_numbers_fail_is_lost_and_no_other():
+    truth = AxisEffect(axis="x", id="backlash", formulation="screw", parameters={"width": 4e-6})
+    whole = Evidence.of(ROBOT, "x", measured([truth], "x", (0.002,)))
+    broken = Broken(whole.robot, whole.axis, whole.observations)
+    begun = fit(broken, [])
+    seen = screen(broken, begun, AxisEffect(axis="x", id="delay"), briefly=False)
+    assert seen.cost > 0.99 * begun.cost  # nothing was taken away
+    assert fit(broken, [AxisEffect(axis="x", id="delay")]).cost > 1e9
+    play = AxisEffect(axis="x", id="backlash", formulation="screw")
+    assert fit(broken, [play]).cost == fit(whole, [play]).cost < 1.3
+
+
+def test_a_descent_whose_equations_are_singular_is_lost_and_said_so(caplog, monkeypatch):
+    def singular(*_):
+        raise np.linalg.LinAlgError("Singular matrix")
+
+    truth = AxisEffect(axis="x", id="delay", parameters={"delay": 3.7e-3})
+    evidence = Evidence.of(ROBOT, "x", measured([truth], "x", (0.002, 0.001)))
+    found = fit(evidence, [AxisEffect(axis="x", id="delay")])
+    monkeypatch.setattr("rotemina.sim.gap.fit._bounded_minimum", singular)
+    assert np.all(held_out(evidence, found) >= 1e6)
+    monkeypatch.setattr("rotemina.sim.gap.fit.descend", singular)
+    assert fit(evidence, [AxisEffect(axis="x", id="delay")]).cost > 1e9
+    assert "axis x: delay is left out of the diagnosis" in caplog.text
+
+
+def test_a_fit_of_which_no_row_speaks_stays_where_it_is():
+    nothing = np.zeros((2, 2))
+    where = _bounded_minimum(nothing, np.zeros(2), np.array([0.3, 4.0]), np.zeros(2), np.ones(2))
+    assert where.tolist() == [0.3, 1.0]

@@ -9,8 +9,11 @@ from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.effects.registry import all_effects
 from rotemina.sim.gap.caution import Caution, remarks
+from rotemina.sim.gap.diagnosis import Verdict
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.intake import check
+from rotemina.sim.gap.leaps import pieces
+from rotemina.sim.gap.method import diagnose
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -136,10 +139,6 @@ def test_an_axis_that_never_moved_is_told_and_not_refused():
             [lambda: measured(rows=99)],
             "record 1 (99 rows, 0.098 s): 99 rows; a diagnosis needs 100 rows",
         ),
-        (
-            [lambda: measured(rows=250), lambda: measured(rows=249, seed=1)],
-            "499 rows in all measure axis 'x'; a diagnosis needs 500 or more",
-        ),
         ([make_commands], "no measured channel (u, ref or meas) but only commands"),
     ],
 )
@@ -254,19 +253,57 @@ def test_a_command_beyond_the_range_is_told():
     assert caution.text.startswith("A command goes beyond the range 0 µm to 65 µm, to 7")
 
 
-def test_time_that_leaps_under_way_is_refused_and_at_rest_told():
-    record = measured()
-    under_way = record.time_s + 0.25 * (record.time_s >= 1.0)
-    assert refusal(timed(record, under_way)).startswith(
-        "record 1 (4000 rows, 4.249 s): time leaps by 0.251 s behind row 1000 (t = 0.999 s), where "
-        "rows are 0.001 s apart, while axis 'x' is under way: rows are lost or the clock was set"
+def with_leap(record, leap_s, *rows):
+    """The record with time that leaps before each of these rows."""
+    later = sum(leap_s * (np.arange(len(record.time_s)) >= row) for row in rows)
+    return timed(record, record.time_s + later)
+
+
+def test_a_record_is_split_where_time_leaps():
+    record = with_leap(changed(measured(), name="a"), 1.5, 1000, 1050, 3950)
+    [caution] = check(ROBOT, [record])
+    assert (caution.axis, caution.record) == (None, 0)
+    assert caution.text == (
+        "Time leaps 3 ×, by up to 1.5 s: the record is split there, and what came before a "
+        "piece is unknown; 100 rows in pieces shorter than 100 are left out."
     )
-    lost = np.r_[0:1500, 1800:2000, 2300:4000]
-    part = Record(record.time_s[lost], record.columns, record.values[lost], record.units)
-    assert "(and 1 more such leaps)" in refusal(part)
-    at_rest = record.time_s + 0.25 * (record.time_s >= 3.9)
-    [caution] = check(ROBOT, [timed(record, at_rest)])
-    assert caution.text.startswith("Time leaps 1 times in a record, by up to 0.251 s, where no")
+    first, second = pieces([record], ["a.csv"])
+    assert (first.name, first.number) == ("a.csv, rows 1 to 1000", 0)
+    assert (first.record.history, second.record.history) == ("rest", "unknown")
+    assert second.record.metadata["name"] == "a"
+    assert np.array_equal(second.record.values, record.values[1050:3950])
+
+
+def test_what_came_before_a_piece_of_a_periodic_record_is_unknown():
+    record = changed(measured(), history="periodic", period_samples="1000")
+    halves = pieces([with_leap(record, 2.0, 2000)])
+    assert [one.record.history for one in halves] == ["unknown", "unknown"]
+    assert [one.record.period_samples for one in halves] == [None, None]
+
+
+def test_short_leaps_split_where_an_axis_is_under_way():
+    record = measured()
+    [caution] = check(ROBOT, [with_leap(record, 0.25, 1000)])
+    assert caution.text.startswith("Time leaps 1 ×, by up to 0.251 s: the record is split")
+    at_rest = with_leap(record, 0.25, 3900)
+    assert len(pieces([at_rest])) == 1
+    [caution] = check(ROBOT, [at_rest])
+    assert caution.text.startswith("Rows are missing in a record for up to 0.251 s while no axis")
+    assert len(pieces([with_leap(record, 1.5, 3900)])) == 2
+
+
+def test_slow_rows_are_no_leaps():
+    slow = timed(measured(axes=("zn",)), 1e4 * measured(axes=("zn",)).time_s)
+    assert len(pieces([slow])) == 1
+    assert len(pieces([with_leap(slow, 95.0, 2000)])) == 2
+
+
+def test_a_record_of_which_no_piece_is_long_enough_is_refused():
+    record = with_leap(measured(rows=300), 2.0, 99, 198, 210)
+    assert refusal(record, measured(seed=1), names=["a.csv", "b.csv"]) == (
+        "a.csv: time leaps 3 ×, by up to 2 s, and no piece between has more than 99 rows; a "
+        "diagnosis needs 100 or more without a leap: leave the record out, or record without losses"
+    )
 
 
 def test_holds_may_be_written_sparsely():
@@ -277,7 +314,7 @@ def test_holds_may_be_written_sparsely():
     record = simulate(ROBOT, (), commands, np.random.default_rng(0))
     kept = np.flatnonzero(time_s % 1.0 < 0.8)
     sparse = Record(record.time_s[kept], record.columns, record.values[kept], record.units)
-    assert [one.text[:18] for one in check(ROBOT, [sparse])] == ["Time leaps 3 times"]
+    assert [one.text[:31] for one in check(ROBOT, [sparse])] == ["Rows are missing in a record fo"]
 
 
 def test_single_missing_rows_and_scattered_times_are_told():
@@ -402,3 +439,21 @@ def test_remarks_know_no_order_of_records():
 def test_a_robot_that_differs_in_one_figure_only_fits():
     robot = replace(ROBOT, name="other")
     assert check(robot, [measured()]) == ()
+
+
+@pytest.mark.parametrize("rate_hz", [0.1, 1e5])
+def test_slow_and_fast_records_are_welcome(rate_hz):
+    records = [measured(seed=seed, rate_hz=rate_hz, axes=("zn",), rows=400) for seed in (0, 1)]
+    assert check(ROBOT, records) == ()
+    assert diagnose(ROBOT, records).verdict is Verdict.NONE
+
+
+def test_a_split_record_is_diagnosed_in_pieces():
+    """The machine went on moving between the pieces."""
+    wrong = AxisEffect(axis="x", id="gain_error", parameters={"error": 0.02})
+    record = measured([wrong], axes=("x",))
+    kept = np.r_[0:1500, 2600:4000]
+    lost = Record(record.time_s[kept], record.columns, record.values[kept], record.units)
+    answer = diagnose(ROBOT, [lost])
+    assert answer.causes[0].effect == "gain_error"
+    assert any(one.startswith("Time leaps 1 ×") for one in answer.axes["x"].remarks)

@@ -208,15 +208,15 @@ def test_what_no_effect_explains_is_unknown():
     assert found.fitted == ()
 
 
-def test_one_slow_sine_is_insufficient():
+def test_one_slow_sine_names_what_its_loop_shows():
     own = ROBOT.axes["zn"]
     slow = sum(own.range) / 2 + 0.1 * own.span * np.sin(2 * np.pi * 0.4 * TIME_S)
     command = Record.from_signals(TIME_S, {("zn", Tap.CMD): slow}, {"zn": "m"})
     truth = [AxisEffect(axis="zn", id="hysteresis")]
     record = simulate(ROBOT, truth, command, np.random.default_rng(0))
     found = diagnose(ROBOT, [record])
-    assert found.verdict is Verdict.INSUFFICIENT
-    assert found.causes == ()
+    assert found.verdict is Verdict.EXPLAINED
+    assert [cause.effect for cause in found.causes] == ["hysteresis"]
 
 
 @pytest.mark.slow
@@ -324,3 +324,16 @@ def test_a_cause_of_little_beside_the_declared_noise_counts_beside_the_raised_on
     ]
     diagnosis = diagnose(ROBOT, read_alone(effects, "zn"))
     assert named(diagnosis) == {("zn", "sensor_noise", None), ("zn", "delay", None)}
+
+
+def test_an_axis_whose_numbers_fail_ends_nothing(monkeypatch):
+    truth = AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.04})
+
+    def failing(*_, **__):
+        raise np.linalg.LinAlgError("Singular matrix")
+
+    monkeypatch.setattr(method, "examine", failing)
+    found = diagnose(ROBOT, records([truth], "zn"))
+    assert found.verdict is Verdict.UNKNOWN
+    assert found.places
+    assert "Singular matrix" in found.axes["zn"].remarks[0]

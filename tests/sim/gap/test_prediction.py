@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from rotemina.sim.errors import InputError
+from rotemina.sim.gap.diagnosis import Offset
 from rotemina.sim.gap.prediction import predict
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record, Tap
@@ -120,3 +121,51 @@ def test_commands_of_another_robot_are_refused(axis, unit, message):
     with pytest.raises(InputError) as caught:
         predict(ROBOT, commands)
     assert message in str(caught.value)
+
+
+def test_memory_of_the_motion_before_is_carried_over():
+    """What comes out is the second half of one run, and no run from rest."""
+    whole = make_commands(rows=3000)
+    first, second = (
+        Record.from_signals(
+            whole.time_s[part] - whole.time_s[part][0],
+            {(axis, Tap.CMD): whole.signal(axis, Tap.CMD)[part] for axis in whole.axes},
+            whole.units,
+        )
+        for part in (slice(0, 1700), slice(1700, 3000))
+    )
+    expected = predict(WORN, whole)
+    carried = predict(WORN, second, after=first)
+    assert np.array_equal(carried.time_s, second.time_s)
+    for axis in ("thx", "x"):
+        own = expected.signal(axis, Tap.MEAS)[1700:]
+        assert carried.signal(axis, Tap.MEAS) == pytest.approx(own, abs=1e-12)
+    fresh = predict(WORN, second)
+    assert np.abs(fresh.signal("thx", Tap.MEAS) - carried.signal("thx", Tap.MEAS)).max() > 1e-6
+
+
+def test_a_pause_holds_the_last_command():
+    """What creeps goes on meanwhile."""
+    creeping = replace(ROBOT, effects=(AxisEffect(axis="thx", id="creep"),))
+    commands = make_commands(axes=("thx",))
+    at_once = predict(creeping, commands, after=commands)
+    later = predict(creeping, commands, after=commands, pause_s=20.0)
+    change = later.signal("thx", Tap.MEAS) - at_once.signal("thx", Tap.MEAS)
+    assert np.abs(change).max() > 1e-7
+
+
+def test_the_motion_before_must_hold_the_axes_and_a_pause_is_no_less_than_nothing():
+    commands = make_commands()
+    with pytest.raises(InputError, match="'x' of the commands: the motion before has thx"):
+        predict(WORN, commands, after=make_commands(axes=("thx",)))
+    with pytest.raises(InputError, match="pause = -1 s: must be 0 s or more"):
+        predict(WORN, commands, after=commands, pause_s=-1.0)
+
+
+def test_a_constant_that_records_agree_on_is_predicted():
+    commands = make_commands()
+    moved = predict(WORN, commands, {"thx": {Tap.MEAS: Offset(2e-6, 1e-7)}})
+    plain = predict(WORN, commands)
+    added = moved.signal("thx", Tap.MEAS) - plain.signal("thx", Tap.MEAS)
+    assert added == pytest.approx(2e-6)
+    assert np.array_equal(moved.signal("thx", Tap.REF), plain.signal("thx", Tap.REF))

@@ -7,7 +7,7 @@ import pytest
 
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.inverse import at_input
+from rotemina.sim.gap.inverse import inputs_left
 from rotemina.sim.gap.models import untouched
 from rotemina.sim.gap.starts import starts
 from rotemina.sim.records.record import Record, Tap
@@ -84,7 +84,7 @@ def test_a_ringing_gap_is_undone_to_what_caused_it_at_the_input():
     clean = simulate(ROBOT, [], records[0])
     wanted = records[0].signal("thx", Tap.U) - clean.signal("thx", Tap.U)
     wanted = (wanted - wanted.mean()) * Attached.of(ROBOT, steps).facts.gain
-    for part, found in at_input(evidence, untouched(evidence).fit):
+    for part, found in inputs_left(evidence, untouched(evidence).fit):
         inner = slice(400, -400)  # ends are tapered
         likeness = np.corrcoef(found[inner], wanted[inner])[0, 1]
         assert likeness > (0.97 if part.tap is not Tap.MEAS else 0.8), part.tap

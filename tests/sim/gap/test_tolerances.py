@@ -3,7 +3,8 @@
 import pytest
 
 from rotemina.sim.effects.attachment import Attached
-from rotemina.sim.gap.tolerances import Extent, tolerance
+from rotemina.sim.effects.identification import Extent
+from rotemina.sim.gap.tolerances import tolerance
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 

@@ -78,17 +78,35 @@ def test_each_bound_refuses_what_leaves_it_and_allows_the_rest(bounds, axis, to,
             bound.check_path(path, time_s)
 
 
-def test_a_tip_that_is_out_already_may_only_come_back():
+def test_a_tip_that_is_out_already_is_refused_every_way_and_bounds_about_it_hold_it():
     bound = zone(floor=0.01)
     present = bound.swept(MIDDLE, MIDDLE)
     up, down = MIDDLE.copy(), MIDDLE.copy()
     up[2] += 0.02
     down[2] -= 1e-6
-    bound.check_sweep(MIDDLE, up, present)
+    assert bound.excess(present).any
     with pytest.raises(OutOfLimitsError, match="its floor is"):
-        bound.check_sweep(down, MIDDLE, present)
-    with pytest.raises(OutOfLimitsError):
         bound.check_sweep(MIDDLE, up)
+    bound.beyond(present).check_sweep(MIDDLE, up)
+    with pytest.raises(OutOfLimitsError, match="its floor is"):
+        bound.beyond(present).check_sweep(down, MIDDLE)
+
+
+@pytest.mark.parametrize(("objective", "side"), [(-0.02, 0), (0.02, 1)])
+def test_floor_and_objective_are_bounds_of_their_own(objective, side):
+    bound = zone(objective=objective)
+    for floor in (-0.03, -0.01, None):
+        taught = bound.taught(floor)
+        assert taught.objective == bound.objective
+        assert taught.objective[side] == objective
+    assert bound.taught(-0.03).low == (objective if side == 0 else -0.03)
+    assert bound.taught(-0.03).taught(None).low == bound.low
+
+
+@pytest.mark.parametrize("floor", [np.nan, np.inf, -np.inf, 1e308, -0.041, 0.021])
+def test_a_floor_is_a_height_that_the_tip_can_have(floor):
+    with pytest.raises(OutOfLimitsError, match=r"must be between -40(\.\d+)? mm and 20 mm"):
+        zone(objective=0.02).taught(floor)
 
 
 @pytest.mark.parametrize(("times", "refused"), [(0.9, False), (1.1, True)])

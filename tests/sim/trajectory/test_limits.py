@@ -14,6 +14,7 @@ from rotemina.sim.trajectory.limits import (
     OutOfLimitsError,
     Quantity,
     TrajectoryError,
+    check_speeds,
     check_target,
     check_trajectory,
     find_violations,
@@ -272,3 +273,15 @@ def test_all_violations_are_in_the_refusal():
 def test_a_trajectory_for_another_machine_is_refused(robot, record, words):
     with pytest.raises(TrajectoryError, match=words):
         find_violations(robot, record)
+
+
+@pytest.mark.parametrize("speed", ["0.01", None, 0.0, -1.0, float("nan"), float("inf"), 1j])
+def test_a_speed_that_is_none_is_refused(speed):
+    with pytest.raises(OutOfLimitsError, match=r"axis x: a speed of .*: must be a finite number"):
+        check_speeds({"x": 0.0}, {"x": speed})
+
+
+def test_a_speed_needs_a_target():
+    check_speeds({"x": 0.0}, {"x": np.float32(1e-3)})
+    with pytest.raises(OutOfLimitsError, match=r"axis y: .* with a target"):
+        check_speeds({"x": 0.0}, {"y": 1e-3})

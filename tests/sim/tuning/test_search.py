@@ -112,7 +112,7 @@ def test_another_point_can_be_chosen(fast, done):
         ("integral = ", "integral = -", "integral -"),
         ("integral = ", "integrale = ", "integrale"),
         ("rotemina-tuning 1", "rotemina-tuning 9", "format = 'rotemina-tuning 9'"),
-        ("delay = 0", "delay = [", "no TOML"),
+        ("delay = 0", "delay = [", "not valid TOML"),
     ],
 )
 def test_a_file_that_is_wrong_is_refused_with_the_key(fast, done, tmp_path, old, new, message):

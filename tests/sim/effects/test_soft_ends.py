@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rotemina.sim.effects.saturation import soft
-from rotemina.sim.gap.bends import Bend, bent_ends
+from rotemina.sim.effects.soft_ends import Bend, bent_ends
 
 
 def given(asked, bend):
