@@ -38,7 +38,7 @@ test: system $(VENV)/.test  ## run the quick tests
 test-slow: SCREEN := --screen
 test-slow: system $(VENV)/.slow $(VENV)/src  ## run the long tests
 	@if grep -rqs --include='*.py' '^ *@pytest\.mark\.slow\|^pytestmark.*slow' tests; \
-	then $(PYTEST) -m slow; else echo 'There are no slow tests.'; fi
+	then $(PYTEST) --numprocesses auto --maxprocesses 2 --dist loadgroup -m slow; else echo 'There are no slow tests.'; fi
 
 soak: system $(VENV)/.test  ## hours of random faults, requests and stops
 	@ROTEMINA_SOAK_S=3600 ROTEMINA_OPERATIONS=100000 ROTEMINA_STRESS=10000 $(PYTEST) -s -m slow \

@@ -30,6 +30,8 @@ def hidden_case(robot, seed):
         case = draw_case(robot, "single", int(rng.integers(1 << 30)), effect)
         (hidden,) = case.label()["effects"]
         piezo = robot.axes[hidden["axis"]].kind == "piezo"
+        if case.remainder is not None:  # it acts over whole motions, and cannot go on
+            continue
         if hidden["effect"] in STEPPED and piezo and hidden["floors"] >= LEAST_FLOORS:
             return case
 
