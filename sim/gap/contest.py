@@ -13,6 +13,9 @@ from rotemina.sim.gap.attribution import attributed, without_own
 from rotemina.sim.gap.baseline import is_own, is_whole_own
 from rotemina.sim.gap.catalogue import catalogue, is_of, kinship_of, with_parameter
 from rotemina.sim.gap.closing import closed
+from rotemina.sim.gap.compare.decision import stands
+from rotemina.sim.gap.compare.score import held_out_powers
+from rotemina.sim.gap.compare.weights import weigh
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import fit
 from rotemina.sim.gap.models import (
@@ -21,20 +24,16 @@ from rotemina.sim.gap.models import (
     beside,
     explain,
     explanation,
-    mean_squares,
 )
 from rotemina.sim.gap.richness import alike_axes
 from rotemina.sim.gap.rivals import Key, Rival, probability, rivals
-from rotemina.sim.gap.selection import LEAST_POWER, Selection
+from rotemina.sim.gap.selection import Selection
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
 # What does the same at the sensor as elsewhere, where no reference was recorded.
 _AT_THE_SENSOR = {Family.GAIN, Family.CURVE, Family.LATE, Family.PERIOD}
 _BUTTERWORTH = "third_order"  # of a lag, as it is with its presets
-_DOUBTED = 0.1  # probability below which one cause of several is none
-_LITTLE = 0.1  # of the gap's power, below which a cause must be surer
-_DOUBTED_OF_LITTLE = 0.9
 _BESIDE_A_WANDER = 0.3  # of the gap's power, that a cause closes at least
 _AS_SLOW = 0.7  # the same for what is as slow as a wander
 _LIKELIER = 0.6  # probability from which a rival takes a cause's place
@@ -74,17 +73,18 @@ def contested(
     once: set[Key] = set()  # a re-tuned parameter may come back in what the others leave
     while len(best.causes) > 1 or (best.causes and unsure):
         doubted = {
-            key
-            for key, own in ranked.items()
-            if _of_its_kind(own, key) < _least_sure(evidence, selection, aside, best, key)
+            key: weight
+            for key in best.ids
+            if key not in once
+            and (weight := _doubt(evidence, selection, best, ranked[key], key, aside)) is not None
         }
         if wanders:
-            doubted |= {key for key in best.ids if _bends_to(evidence, best, key)}
-        doubted -= once
+            bent = (key for key in best.ids if key not in once and _bends_to(evidence, best, key))
+            doubted |= dict.fromkeys(bent, 0.0)
         if not doubted:
             break
         # One at a time: without it, another that it stood in for may be beyond doubt.
-        least = min(doubted, key=lambda key: (_of_its_kind(ranked[key], key), key[0], key[1] or ""))
+        least = min(doubted, key=lambda key: (doubted[key], key[0], key[1] or ""))
         once.add(least)
         kept = [one for one in best.causes if (one.id, one.from_axis) != least]
         best = _with_only(evidence, selection, kept)
@@ -110,49 +110,62 @@ def _likelier(ranked: Mapping[Key, Sequence[Rival]]) -> Explanation | None:
     return None if surest is None else surest.explanation
 
 
-def _of_its_kind(ranked: Sequence[Rival], key: Key) -> float:
-    """Return the probability that a cause is there, or what does the same at the sensor.
+def _doubt(
+    evidence: Evidence,
+    selection: Selection,
+    best: Explanation,
+    ranked: Sequence[Rival],
+    key: Key,
+    aside: Mapping[Tap, float],
+) -> float | None:
+    """Return the weight of a cause that does not stand at any tap, None of one that stands."""
+    without = _without(evidence, selection, best, key)
+    weight = _weight_of_its_kind(evidence, best, without, ranked, key)
+    standing = any(
+        stands(without.by_tap[tap] - left, max(left - 1.0, 0.0) + aside.get(tap, 0.0), weight)
+        for tap, left in best.by_tap.items()
+    )
+    return None if standing else weight
+
+
+def _weight_of_its_kind(
+    evidence: Evidence, best: Explanation, without: Explanation, ranked: Sequence[Rival], key: Key
+) -> float:
+    """Return the weight that a cause is there, or what does the same at the sensor.
 
     Which of these it is may be in doubt, and that one of them is there beyond doubt.
     """
+    others = [one for one in ranked if one.explanation is not best]
+    own = (Rival(key[0], key[1], 1.0, best), *others)
+    found = [*(one.explanation for one in own), without]
+    counts = [*(len(best.causes) for _ in own), len(best.causes) - 1]
+    weights = weigh(held_out_powers(evidence, [one.held_out for one in found]), counts)
+    kin = [_is_kin(one, key) for one in own]
+    return float(weights[:-1][kin].sum())
+
+
+def _is_kin(one: Rival, key: Key) -> bool:
     name, source = key
     family = kinship_of(name).family
-    kin = family in _AT_THE_SENSOR
-    return sum(
-        one.probability
-        for one in ranked
-        if one.from_axis == source
-        and (one.effect == name or (kin and kinship_of(one.effect).family is family))
-    )
+    alike = family in _AT_THE_SENSOR and kinship_of(one.effect).family is family
+    return one.from_axis == source and (one.effect == name or alike)
 
 
-def _least_sure(
-    evidence: Evidence,
-    selection: Selection,
-    aside: Mapping[Tap, float],
-    best: Explanation,
-    key: Key,
-) -> float:
-    """Return the probability that a cause needs: more where it closes little of any tap's gap."""
-    before, raw = _without(evidence, selection, best, key), selection.bare.by_tap
-    much = any(
-        before[tap] - left >= max(_LITTLE * (raw[tap] + aside.get(tap, 0.0) - 1.0), LEAST_POWER)
-        for tap, left in best.by_tap.items()
-    )
-    return _DOUBTED if much else _DOUBTED_OF_LITTLE
-
-
-def _without(
-    evidence: Evidence, selection: Selection, best: Explanation, key: Key
-) -> Mapping[Tap, float]:
-    """Return what is left at each tap without a cause: as the others alone were fitted, if so."""
+def _without(evidence: Evidence, selection: Selection, best: Explanation, key: Key) -> Explanation:
+    """Return the others of a cause, fitted by themselves."""
     others = [one for one in best.causes if (one.id, one.from_axis) != key]
-    named = {(one.id, one.from_axis) for one in others if not is_own(evidence, one)}
-    if not is_whole_own(key[0]) and named:
-        alone = [one for one in selection.tried if set(one.ids) == named]
-        if alone:
-            return min(alone, key=lambda one: one.score).by_tap
-    return mean_squares(evidence, evidence.residual(others))
+    if is_whole_own(key[0]):
+        kept = [one for one in best.fit.effects if one.id != key[0]]
+        return explanation(evidence, len(others), fit(evidence, kept, most_steps=MOST_STEPS))
+    free = [one for one in others if not is_own(evidence, one)]
+    if not free:
+        return selection.retuned
+    named = {(one.id, one.from_axis) for one in free}
+    alone = [one for one in selection.tried if set(one.ids) == named]
+    if alone:
+        return min(alone, key=lambda one: one.score)
+    again = fit(evidence, beside(evidence, free, best), most_steps=MOST_STEPS)
+    return explanation(evidence, len(free), again)
 
 
 def _bends_to(evidence: Evidence, best: Explanation, key: Key) -> bool:

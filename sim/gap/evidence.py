@@ -27,6 +27,8 @@ from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import AxisEffect, ForceAxis, Robot
 
 _TAPS = (Tap.U, Tap.REF, Tap.MEAS)
+_FORGETS = 8  # part of a record, by whose end most axes have forgotten how it began
+_FORGOTTEN = 0.01  # floors, within which two answers are one
 _CONSTANT_FORCE = 0.1  # of a constant force, that is held against the model
 
 Signals = Mapping[Tap, FloatArray]
@@ -220,6 +222,33 @@ class Evidence:
         """
         return [answer for _, (answer, *_) in self._answers(effects, only)]
 
+    def remembering(self, effects: Sequence[AxisEffect] = ()) -> list[Signals]:
+        """Return what the model answers to each record, with the memory that suits it best.
+
+        Where a record's history is unknown, what the axis remembers at its first row is a nuisance
+        of the record, as it is in :meth:`residual`.
+
+        Raises
+        ------
+        EffectError, PlantError
+            If it cannot be simulated.
+        """
+        found: list[Signals] = []
+        for number, (answer, *others) in self._answers(effects, None):
+            observation, remembered = self.observations[number], dict(answer)
+            for tap, real in observation.real.items():
+                floor = observation.floor[tap]
+                memory = [(other[tap] - answer[tap]) / floor for other in others]
+                if memory:
+                    gap, *signals = (
+                        self._without_nuisance(number, tap, x)
+                        for x in ((real - answer[tap]) / floor, *memory)
+                    )
+                    amounts = _amounts(signals, gap)
+                    remembered[tap] = answer[tap] + floor * (np.stack(memory, axis=1) @ amounts)
+            found.append(remembered)
+        return found
+
     def _answers(
         self, effects: Sequence[AxisEffect], only: Sequence[int] | None
     ) -> Iterator[tuple[int, list[Signals]]]:
@@ -236,11 +265,25 @@ class Evidence:
                 plants[key] = Plant.of(seen, closed_loop=record.closed_loop, only={self.axis})
             plant = plants[key]
             run = self._run(number, plant)
-            starts = [
-                start(plant, record, run),
-                *other_starts(plant, record, run, self.axis),
+            answer = self._answer(plant, run, start(plant, record, run), observation)
+            others = [
+                self._until_forgotten(plant, run, state, observation, answer)
+                for state in other_starts(plant, record, run, self.axis)
             ]
-            yield number, [self._answer(plant, run, state, observation) for state in starts]
+            yield number, [answer, *others]
+
+    def _until_forgotten(
+        self, plant: Plant, run: Run, state: PlantState, observation: Observation, answer: Signals
+    ) -> Signals:
+        """Return the answer from another start, simulated no farther than that start matters."""
+        rows = len(run.time_s) // _FORGETS
+        begun = self._answer(plant, Run(*(one[:rows] for one in run)), state, observation)
+        last = slice(rows - rows // 4, rows)
+        for tap, signal in begun.items():
+            apart = np.abs(signal[last] - answer[tap][last]).max(initial=0.0)
+            if rows < 8 or apart > _FORGOTTEN * observation.floor[tap]:
+                return self._answer(plant, run, state, observation)
+        return {tap: np.concatenate([signal, answer[tap][rows:]]) for tap, signal in begun.items()}
 
     def _answer(
         self, plant: Plant, run: Run, state: PlantState, observation: Observation
@@ -308,11 +351,16 @@ def beside(signals: Sequence[FloatArray], gap: FloatArray) -> FloatArray:
     """
     if not signals:
         return gap
-    basis = np.stack(signals, axis=1)
+    return np.asarray(gap - np.stack(signals, axis=1) @ _amounts(signals, gap))
+
+
+def _amounts(signals: Sequence[FloatArray], gap: FloatArray) -> FloatArray:
+    """Return the most likely amounts (m,) of m signals, each (n,), in a gap (n,)."""
     # Stacked on what is known of the amounts, and not squared: signals may be far larger than one
     # and parallel.
-    whole = np.linalg.qr(np.vstack([basis, np.eye(len(signals))]))[0][: len(gap)]
-    return np.asarray(gap - whole @ (whole.T @ gap))
+    known = np.vstack([np.stack(signals, axis=1), np.eye(len(signals))])
+    q, r = np.linalg.qr(known)
+    return np.asarray(np.linalg.solve(r, q[: len(gap)].T @ gap))
 
 
 def _own_signals(observation: Observation, kept: BoolArray | None, rows: int) -> FloatArray:

@@ -13,6 +13,7 @@ from rotemina.sim.gap.baseline import is_own, is_whole_own
 from rotemina.sim.gap.closing import closed
 from rotemina.sim.gap.companions import accompanied
 from rotemina.sim.gap.compare.decision import Closing, decide, is_sure
+from rotemina.sim.gap.compare.retained import with_retained
 from rotemina.sim.gap.contest import Ranking, contested
 from rotemina.sim.gap.diagnosis import CORRECTING, Verdict
 from rotemina.sim.gap.disturbances import Disturbance, by_effect, power_by_tap, set_aside
@@ -131,7 +132,7 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
         doubtful=poor and not is_sure(evidence, list(ranked.values())),
     )
     if verdict in CORRECTING and drift is None:
-        best = _fullest(selection, best)
+        best = with_retained(evidence, _fullest(selection, best))
     steps = _stepped(whole, best, disturbances) if verdict in CORRECTING else ()
     return Examination(
         evidence,

@@ -1,12 +1,13 @@
 """How a record begins: at rest, in a steady state, or as nobody knows.
 
 What an axis remembers from before an unknown history is the record's own. It is taken to lie
-somewhere between two extremes, with the axis long at the low or at the high end of its range before
-the first row: how the answers to these differ from the answer to a rest at the first command are
-nuisances of the record, in amounts of about one.
+somewhere between extremes: the axis was long at the low or at the high end of its range until a row
+before the first one, or has come slowly from the high end. How the answers to these differ from the
+answer to a rest at the first command are nuisances of the record, in amounts of about one.
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,6 +17,8 @@ from rotemina.sim.plant.run import Run
 from rotemina.sim.plant.state import PlantState
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import ForceAxis
+
+_FALL_S, _FALL_ROWS = 2.0, 200  # from the high end, the last half of it at the first command
 
 
 def start(plant: Plant, record: Record, run: Run) -> PlantState:
@@ -29,7 +32,7 @@ def start(plant: Plant, record: Record, run: Run) -> PlantState:
     if record.history == "periodic":
         return steady_start(plant, run, record.period_samples)
     if record.history == "unknown":
-        return measured_start(plant, record, run)
+        return measured_start(plant, record, run, settled=True)
     return plant.at_rest(run.time_s[0], run.command[0])
 
 
@@ -47,3 +50,20 @@ def other_starts(plant: Plant, record: Record, run: Run, axis: str) -> Iterator[
         command = np.array(run.command[0])
         command[plant.axes.index(axis)] = end
         yield plant.at_rest(before_s, command)
+    yield _fallen(plant, run, axis)
+
+
+def _fallen(plant: Plant, run: Run, axis: str) -> PlantState:
+    """Return the state of an axis that has come slowly from the high end of its range.
+
+    It remembers that, and rings no more.
+    """
+    time_s = run.time_s[0] + np.linspace(-_FALL_S, 0.0, _FALL_ROWS + 1)[:-1]
+    command = np.tile(run.command[0], (_FALL_ROWS, 1))
+    column = plant.axes.index(axis)
+    high = plant.robot.axes[axis].range[1]
+    way = np.minimum(np.linspace(0.0, 2.0, _FALL_ROWS), 1.0)
+    command[:, column] = high + way * (run.command[0, column] - high)
+    _, after = plant.advance(plant.at_rest(time_s[0], command[0]), time_s, command)
+    elapsed_s = float(time_s[-1] - run.time_s[0])
+    return replace(after, elapsed_s=elapsed_s, seen=after.seen + (elapsed_s - after.elapsed_s))

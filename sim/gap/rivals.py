@@ -12,17 +12,15 @@ from rotemina.sim.gap.baseline import is_whole_own
 from rotemina.sim.gap.blocks import Blocks
 from rotemina.sim.gap.catalogue import is_of, kinship_of, with_parameter
 from rotemina.sim.gap.closing import closed
+from rotemina.sim.gap.compare.score import held_out_powers
+from rotemina.sim.gap.compare.weights import weigh
 from rotemina.sim.gap.evidence import Evidence, block_rows
 from rotemina.sim.gap.models import Explanation
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
-_POWER = 2.0  # of what is left: how fast a rival loses with what it leaves
-_SLACK = 0.03  # of the floor's power, which two scores at the floor differ by chance
-_AT_THE_FLOOR = 1.3  # mean square over the floor, up to which a score may be all noise
 _TIED = 1.5  # times a score, within which another is as good
 _NEARLY = 0.02  # of the gap's power, within which another closes nearly as much
-_SURE = 3.0  # standard errors from which a difference counts in full
 _SAME = 0.15  # of the likeliest one's probability, from which a rival is not ruled out
 _INEXACT = 2.0  # mean square over the floor, from which a formula is not quite right
 _SIMPLER = 6.0  # times likelier, on a tie, for each parameter less
@@ -68,14 +66,12 @@ def rivals(
     each = list(zip(found, counts, strict=True))
     least = min(count for (_, one), count in each if _is_tied(best, one))
     near = min(count for (_, one), count in each if _is_near(best, one, raw))
-    weights = np.array(
-        [
-            _weight(evidence, best, one)
-            * _prior(key[0], _more_parameters(best, one, count, least, near))
-            * _as_the_machine(one)
-            for (key, one), count in each
-        ]
-    )
+    powers = held_out_powers(evidence, [one.held_out for _, one in found])
+    priors = [
+        _prior(key[0], _more_parameters(best, one, count, least, near)) * _as_the_machine(one)
+        for (key, one), count in each
+    ]
+    weights = weigh(powers, [0] * len(found)) * np.array(priors)
     shares = weights / weights.sum()
     ranked = sorted(zip(found, shares, strict=True), key=lambda pair: -pair[1])
     return tuple(Rival(key[0], key[1], float(share), one) for (key, one), share in ranked)
@@ -195,26 +191,6 @@ def _is_near(best: Explanation, other: Explanation, raw: float) -> bool:
 def _is_tied(best: Explanation, other: Explanation) -> bool:
     """Tell whether another explanation does about as well, so that the simpler one counts."""
     return other.score < _TIED * best.score
-
-
-def _weight(evidence: Evidence, best: Explanation, other: Explanation) -> float:
-    """Return how likely an explanation is beside the best one."""
-    if other is best:
-        return 1.0
-    # What is left near the floor may be noise that was declared too small, but not what another
-    # explanation closes.
-    floor = min(best.score, other.score) if best.score < _AT_THE_FLOOR else 1.0
-    ratio = (max(other.score - floor, 0.0) + _SLACK) / (max(best.score - floor, 0.0) + _SLACK)
-    doubt = min(1.0, (_errors_apart(evidence, best, other) / _SURE) ** 2)
-    return float(ratio ** (-_POWER * doubt))
-
-
-def _errors_apart(evidence: Evidence, one: Explanation, other: Explanation) -> float:
-    """Return by how many standard errors two scores differ, block by block."""
-    numbers = block_rows(evidence)
-    change = np.bincount(numbers, other.held_out**2 - one.held_out**2)
-    spread = float(np.sqrt(np.sum((change - change.mean()) ** 2)))
-    return abs(float(change.sum())) / spread if spread > 0.0 else np.inf
 
 
 def paired_blocks(evidence: Evidence, left: Sequence[FloatArray], tap: Tap) -> Blocks:

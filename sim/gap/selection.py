@@ -35,10 +35,9 @@ MOST_CAUSES = 3
 LEAST_SHARE = 0.03  # of the gap's power, that a cause must close
 _NARROW = 1.3  # times a score, of what hardly holds beyond the swings it was fitted to
 LEAST_POWER = 0.2  # in floors squared, that a cause must close
-SEEN = float(
-    "inf"
-)  # floors squared from which an effect counts whatever its share; 9 costs minutes
+SEEN = 9.0  # floors squared, from which an effect counts whatever its share
 CLEARLY = 0.8  # of what is left: so much closed counts as well
+_OF_WHAT_IS_LEFT = 0.5  # that a further cause closes: it is at least as large as what then remains
 _LEFT_ASIDE = 0.01  # of the power of what was set aside, that it may leave of itself
 ADEQUATE = 1.3  # mean square over the floor that leaves nothing to explain
 NOTICED = 2.0  # mean square over the floor from which what others leave may have a cause
@@ -58,7 +57,7 @@ _PROMISING = 0.3  # of what a quick form leaves, that a slow one leaves at first
 _MOSTLY_OWN = 0.9  # of the gap, that re-tuning closes for causes to be looked for beside it
 _MUCH_ALONE = 0.3  # of the gap, that a cause closes alone for others to do as well
 _AS_WELL = 1.1  # times its score
-_LEAST_PROMISE = 0.5  # of the score: a best candidate that leaves more is no clear cause
+_LEAST_PROMISE = 0.7  # of the score: a best candidate that leaves more is no clear cause
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +96,7 @@ def select(
     account.begin(bare.score)
     alone = retuned(evidence)
     account.tried((), alone.score, Grade.UNSEEN)
-    enters = partial(_enters, bare, aside)
+    enters = partial(_enters, bare, aside, evidence.has(Tap.REF))
     best = alone if enters(bare, alone) else bare
     beam, tried = [bare], [alone]
     if alone.score >= NOTICED and closed(bare.score, alone.score) >= _MOSTLY_OWN:
@@ -150,38 +149,50 @@ def _is_told_otherwise(evidence: Evidence, candidate: AxisEffect) -> bool:
 
 
 def _enters(
-    bare: Explanation, aside: Mapping[Tap, float], before: Explanation, after: Explanation
+    bare: Explanation,
+    aside: Mapping[Tap, float],
+    staged: bool,
+    before: Explanation,
+    after: Explanation,
 ) -> bool:
     """Tell whether what lowers the gap of any tap from ``before`` to ``after`` is a cause.
 
-    It closes its share of the gap of the ``bare`` model, or by itself clearly most of what a
-    re-tuning left; and more than what is set ``aside`` may leave of itself.
+    It closes its share of the gap of the ``bare`` model, or at least as much as then remains; and
+    more than what is set ``aside`` may leave of itself. ``staged``: a reference tells what the
+    machine does from what its sensor does.
     """
-    least = max([LEAST_SHARE, *_needed(after.causes)])
+    needed = max(_needed(after.causes, staged), default=0.0)
     return any(
-        _closes(bare.by_tap[tap], before.by_tap[tap], left, least, alone=not before.causes)
+        _closes(bare.by_tap[tap], before.by_tap[tap], left, needed, alone=not before.causes)
         and before.by_tap[tap] - left >= _LEFT_ASIDE * aside.get(tap, 0.0)
         for tap, left in after.by_tap.items()
     )
 
 
-def _needed(causes: Sequence[AxisEffect]) -> Iterator[float]:
-    """Give the shares that causes must close beside others of their stage that bring them along."""
+def _needed(causes: Sequence[AxisEffect], staged: bool) -> Iterator[float]:
+    """Give the shares that causes must close beside others that bring them along.
+
+    Where a reference was recorded, these are others of the same stage.
+    """
     for one in causes:
         for other in causes:
-            if effect_named(one.id).stage is effect_named(other.id).stage and other is not one:
+            apart = staged and effect_named(one.id).stage is not effect_named(other.id).stage
+            if not apart and other is not one:
                 share = brought_along(one.id, other.id)
                 if share < 1.0:
                     yield share
 
 
-def _closes(raw: float, before: float, after: float, least: float, *, alone: bool) -> bool:
+def _closes(raw: float, before: float, after: float, needed: float, *, alone: bool) -> bool:
     closing = before - after
-    if closing >= max(least * (raw - 1.0), LEAST_POWER):
+    if closing >= max(max(LEAST_SHARE, needed) * (raw - 1.0), LEAST_POWER):
         return True
-    # Beside other causes, little of it is how these differ from their formulas.
-    enough = 0.0 if alone else SEEN
-    return before >= NOTICED and closing >= max(CLEARLY * (before - 1.0), enough)
+    if needed > 0.0:
+        return False  # what another one brings along is how that differs from its formula
+    if alone:
+        return before >= NOTICED and closing >= CLEARLY * (before - 1.0)
+    # Beside other causes, less may be how these differ from their formulas.
+    return closing >= max(_OF_WHAT_IS_LEFT * (before - 1.0), SEEN)
 
 
 def _is_little(bare: Explanation, begun: Explanation, seen: float = SEEN) -> bool:
@@ -246,7 +257,7 @@ def _extended(
     # nearly all of it away is looked for then, and that shows at once.
     slow = any(is_slow(evidence, cause) for cause in begun.causes)
     # Beside what takes long to simulate, only what closes its share is worth the runs.
-    little = begun is not bare and _is_little(bare, begun, inf if slow else SEEN)
+    little = begun is not bare and _is_little(bare, begun, inf)
     account.tell("screening", None)
     first = scouts(evidence, free)
     looks = looked_at(evidence, begun, first, account, jobs, briefly=little or slow)

@@ -10,6 +10,7 @@ from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.run import Run
 from rotemina.sim.plant.state import PlantState
 from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.model import ForceAxis
 
 _FIRST_ROWS = 8  # rows from which position and velocity at the start are taken
 _SURE = 3.0  # standard errors from which a first velocity is told from noise
@@ -42,8 +43,13 @@ def steady_start(plant: Plant, run: Run, period_samples: int | None) -> PlantSta
     return _solve(plant, lead, run)
 
 
-def measured_start(plant: Plant, record: Record, run: Run) -> PlantState:
-    """Return the state at the first row by position and velocity of the first rows measured."""
+def measured_start(plant: Plant, record: Record, run: Run, *, settled: bool = False) -> PlantState:
+    """Return the state at the first row by position and velocity of the first rows measured.
+
+    ``settled``: an axis that a spring or a motor holds, and that does not move for sure, is in
+    equilibrium with its first command. How far a reading is from there is offset and memory; a
+    model that began aside would ring.
+    """
     rest = plant.at_rest(run.time_s[0], run.command[0])
     position, velocity = rest.position[0].copy(), rest.velocity[0].copy()
     for column, name in enumerate(plant.axes):
@@ -51,8 +57,10 @@ def measured_start(plant: Plant, record: Record, run: Run) -> PlantState:
         if record.has(name, tap):
             offset = plant.robot.axes[name].offset if tap is Tap.MEAS else 0.0
             signal = record.signal(name, tap)[:_FIRST_ROWS] - offset
-            start = _first(record.time_s[: len(signal)] - record.time_s[0], signal)
-            position[column], velocity[column] = start
+            begun = _first(record.time_s[: len(signal)] - record.time_s[0], signal)
+            held = settled and not isinstance(plant.robot.axes[name], ForceAxis)
+            if begun[1] != 0.0 or not held:
+                position[column], velocity[column] = begun
     return plant.at(run.time_s[0], run.inputs[0], position, velocity)
 
 

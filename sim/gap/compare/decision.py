@@ -20,6 +20,9 @@ _NAMED = 0.7  # of the gap's power, below which causes may be but what bends to 
 _MOST_RIVALS = 4  # from which a set tells nothing
 _SURE = 0.9  # weight of a cause among its rivals, that no poor motion makes doubtful
 _AS_WELL = 1.05  # times what a black box leaves
+_LARGER = 4.0  # times the power that is left: twice its rms, of a cause that may be one of several
+_BEYOND_DOUBT = 0.95  # weight that a smaller one needs
+_LIKELY = 0.5  # weight that any cause needs
 _VOUCHES = 1.25  # times what causes leave, beyond which a black box knows too little to compare
 
 
@@ -62,6 +65,21 @@ def decide(closing: Closing, ambiguous: Sequence[Sequence[str]], *, doubtful: bo
     if closing.share >= _EXPLAINED or left <= _AT_THE_FLOOR or as_well:
         return Verdict.EXPLAINED
     return Verdict.PARTLY
+
+
+def stands(closes: float, left: float, weight: float) -> bool:
+    """Tell whether one of several causes is there, and no mere part of what nothing explains.
+
+    Parameters
+    ----------
+    closes, left : float
+        Power over the floor that it closes beside the others, and that all of them leave above it.
+    weight : float
+        That it or its kind has among all that could stand in its place, nothing at all included.
+    """
+    if closes >= _LARGER * left:
+        return weight >= _LIKELY
+    return closes >= left and weight >= _BEYOND_DOUBT
 
 
 def is_sure(evidence: Evidence, ranked: Sequence[Sequence[Rival]]) -> bool:

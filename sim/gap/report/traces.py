@@ -26,7 +26,8 @@ class Trace:
     axis, tap
     real, raw, corrected : (n,)
         What was measured; the answers of the model as it was and with what was found. The mean
-        distance of an answer from what was measured is taken out: an offset is a nuisance.
+        distance of an answer from what was measured is taken out, and where the history is unknown
+        the axis remembers what suits the record best: both are nuisances.
     floor : float
         Rms of what no model can explain.
     described : Axis, optional
@@ -89,8 +90,8 @@ def traces(diagnosis: Diagnosis, axis: str, records: Sequence[Record]) -> tuple[
         except GapError:
             continue  # this record does not measure the axis
         (observation,) = evidence.observations
-        (raw,) = evidence.response()
-        (corrected,) = evidence.response(diagnosis.fitted) if diagnosis.fitted else (raw,)
+        (raw,) = evidence.remembering()
+        (corrected,) = evidence.remembering(diagnosis.fitted) if diagnosis.fitted else (raw,)
         for tap, real in observation.real.items():
             answers = _beside(real, raw[tap]), _beside(real, corrected[tap])
             floor = observation.floor[tap]

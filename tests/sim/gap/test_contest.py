@@ -8,7 +8,7 @@ from scipy.linalg import eigh
 
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.gap import contest
-from rotemina.sim.gap.contest import _alike, _bends_to, _loads, _of_its_kind, _one_of_each, _twins
+from rotemina.sim.gap.contest import _alike, _bends_to, _is_kin, _loads, _one_of_each, _twins
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 
@@ -83,7 +83,7 @@ def test_a_doubted_cause_that_comes_back_in_what_is_left_ends_the_contest(monkey
 
     returns = iter([whole, whole])
     monkeypatch.setattr(contest, "_ranked", ranked)
-    monkeypatch.setattr(contest, "_least_sure", lambda *_: 0.5)
+    monkeypatch.setattr(contest, "_doubt", lambda *_: 0.2)
     monkeypatch.setattr(contest, "_with_only", lambda *_: next(returns))
     best, _ = contest.contested(None, SimpleNamespace(raw=9.0), whole, {}, wanders=False)
     assert best is whole  # which has come back once, and would for ever
@@ -93,37 +93,36 @@ def test_of_two_that_are_doubted_the_less_likely_one_goes_first(monkeypatch):
     keys = (("static_nonlinearity", None), ("stiffness_nonlinearity", None))
     causes = tuple(AxisEffect(axis="thy", id=name) for name, _ in keys)
     both = SimpleNamespace(causes=causes, ids=keys)
-    likely = {2: {keys[0]: 0.05, keys[1]: 0.08}, 1: {keys[1]: 0.7}}
+    weights = {keys[0]: 0.05, keys[1]: 0.08}
 
     def ranked(_evidence, _selection, best):
         return {
-            key: (SimpleNamespace(effect=key[0], from_axis=None, probability=probability),)
-            for key, probability in likely[len(best.ids)].items()
+            key: (SimpleNamespace(effect=key[0], from_axis=None, probability=1.0),)
+            for key in best.ids
         }
 
     def with_only(_evidence, _selection, kept):
         return SimpleNamespace(causes=tuple(kept), ids=tuple((one.id, None) for one in kept))
 
     monkeypatch.setattr(contest, "_ranked", ranked)
-    monkeypatch.setattr(contest, "_least_sure", lambda *_: 0.1)
+    monkeypatch.setattr(contest, "_doubt", lambda *asked: weights[asked[4]])
     monkeypatch.setattr(contest, "_with_only", with_only)
     best, _ = contest.contested(None, SimpleNamespace(raw=9.0), both, {}, wanders=False)
     assert best.ids == keys[1:]
 
 
-def test_what_does_the_same_at_the_sensor_is_one_kind():
-    ranked = [
-        SimpleNamespace(effect=name, from_axis=None, probability=share)
-        for name, share in (
-            ("encoder_interpolation", 0.5),
-            ("microstep_error", 0.4),
-            ("friction", 0.1),
-        )
-    ]
-    for name in ("encoder_interpolation", "microstep_error", "leadscrew_error"):
-        assert abs(_of_its_kind(ranked, (name, None)) - 0.9) < 1e-12
-    assert abs(_of_its_kind(ranked, ("friction", None)) - 0.1) < 1e-12
-    assert _of_its_kind(ranked, ("friction", "y")) == 0.0
+@pytest.mark.parametrize(
+    ("name", "source", "kin"),
+    [
+        ("encoder_interpolation", None, True),
+        ("leadscrew_error", None, True),
+        ("friction", None, False),
+        ("encoder_interpolation", "y", False),
+    ],
+)
+def test_what_does_the_same_at_the_sensor_is_one_kind(name, source, kin):
+    rival = SimpleNamespace(effect="microstep_error", from_axis=None)
+    assert _is_kin(rival, (name, source)) is kin
 
 
 @pytest.mark.parametrize("off", [-0.03, -0.18])

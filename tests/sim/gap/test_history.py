@@ -10,6 +10,7 @@ from rotemina.sim.plant.plant import Plant
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.simulation.simulation import simulate
 
 ROBOT = load_robot("picma")
 LOOP = AxisEffect(axis="p", id="hysteresis", parameters={"width": 5e-6, "shape": 1.0})
@@ -57,3 +58,55 @@ def test_memory_is_no_excuse_for_what_another_effect_does():
     skewed = AxisEffect(axis="p", id="clock_skew", parameters={"skew": 40.0})
     record = recorded((late,), HIGH, "unknown")
     assert left((skewed,), record) > 0.9 * left((), record)
+
+
+PIEZO = load_robot("rotemina")
+WIDE_LOOP = AxisEffect(axis="zn", id="hysteresis", parameters={"width": 1e-5, "shape": 1.0})
+
+
+def resumed():
+    """A record of small swings of a ringing axis that came slowly from the high end, SI."""
+    shown = 3e-5 + 8e-6 * np.sin(2.0 * np.pi * 1.5 * np.arange(2000) / 1000.0)
+    fall = np.linspace(PIEZO.axes["zn"].range[1], 3e-5, 2000)
+    path = np.concatenate([fall, np.full(1000, 3e-5), shown])
+    asked = Record.from_signals(np.arange(5000) / 1000.0, {("zn", Tap.CMD): path}, {"zn": "m"})
+    whole = simulate(PIEZO, [WIDE_LOOP], asked, np.random.default_rng(2))
+    signals = {("zn", tap): whole.signal("zn", tap)[3000:] for tap in (Tap.CMD, Tap.MEAS)}
+    return Record.from_signals(whole.time_s[3000:], signals, {"zn": "m"}, {"history": "unknown"})
+
+
+def test_an_axis_that_came_from_the_high_end_neither_rings_nor_is_off():
+    evidence = Evidence.of(PIEZO, "zn", [resumed()])
+    floors = np.abs(evidence.residual((WIDE_LOOP,)))
+    assert floors.max() < 6.0  # from the first row on
+    assert floors.mean() < 0.9
+
+
+def test_answers_remember_what_suits_a_record_best():
+    evidence = Evidence.of(PIEZO, "zn", [resumed()])
+    real = evidence.observations[0].real[Tap.MEAS]
+    (plain,), (remembering,) = (
+        ask((WIDE_LOOP,)) for ask in (evidence.response, evidence.remembering)
+    )
+    off, near = (np.std(real - one[Tap.MEAS]) for one in (plain, remembering))
+    assert near < 0.05 * off
+
+
+def test_other_starts_are_simulated_no_farther_than_they_matter(monkeypatch):
+    late = AxisEffect(axis="zn", id="amplifier_lag", parameters={"time_constant": 2e-3})
+    evidence = Evidence.of(PIEZO, "zn", [resumed()])
+    rows = []
+    advance = Plant.advance
+
+    def counted(plant, state, time_s, *args, **options):
+        rows.append(len(time_s))
+        return advance(plant, state, time_s, *args, **options)
+
+    monkeypatch.setattr(Plant, "advance", counted)
+    short = evidence.residual((late,))
+    simulated = sum(rows)
+    rows.clear()
+    monkeypatch.setattr("rotemina.sim.gap.evidence._FORGETS", 1)
+    whole = evidence.residual((late,))
+    assert simulated < 0.6 * sum(rows)
+    assert np.abs(short - whole).max() < 0.1

@@ -4,7 +4,6 @@ from types import SimpleNamespace
 
 import pytest
 
-from rotemina.sim.gap import rivals
 from rotemina.sim.gap.rivals import Rival, _counted, not_ruled_out
 from rotemina.sim.robot.model import AxisEffect
 
@@ -51,16 +50,6 @@ def lag(formulation):
 )
 def test_the_order_of_a_lag_makes_a_delay_no_likelier(formulation, cause, counted):
     assert _counted(lag(formulation), (cause, None)) == counted
-
-
-def test_what_only_one_of_two_closes_counts_near_the_floor_as_well(monkeypatch):
-    monkeypatch.setattr(rivals, "_errors_apart", lambda *_: 10.0)
-    delay, lag = SimpleNamespace(score=1.21), SimpleNamespace(score=1.0)
-    weight = rivals._weight(None, delay, lag)
-    assert weight > 20.0
-    assert rivals._weight(None, lag, delay) == pytest.approx(1.0 / weight)
-    noise = SimpleNamespace(score=1.205)  # all of which may be noise
-    assert 0.5 < rivals._weight(None, delay, noise) < 2.0
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,9 @@ from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 
-LAG = SimpleNamespace(id="amplifier_lag")
+LAG, LOOP, CURVE = (
+    SimpleNamespace(id=name) for name in ("amplifier_lag", "hysteresis", "sensor_nonlinearity")
+)
 
 
 def left(meas, *causes):
@@ -27,26 +29,30 @@ def left(meas, *causes):
     [
         (left(2000.0), left(60.0, LAG), True),
         (left(70.0, LAG), left(6.0, LAG, LAG), True),  # 3 % of the gap
-        (left(50.0, LAG), left(1.0, LAG, LAG), False),  # how a machine differs from a formula
+        (left(50.0, LAG), left(1.0, LAG, LAG), True),  # all that is left, seven floors of it
+        (left(50.0, LAG), left(35.0, LAG, LAG), False),  # less than what then remains
+        (left(8.0, LAG), left(1.0, LAG, LAG), False),  # less than three floors
+        (left(50.0, CURVE), left(1.0, LOOP, CURVE), False),  # which the loop brings along
         (left(50.0), left(30.0, LAG), False),
         (left(15.0), left(1.0, LAG), True),  # what no re-tuning does
         (left(1.5), left(1.0, LAG), False),
     ],
 )
 def test_beside_others_a_cause_closes_a_share_of_the_gap(before, after, counts):
-    assert _enters(left(2000.0), {}, before, after) is counts
+    assert _enters(left(2000.0), {}, False, before, after) is counts
 
 
 def test_what_was_set_aside_may_leave_something_of_itself():
     before, after = left(60.0), left(20.0, LAG)
-    assert _enters(left(60.0), {Tap.MEAS: 1000.0}, before, after)
-    assert not _enters(left(60.0), {Tap.MEAS: 10_000.0}, before, after)
+    assert _enters(left(60.0), {Tap.MEAS: 1000.0}, False, before, after)
+    assert not _enters(left(60.0), {Tap.MEAS: 10_000.0}, False, before, after)
 
 
 @pytest.mark.parametrize(
     ("ref", "meas", "enough"),
     [
-        (90.0, 9.0, True),
+        (9.0, 9.0, True),
+        (90.0, 9.0, False),  # nine floors, whatever share of the gap
         (400.0, 9.0, False),  # of the reference's gap, that another cause may close
         (150.0, 25.0, False),  # a few hundredths in all, that others may correct
         (90.0, 31.0, False),  # of the sensor's, which is the smaller one

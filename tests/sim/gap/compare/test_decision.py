@@ -2,7 +2,7 @@
 
 import pytest
 
-from rotemina.sim.gap.compare.decision import Closing, decide
+from rotemina.sim.gap.compare.decision import Closing, decide, stands
 from rotemina.sim.gap.diagnosis import AxisDiagnosis, Diagnosis, Verdict
 from rotemina.sim.robot.file import load_robot
 
@@ -28,6 +28,23 @@ def test_a_set_that_tells_nothing_and_a_poor_motion_are_insufficient():
     four = ("creep", "delay", "friction", "backlash")
     assert decide(closing, [four], doubtful=False) is Verdict.INSUFFICIENT
     assert decide(closing, [()], doubtful=True) is Verdict.INSUFFICIENT
+
+
+@pytest.mark.parametrize(
+    ("closes", "left", "weight", "standing"),
+    [
+        (100.0, 20.0, 0.6, True),  # over twice the rms of what is left
+        (100.0, 20.0, 0.4, False),  # as likely nothing, or something else
+        (100.0, 60.0, 0.96, True),
+        (100.0, 60.0, 0.9, False),  # not beyond doubt beside what nothing explains
+        (100.0, 110.0, 1.0, False),  # smaller than what nothing explains
+        (0.5, 0.0, 0.6, True),  # nothing is left
+    ],
+)
+def test_one_of_several_causes_is_named_by_its_size_beside_the_remainder_and_its_weight(
+    closes, left, weight, standing
+):
+    assert stands(closes, left, weight) is standing
 
 
 @pytest.mark.parametrize(
