@@ -46,6 +46,7 @@ _FITTED_LATER = 4
 _FITTED_SLOWLY = 2  # beside a cause that takes long to simulate
 _BEAM = (2, 1, 1)  # explanations that are extended, with one, two, three causes
 _ALSO = 2.5  # times the score of the best, up to which another is extended
+_SAME = 0.05  # of the power that is left, by which two explanations that leave the same may differ
 _BY_FAR_MOST = 0.99  # of the gap, closed, beside which nothing else is worth its runs
 _NEARLY_ALL = 0.999  # of the gap, closed, from which no other beginning does better
 _HOPELESS = 10.0  # times the cost of the best candidate
@@ -119,7 +120,8 @@ def select(
                 break
         elif level > 0 or _is_little(bare, best):
             break  # two causes may still do what one alone does not do better than a re-tuning
-        beam = [one for one in found[: _BEAM[level]] if one.score < _ALSO * found[0].score]
+        near = [one for one in found if one.score < _ALSO * found[0].score]
+        beam = _unlike(near)[: _BEAM[level]]
         if best.score < NOTICED or closed(bare.score, best.score) < _WORTH_GOING_ON[level]:
             break
     simplest = _simplified(evidence, enters, best)
@@ -381,6 +383,20 @@ def _unique(found: Sequence[Explanation]) -> list[Explanation]:
     for one in sorted(found, key=_merit):
         best.setdefault(one.ids, one)
     return sorted(best.values(), key=lambda one: one.score)
+
+
+def _unlike(found: Sequence[Explanation]) -> list[Explanation]:
+    """Return explanations but those that leave the same as one before them.
+
+    What extends one of these extends the other just as well: a lag of the sensor is one of the
+    amplifier where no reference was recorded.
+    """
+    unlike: list[Explanation] = []
+    for one in found:
+        apart = [one.held_out - other.held_out for other in unlike]
+        if all(float(gap @ gap) > _SAME * float(one.held_out @ one.held_out) for gap in apart):
+            unlike.append(one)
+    return unlike
 
 
 def _merit(one: Explanation) -> float:
