@@ -42,6 +42,7 @@ _TURNS = 2  # in which rivals may take a cause's place: one may be simpler besid
 _AS_GOOD = 1.03  # times a score
 _WELL = 1.5  # times a score, above which a twin that was tried is fitted again
 _LOAD_ABOVE = 1.8  # times an axis' resonance, from where that of a mass on it is looked for
+_WITHOUT_STEPS = 5  # of a fit without one of the causes, from where the others are
 _NEAR = 4.0  # times the best score, up to which a re-tuning alone is a rival
 
 Ranking = Mapping[Key, tuple[Rival, ...]]
@@ -62,13 +63,13 @@ def contested(
     one that closes little where the sensor ``wanders``. ``aside`` is the power at each tap, in its
     floors squared, of what was set aside: a cause beside it closes a share of the whole.
     """
-    ranked = _ranked(evidence, selection, best)
+    ranked = rivals_of(evidence, selection, best)
     for _ in range(_TURNS):
         likelier = _likelier(ranked)
         if likelier is None:
             break
         best = attributed(evidence, selection.bare, likelier)
-        ranked = _ranked(evidence, selection, best)
+        ranked = rivals_of(evidence, selection, best)
     unsure = wanders or max(aside.values(), default=0.0) > selection.raw
     once: set[Key] = set()  # a re-tuned parameter may come back in what the others leave
     while len(best.causes) > 1 or (best.causes and unsure):
@@ -88,7 +89,7 @@ def contested(
         once.add(least)
         kept = [one for one in best.causes if (one.id, one.from_axis) != least]
         best = _with_only(evidence, selection, kept)
-        ranked = _ranked(evidence, selection, best)
+        ranked = rivals_of(evidence, selection, best)
     return best, ranked
 
 
@@ -156,7 +157,7 @@ def _without(evidence: Evidence, selection: Selection, best: Explanation, key: K
     others = [one for one in best.causes if (one.id, one.from_axis) != key]
     if is_whole_own(key[0]):
         kept = [one for one in best.fit.effects if one.id != key[0]]
-        return explanation(evidence, len(others), fit(evidence, kept, most_steps=MOST_STEPS))
+        return explanation(evidence, len(others), fit(evidence, kept, most_steps=_WITHOUT_STEPS))
     free = [one for one in others if not is_own(evidence, one)]
     if not free:
         return selection.retuned
@@ -164,7 +165,7 @@ def _without(evidence: Evidence, selection: Selection, best: Explanation, key: K
     alone = [one for one in selection.tried if set(one.ids) == named]
     if alone:
         return min(alone, key=lambda one: one.score)
-    again = fit(evidence, beside(evidence, free, best), most_steps=MOST_STEPS)
+    again = fit(evidence, beside(evidence, free, best), most_steps=_WITHOUT_STEPS)
     return explanation(evidence, len(free), again)
 
 
@@ -190,10 +191,10 @@ def _with_only(evidence: Evidence, selection: Selection, kept: Sequence[AxisEffe
     return attributed(evidence, selection.bare, explain(evidence, causes))
 
 
-def _ranked(
+def rivals_of(
     evidence: Evidence, selection: Selection, best: Explanation
 ) -> dict[Key, tuple[Rival, ...]]:
-    """Return the rivals of each cause of an explanation."""
+    """Return the rivals of each cause of an explanation, likeliest first."""
     tried = _with_retuned(evidence, selection, best)
     twins = _twins_of(evidence, best, tried)
     ranked = {}

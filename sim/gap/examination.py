@@ -14,7 +14,7 @@ from rotemina.sim.gap.closing import closed
 from rotemina.sim.gap.companions import accompanied
 from rotemina.sim.gap.compare.decision import Closing, decide, is_sure
 from rotemina.sim.gap.compare.retained import with_retained
-from rotemina.sim.gap.contest import Ranking, contested
+from rotemina.sim.gap.contest import Ranking, contested, rivals_of
 from rotemina.sim.gap.diagnosis import CORRECTING, Verdict
 from rotemina.sim.gap.disturbances import Disturbance, by_effect, power_by_tap, set_aside
 from rotemina.sim.gap.evidence import Evidence
@@ -126,10 +126,13 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
         wandered = drift.power
     black_box = probed(evidence, evidence.residual())
     poor = is_poor(whole) and not disturbances
+    by_tap = max(closed(raw, best.by_tap[tap]) for tap, raw in selection.bare.by_tap.items())
+    left = max(best.score - wandered, 1.0)
     verdict = decide(
-        Closing(selection.raw + power, max(best.score - wandered, 1.0), black_box.score),
+        Closing(selection.raw + power, left, black_box.score, by_tap),
         ambiguous,
-        doubtful=poor and not is_sure(evidence, list(ranked.values())),
+        poor=poor,
+        sure=is_sure(evidence, [ranked[key] for key in best.ids], ambiguous),
     )
     if verdict in CORRECTING and drift is None:
         best = with_retained(evidence, _fullest(selection, best))
@@ -286,10 +289,10 @@ def _of_modes(evidence: Evidence, modal: Explanation) -> Examination:
     """Return what was found on an axis that rings in many modes; nothing else is looked for."""
     bare = untouched(evidence)
     selection = Selection(bare, explain(evidence, ()), modal, (modal,))
-    best, ranked = contested(evidence, selection, modal, {}, wanders=False)
+    best, ranked = modal, rivals_of(evidence, selection, modal)
     black_box = probed(evidence, evidence.residual())
     closing = Closing(selection.raw, max(best.score, 1.0), black_box.score)
-    verdict = decide(closing, (), doubtful=False)
+    verdict = decide(closing, (), poor=False, sure=True)
     probe = probed(evidence, best.held_out)
     floors = _floors(evidence)
     return Examination(evidence, floors, (), selection, best, verdict, ranked, probe, black_box)

@@ -6,6 +6,8 @@ A verdict weighs; it never hides a cause that is sure because something else is 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from rotemina.sim.gap.closing import closed
 from rotemina.sim.gap.compare.score import held_out_powers
 from rotemina.sim.gap.compare.weights import weigh
@@ -16,13 +18,13 @@ from rotemina.sim.gap.rivals import Rival
 
 _EXPLAINED = 0.95  # of the gap's power, that causes close which leave nothing worth a word
 _AT_THE_FLOOR = 1.3  # mean square over the floor, up to which what is left may be all noise
-_NAMED = 0.7  # of the gap's power, below which causes may be but what bends to anything
+_NAMED = 0.3  # of the gap's power at any tap, that causes close
+_PLAIN = 0.7  # the same, below which they may be but what bends to anything, unless they are sure
 _MOST_RIVALS = 4  # from which a set tells nothing
 _SURE = 0.9  # weight of a cause among its rivals, that no poor motion makes doubtful
 _AS_WELL = 1.05  # times what a black box leaves
-_LARGER = 4.0  # times the power that is left: twice its rms, of a cause that may be one of several
-_BEYOND_DOUBT = 0.95  # weight that a smaller one needs
-_LIKELY = 0.5  # weight that any cause needs
+_LARGER = 4.0  # times the power that is left: twice its rms, of a cause beside others
+_LIKELY = 0.5  # weight of a cause beside others
 _VOUCHES = 1.25  # times what causes leave, beyond which a black box knows too little to compare
 
 
@@ -30,12 +32,15 @@ _VOUCHES = 1.25  # times what causes leave, beyond which a black box knows too l
 class Closing:
     """How far a gap closes: mean squares over the floor, on data that no fit saw.
 
-    ``raw`` of the gap, ``left`` by the causes, ``black_box`` by a model without any knowledge.
+    ``raw`` of the gap, ``left`` by the causes, ``black_box`` by a model without any knowledge;
+    ``at_a_tap`` is the greatest share that closes at one tap. What a machine does besides may be
+    many floors of a reference that is finer than its sensor.
     """
 
     raw: float
     left: float
     black_box: float
+    at_a_tap: float = 0.0
 
     @property
     def share(self) -> float:
@@ -43,7 +48,9 @@ class Closing:
         return closed(self.raw, self.left)
 
 
-def decide(closing: Closing, ambiguous: Sequence[Sequence[str]], *, doubtful: bool) -> Verdict:
+def decide(
+    closing: Closing, ambiguous: Sequence[Sequence[str]], *, poor: bool, sure: bool
+) -> Verdict:
     """Return the verdict on an axis that has a gap.
 
     Parameters
@@ -51,12 +58,14 @@ def decide(closing: Closing, ambiguous: Sequence[Sequence[str]], *, doubtful: bo
     closing : Closing
     ambiguous : sequence of sequence of str
         For each cause, the effects that cannot be told from it.
-    doubtful : bool
-        Whether the motion is too poor to tell effects apart, and none of them is sure all the same.
+    poor : bool
+        Whether the motion is too poor to tell effects apart.
+    sure : bool
+        Whether each cause stands out among its rivals all the same.
     """
-    if doubtful:
+    if poor and not sure:
         return Verdict.INSUFFICIENT
-    if closing.share < _NAMED:
+    if max(closing.share, closing.at_a_tap) < (_NAMED if sure else _PLAIN):
         return Verdict.UNKNOWN
     if any(len(others) >= _MOST_RIVALS for others in ambiguous):
         return Verdict.INSUFFICIENT
@@ -77,23 +86,27 @@ def stands(closes: float, left: float, weight: float) -> bool:
     weight : float
         That it or its kind has among all that could stand in its place, nothing at all included.
     """
-    if closes >= _LARGER * left:
-        return weight >= _LIKELY
-    return closes >= left and weight >= _BEYOND_DOUBT
+    return closes >= _LARGER * left and weight >= _LIKELY
 
 
-def is_sure(evidence: Evidence, ranked: Sequence[Sequence[Rival]]) -> bool:
+def is_sure(
+    evidence: Evidence, ranked: Sequence[Sequence[Rival]], ambiguous: Sequence[Sequence[str]]
+) -> bool:
     """Tell whether each cause stands out among its rivals by what it leaves of unseen data.
 
-    How well it does is all that counts, not how simple it is: a poor motion lets many do as well.
+    It counts together with the ``ambiguous`` effects that cannot be told from it. How well it does
+    is all that counts, not how simple it is: a poor motion lets many do as well.
     """
-    return bool(ranked) and all(_stands_out(evidence, rivals) for rivals in ranked)
+    pairs = zip(ranked, ambiguous, strict=True)
+    return bool(ranked) and all(_stands_out(evidence, *one) for one in pairs)
 
 
-def _stands_out(evidence: Evidence, rivals: Sequence[Rival]) -> bool:
+def _stands_out(evidence: Evidence, rivals: Sequence[Rival], alike: Sequence[str]) -> bool:
     found: list[Explanation] = [one.explanation for one in rivals]
     if len(found) < 2:
         return False
     effects = [len(one.causes) for one in found]
     weights = weigh(held_out_powers(evidence, [one.held_out for one in found]), effects)
-    return float(weights.max()) >= _SURE
+    best = int(np.argmax(weights))
+    together = [number == best or one.effect in alike for number, one in enumerate(rivals)]
+    return float(weights[together].sum()) >= _SURE

@@ -82,7 +82,7 @@ def test_a_doubted_cause_that_comes_back_in_what_is_left_ends_the_contest(monkey
         return {key: (SimpleNamespace(effect=key[0], **vars(doubt)),) for key in best.ids}
 
     returns = iter([whole, whole])
-    monkeypatch.setattr(contest, "_ranked", ranked)
+    monkeypatch.setattr(contest, "rivals_of", ranked)
     monkeypatch.setattr(contest, "_doubt", lambda *_: 0.2)
     monkeypatch.setattr(contest, "_with_only", lambda *_: next(returns))
     best, _ = contest.contested(None, SimpleNamespace(raw=9.0), whole, {}, wanders=False)
@@ -104,7 +104,7 @@ def test_of_two_that_are_doubted_the_less_likely_one_goes_first(monkeypatch):
     def with_only(_evidence, _selection, kept):
         return SimpleNamespace(causes=tuple(kept), ids=tuple((one.id, None) for one in kept))
 
-    monkeypatch.setattr(contest, "_ranked", ranked)
+    monkeypatch.setattr(contest, "rivals_of", ranked)
     monkeypatch.setattr(contest, "_doubt", lambda *asked: weights[asked[4]])
     monkeypatch.setattr(contest, "_with_only", with_only)
     best, _ = contest.contested(None, SimpleNamespace(raw=9.0), both, {}, wanders=False)

@@ -20,14 +20,28 @@ FAR = 1e9  # what a black box leaves that knows nothing
     ],
 )
 def test_a_verdict_follows_from_what_is_left(raw, left, black_box, verdict):
-    assert decide(Closing(raw, left, black_box), [()], doubtful=False) is verdict
+    assert decide(Closing(raw, left, black_box), [()], poor=False, sure=False) is verdict
 
 
 def test_a_set_that_tells_nothing_and_a_poor_motion_are_insufficient():
     closing = Closing(1000.0, 20.0, FAR)
     four = ("creep", "delay", "friction", "backlash")
-    assert decide(closing, [four], doubtful=False) is Verdict.INSUFFICIENT
-    assert decide(closing, [()], doubtful=True) is Verdict.INSUFFICIENT
+    assert decide(closing, [four], poor=False, sure=False) is Verdict.INSUFFICIENT
+    assert decide(closing, [()], poor=True, sure=False) is Verdict.INSUFFICIENT
+
+
+@pytest.mark.parametrize(
+    ("left", "at_a_tap", "sure", "verdict"),
+    [
+        (500.0, 0.0, True, Verdict.PARTLY),  # half of the gap, and nothing else could be there
+        (500.0, 0.0, False, Verdict.UNKNOWN),
+        (800.0, 0.0, True, Verdict.UNKNOWN),
+        (950.0, 0.9, False, Verdict.PARTLY),  # the sensor's, beside more at a finer reference
+    ],
+)
+def test_what_is_sure_is_named_whatever_is_left(left, at_a_tap, sure, verdict):
+    closing = Closing(1000.0, left, FAR, at_a_tap)
+    assert decide(closing, [()], poor=False, sure=sure) is verdict
 
 
 @pytest.mark.parametrize(
@@ -35,9 +49,7 @@ def test_a_set_that_tells_nothing_and_a_poor_motion_are_insufficient():
     [
         (100.0, 20.0, 0.6, True),  # over twice the rms of what is left
         (100.0, 20.0, 0.4, False),  # as likely nothing, or something else
-        (100.0, 60.0, 0.96, True),
-        (100.0, 60.0, 0.9, False),  # not beyond doubt beside what nothing explains
-        (100.0, 110.0, 1.0, False),  # smaller than what nothing explains
+        (100.0, 30.0, 1.0, False),  # not twice the rms of what nothing explains
         (0.5, 0.0, 0.6, True),  # nothing is left
     ],
 )
