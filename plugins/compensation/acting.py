@@ -170,9 +170,7 @@ class Acting:
             "Played trajectories go through the inverse; single moves go as they are told",
         )
 
-    def _play(
-        self, motion: Callable[[], Record], begun: Callable[[], None] = lambda: None
-    ) -> None:
+    def _play(self, motion: Callable[[], Record], begun: Callable[[], None] = lambda: None) -> None:
         session = self._workbench.session
         permit = session.permit()
         self._workbench.ask_aside(lambda: session.play(motion(), permit=permit), begun)
