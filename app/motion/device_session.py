@@ -195,12 +195,19 @@ class DeviceSession:
     def confirm_position(self) -> None:
         """Trust the position again after a lost connection: somebody has looked.
 
+        A stop that comes before the worker hears of it withdraws that.
+
         Raises
         ------
         RefusedError
             If the session is not connected.
         """
-        self._ask(lambda _, __: self._worker.confirm_position())
+
+        def confirm(_: Driver, permit: Permit) -> None:
+            if permit.epoch == self._gate.epoch:
+                self._worker.confirm_position()
+
+        self._ask(confirm)
 
     def stop(self, why: str = "", *, by: str = PROGRAM) -> None:
         """Halt every axis now; any thread, any time. Never waits and never raises.
