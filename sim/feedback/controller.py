@@ -95,10 +95,10 @@ class Controller:
         return self.answer(reference, measured)
 
     def answer(self, reference: float, measured: float) -> float:
-        """Return the output of this sample; the last one again where a number is not finite, or a
-        held loop's reading is too far off to be believed.
+        """Return the output of this sample, or the last one again where none can be found.
 
-        The feed-forward goes on all the same, as a machine's does, which cannot wait.
+        That is where a number is not finite, or the reading of a held loop not believed. The
+        feed-forward goes on all the same, as a machine's does, which cannot wait.
         """
         feed = self.feed_forward.step(reference)
         error = reference - measured
