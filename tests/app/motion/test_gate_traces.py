@@ -31,7 +31,7 @@ OTHERS = ("stop", "emergency", "release", "disconnect", "reconnect", "use", "los
 WHOLE = ("release", "reconnect", "lose", "wait")  # actors of one step
 REST, TARGET, SPEED, LEASE_S = 0.0275, 0.05, 5e-3, 0.15
 LEAST_SHARE = 0.7  # of steps: a driver is told once where the model tells it twice, and so on
-MOST_TRACES = 40  # of three actors: a share of them, by a fixed seed
+MOST_TRACES = 8  # of three actors: a share of them, by a fixed seed
 
 
 class Traced:
