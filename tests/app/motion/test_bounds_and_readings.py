@@ -1,6 +1,8 @@
 """Bounds do not trust one reading: what a session does where command and reading disagree."""
 
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -209,6 +211,13 @@ def test_a_voltage_is_put_out_only_at_rest(make_stepped):
 
 #: What docs/safety.md states, of the range.
 OVERSHOOT = {"x": 1e-5, "y": 1e-5, "z": 1e-5, "thx": 0.065, "thy": 0.065, "zn": 0.06}
+
+
+def test_the_page_states_that_overshoot():
+    page = (Path(__file__).parents[3] / "docs" / "safety.md").read_text("utf-8")
+    rows = re.findall(r"^\| ([\w, ]+) \| ([0-9.]+) % \|$", page, re.MULTILINE)
+    stated = {axis: 0.01 * float(most) for axes, most in rows for axis in axes.split(", ")}
+    assert stated == pytest.approx(OVERSHOOT)
 
 
 def crossings(stepped):
