@@ -9,7 +9,9 @@ from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.errors import LimitError, StateError
 from rotemina.drivers.profile import Profile, ProfileSegment
 from rotemina.drivers.samples import DeviceState
+from rotemina.drivers.simulator import compensating
 from rotemina.drivers.simulator.driver import Simulator
+from rotemina.sim.compensate.inverse import resting_at
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.feedback import regulated_plant
 from rotemina.sim.feedback.axis_loop import AxisLoop
@@ -355,3 +357,16 @@ def test_a_stopped_axis_goes_anywhere_again_when_it_is_told_to():
         machine.run(0.05)
         machine.driver.move_to({"zn": target})
         assert machine.run(0.5)[3][-1] == pytest.approx(target, abs=50e-9)
+
+
+def test_an_inverse_is_prepared_while_a_stop_can_pass_the_gate(monkeypatch):
+    machine, held = Machine(QUIET), []
+
+    def resting(*given):
+        held.append(machine.driver.gate._lock.locked())
+        return resting_at(*given)
+
+    monkeypatch.setattr(compensating, "resting_at", resting)
+    machine.driver.compensate("zn", MODEL)
+    assert held == [False]
+    assert list(machine.driver.compensated) == ["zn"]
