@@ -9,6 +9,7 @@ from rotemina.app.motion.recorder import PlaybackRecorder
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import Connection, Event, PlaybackFinished, StateChanged
 from rotemina.app.motion.stop_request import PROGRAM
+from rotemina.drivers.gate import Permit
 from rotemina.drivers.samples import Samples
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.records.record import Record
@@ -77,8 +78,8 @@ class CalibrationRun:
         with self._lock:
             return self._record
 
-    def start(self) -> None:
-        """Begin, once.
+    def start(self, *, permit: Permit | None = None) -> None:
+        """Begin, once; ``permit`` is that of the wish, where it was made before this call.
 
         Raises
         ------
@@ -87,13 +88,14 @@ class CalibrationRun:
         InputError
             As :meth:`MotionSession.play`.
         """
+        permit = self._session.permit() if permit is None else permit
         with self._lock:
             if self._state.phase is not Phase.IDLE:
                 raise RefusedError("this run was begun before; plan another one")
             self._state = RunState(Phase.MOVING)
         self._session.corrections.pause(self._axis)
         try:
-            self._session.play(self._motion)
+            self._session.play(self._motion, permit=permit)
         except Exception:
             self._end(Phase.FAILED, "the motion was refused")
             raise

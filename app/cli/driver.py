@@ -1,9 +1,7 @@
 """``rotemina driver``: which drivers are installed, and whether they keep the contract."""
 
 import argparse
-import signal
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 
 from rotemina.app.cli.options import add_robot, robot_of
 from rotemina.drivers import abilities
@@ -83,23 +81,12 @@ def _check(options: argparse.Namespace) -> int:
     if not driver.virtual_time:
         print(_warning(options.name, may_move), flush=True)
     results = []
-    with _ended_by_a_signal():
-        for result in run_checks(bench_of(driver, robot, settings), checks, may_move=may_move):
-            results.append(result)
-            print("\n".join(_lines(result, verbose=options.verbose)), flush=True)
+    for result in run_checks(bench_of(driver, robot, settings), checks, may_move=may_move):
+        results.append(result)
+        print("\n".join(_lines(result, verbose=options.verbose)), flush=True)
     counts = ((sum(one.verdict is each for one in results), each) for each in Verdict)
     print(f"{options.name} on {robot.name}: {', '.join(f'{n} {each}' for n, each in counts)}")
     return _FAILED if any(one.verdict is Verdict.FAILED for one in results) else 0
-
-
-@contextmanager
-def _ended_by_a_signal() -> Iterator[None]:
-    """End as Ctrl-C does where the program is told to: the bench stops what moves."""
-    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
 
 
 def _warning(name: str, may_move: bool) -> str:

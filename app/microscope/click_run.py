@@ -9,6 +9,7 @@ from rotemina.app.microscope.calibration_file import NANO
 from rotemina.app.microscope.click_to_move import ClickToMove, PlannedMove
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.look import Look, Looking, Newest
+from rotemina.drivers.gate import Permit
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.vision.image import Image, over
@@ -64,6 +65,8 @@ class ClickRun:
     confirmed : bool
     clear : bool
         Whether ``before`` shows the goal without the tip for certain.
+    permit : Permit, optional
+        Of the wish; every move goes with it.
 
     Raises
     ------
@@ -84,12 +87,13 @@ class ClickRun:
         corrections: int = CORRECTIONS,
         confirmed: bool = False,
         clear: bool = False,
+        permit: Permit | None = None,
     ) -> None:
         self._clicks, self._goal, self._stage = clicks, move.pixel, move.stage
         self._track, self._ghost, self._before = track, move.ghost, before
         self._clear = clear
         self._tolerance_px, self._corrections = tolerance_px, corrections
-        self._looking = Looking(clicks.session, newest)
+        self._looking = Looking(clicks.session, newest, permit=permit)
         clicks.go(move, confirmed=confirmed, permit=self._looking.permit)
         self._looking.begin(now_s)
         self.status = VisitStatus(Visit.UNDER_WAY)

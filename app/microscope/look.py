@@ -14,6 +14,7 @@ from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import Connection, SessionState
 from rotemina.drivers.cameras.frame import Frame, Region
+from rotemina.drivers.gate import Permit
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.vision.image import Image, grey
@@ -62,6 +63,8 @@ class Looking:
         How many are averaged.
     settle_s : float
         From rest to the first of them.
+    permit : Permit, optional
+        Of the wish that led here; drawn now without it.
     """
 
     def __init__(
@@ -71,13 +74,14 @@ class Looking:
         *,
         pictures: int = PICTURES,
         settle_s: float = SETTLE_S,
+        permit: Permit | None = None,
     ) -> None:
         self._session = session
         self._newest = newest
         self._pictures, self._settle_s = pictures, settle_s
         self._region: Region | None = None
         #: Drawn when it began; every move of what looks goes with it, and a stop ends them all.
-        self.permit = session.permit()
+        self.permit = session.permit() if permit is None else permit
         self._begun_s = 0.0
         self._rested_s: float | None = None
         self._same = False

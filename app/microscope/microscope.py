@@ -32,6 +32,7 @@ from rotemina.drivers.cameras.hub import CameraHub
 from rotemina.drivers.cameras.settings import CameraSettings
 from rotemina.drivers.cameras.simulated import SimulatedMicroscope
 from rotemina.drivers.clock import Clock
+from rotemina.drivers.gate import Permit
 from rotemina.sim.arrays import FloatArray
 
 FOLDER = "microscope"  # of calibrations, in the user's own
@@ -246,8 +247,10 @@ class Microscope:
         """Forget the planned move."""
         self.visits.planned = None
 
-    def go(self, *, confirmed: bool = False) -> None:
+    def go(self, *, confirmed: bool = False, permit: Permit | None = None) -> None:
         """Make the planned move, look, and correct until the tip is there.
+
+        ``permit`` is that of the wish, where it waited for a yes.
 
         Raises
         ------
@@ -256,7 +259,7 @@ class Microscope:
         InputError
             As :meth:`ClickToMove.go` and :meth:`Runs.begin`.
         """
-        self.visits.go(confirmed=confirmed)
+        self.visits.go(confirmed=confirmed, permit=permit or self.session.permit())
 
     def go_back(self) -> None:
         """Return to where the machine rested before its latest move; raises as ``undo``."""
@@ -282,8 +285,8 @@ class Microscope:
         """Forget all targets; raises MicroscopeError on the way to one."""
         self.visits.tour.clear()
 
-    def visit_next(self, *, confirmed: bool = False) -> None:
-        """Go to the next target.
+    def visit_next(self, *, confirmed: bool = False, permit: Permit | None = None) -> None:
+        """Go to the next target; ``permit`` as in :meth:`go`.
 
         Raises
         ------
@@ -292,7 +295,7 @@ class Microscope:
         InputError
             As :meth:`go`.
         """
-        self.visits.next(confirmed=confirmed)
+        self.visits.next(confirmed=confirmed, permit=permit or self.session.permit())
 
     # --- vision -----------------------------------------------------------------------------------
 

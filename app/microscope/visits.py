@@ -13,6 +13,7 @@ from rotemina.app.microscope.targets import Tour
 from rotemina.app.microscope.tip_tracker import TipTracker
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.clock import Clock
+from rotemina.drivers.gate import Permit
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.kinematics.chain import ChainError
 from rotemina.sim.vision.image import grey
@@ -47,6 +48,7 @@ class Visits:
         self.planned: PlannedMove | None = None
         #: The present visit, or the latest one.
         self.run: ClickRun | None = None
+        self._permit: Permit | None = None  # of the visit that is being begun
         self.tour = Tour(lambda pixel: self._visit(self._thought(pixel, None), confirmed=True))
 
     def plan(self, pixel: FloatArray, stage: str | None) -> PlannedMove:
@@ -55,8 +57,10 @@ class Visits:
         self.planned = self._thought(pixel, stage)
         return self.planned
 
-    def go(self, *, confirmed: bool) -> None:
+    def go(self, *, confirmed: bool, permit: Permit) -> None:
         """Make the planned move, look, and correct until the tip is there.
+
+        ``permit`` is that of the wish: no stop that came after it lets anything move.
 
         Raises
         ------
@@ -68,11 +72,12 @@ class Visits:
         move = self.planned
         if move is None:
             raise MicroscopeError("no move is planned; click in the picture first")
+        self._permit = permit
         self._runs.begin(Activity.CLICK, lambda: self._visit(move, confirmed=confirmed))
         self.planned = None
 
-    def next(self, *, confirmed: bool) -> None:
-        """Go to the next target.
+    def next(self, *, confirmed: bool, permit: Permit) -> None:
+        """Go to the next target; ``permit`` as in :meth:`go`.
 
         Raises
         ------
@@ -84,6 +89,8 @@ class Visits:
         waiting = next((one for one in self.tour.targets if one.visit is None), None)
         if waiting is not None and not confirmed:
             self._clicks().check(self._thought(waiting.pixel, None))
+
+        self._permit = permit
 
         def make() -> Tour:
             self.tour.next()
@@ -130,5 +137,6 @@ class Visits:
             before=grey(frame.pixels) if ground is None else ground,
             clear=ground is not None,
             confirmed=confirmed,
+            permit=self._permit,
         )
         return self.run

@@ -66,7 +66,7 @@ class CompensatedRequests(DeviceRequests, ABC):
         return self._on_device.get(axis, Beyond(0))
 
     def compensate(self, inverse: NamedInverse, *, permit: Permit | None = None) -> None:
-        """Put an inverse on its axis, which stays where it is.
+        """Put an inverse on its axis, which stays where it is; no way leads back from there.
 
         Its command becomes the position that the inverse takes it to be at; what it went through
         before is not known, so that a constant error may stay until it has been through its range.
@@ -85,9 +85,10 @@ class CompensatedRequests(DeviceRequests, ABC):
             self._refuse_unless_at_rest("putting an inverse on")
             self._change(axis, inverse.model, permit)
             self._inverses = MappingProxyType({**self._inverses, axis: inverse})
+            self._forget_way_back()
 
     def uncompensate(self, axis: str, *, permit: Permit | None = None) -> None:
-        """Take the inverse off an axis; it stays where it is.
+        """Take the inverse off an axis; it stays where it is, and no way leads back from there.
 
         Raises
         ------
@@ -100,6 +101,7 @@ class CompensatedRequests(DeviceRequests, ABC):
         with self._lock:
             self._refuse_unless_at_rest("taking an inverse off")
             self._change(axis, None, permit)
+            self._forget_way_back()
             if not self.compensates_all:
                 left = {key: one for key, one in self._inverses.items() if key != axis}
                 self._inverses = MappingProxyType(left)

@@ -6,7 +6,6 @@ from collections import deque
 from collections.abc import Container, Mapping, Sequence
 from typing import Any
 
-from rotemina.app.motion.device_session import DeviceSession
 from rotemina.app.motion.guard import Guard, Place
 from rotemina.app.motion.mailbox import (
     LoadProfile,
@@ -16,6 +15,7 @@ from rotemina.app.motion.mailbox import (
     refuse_overtaken,
 )
 from rotemina.app.motion.ownership import OPERATOR
+from rotemina.app.motion.service_requests import ServiceRequests
 from rotemina.drivers.abilities import Capturer, ProfileRunner, VoltageOutput
 from rotemina.drivers.capture import Captured
 from rotemina.drivers.driver import Driver
@@ -26,10 +26,10 @@ from rotemina.sim.robot.model import PiezoAxis
 from rotemina.sim.trajectory.limits import OutOfLimitsError
 
 
-class DeviceRequests(DeviceSession, ABC):
+class DeviceRequests(ServiceRequests, ABC):
     """Requests beside moves; whatever moves an axis is checked and owned as a move is.
 
-    Parameters are those of :class:`DeviceSession`.
+    Parameters are those of :class:`~rotemina.app.motion.device_session.DeviceSession`.
     """
 
     def __init__(self, driver: Driver, **options: Any) -> None:
@@ -286,6 +286,10 @@ class DeviceRequests(DeviceSession, ABC):
     @abstractmethod
     def _note_rest(self) -> None:
         """Keep where the machine rests before it begins to move."""
+
+    @abstractmethod
+    def _forget_way_back(self) -> None:
+        """Keep no place to come back to: what commands mean is about to change."""
 
     def _drawn(self, permit: Permit | None) -> Permit:
         """Return the permit of a plan, which still holds, or one of now.

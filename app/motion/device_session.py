@@ -3,7 +3,7 @@
 import logging
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from datetime import datetime
 
@@ -11,10 +11,8 @@ from rotemina.app.motion.heartbeat import Heartbeat
 from rotemina.app.motion.history import LiveHistory
 from rotemina.app.motion.mailbox import (
     Ask,
-    ClearFault,
     Mailbox,
     RefusedError,
-    SetEffects,
     Wish,
 )
 from rotemina.app.motion.sensor_corrections import SensorCorrections
@@ -26,14 +24,12 @@ from rotemina.app.motion.state import (
 )
 from rotemina.app.motion.stop_request import PROGRAM, StopRequest
 from rotemina.app.motion.worker import Tap, Worker
-from rotemina.drivers.abilities import Display, Parameterised, TrajectoryPlayer
+from rotemina.drivers.abilities import TrajectoryPlayer
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.gate import Epoch, Gate, Permit, Purpose
-from rotemina.drivers.model_abilities import EffectCarrier
 from rotemina.drivers.samples import DeviceState, Samples
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
 
 _LOG = logging.getLogger(__name__)
@@ -195,12 +191,19 @@ class DeviceSession:
     def confirm_position(self) -> None:
         """Trust the position again after a lost connection: somebody has looked.
 
+        A stop that comes before the worker hears of it withdraws that.
+
         Raises
         ------
         RefusedError
             If the session is not connected.
         """
-        self._ask(lambda _, __: self._worker.confirm_position())
+
+        def confirm(_: Driver, permit: Permit) -> None:
+            if permit.epoch == self._gate.epoch:
+                self._worker.confirm_position()
+
+        self._ask(confirm)
 
     def stop(self, why: str = "", *, by: str = PROGRAM) -> None:
         """Halt every axis now; any thread, any time. Never waits and never raises.
@@ -222,94 +225,10 @@ class DeviceSession:
         """Accept no motion for this reason, on any path, until None is said; what moves goes on."""
         self._barred = reason
 
-    def accept_parameters(self) -> None:
-        """Move with the device's parameters as they are.
-
-        Raises
-        ------
-        RefusedError
-            If the device has none, or is not connected.
-        """
-        self._refuse_without_parameters()
-
-        def accept(driver: Driver, _: Permit) -> None:
-            assert isinstance(driver, Parameterised), "the session refuses on any other"
-            driver.accept_parameters()
-
-        self._ask(accept)
-
-    def write_parameters(self) -> None:
-        """Write the robot file's parameters into the device.
-
-        Raises
-        ------
-        RefusedError
-            If the device has none, or is not connected.
-        """
-        permit = self.permit(Purpose.SERVICE)
-        self._refuse_without_parameters()
-
-        def write(driver: Driver, permit: Permit) -> None:
-            assert isinstance(driver, Parameterised), "the session refuses on any other"
-            driver.write_parameters(permit=permit)
-
-        self._ask(write, permit)
-
-    def show(self, row: int, text: str) -> None:
-        """Show text on the device's display; nothing happens where there is none."""
-
-        def action(driver: Driver, _: Permit) -> None:
-            if isinstance(driver, Display):
-                driver.show(row, text)
-
-        if isinstance(self.driver, Display):
-            self._ask(action)
-
-    def clear_fault(self) -> None:
-        """Acknowledge a device's fault; nothing happens without one.
-
-        Raises
-        ------
-        RefusedError
-            If the connection failed: reconnect instead.
-        """
-        permit = self.permit(Purpose.SERVICE)
-        state = self._worker.state
-        if state.connection is not Connection.CONNECTED:
-            raise RefusedError(state.locked or "not connected")
-        if state.fault is not None:
-            self._mailbox.post(ClearFault(), permit)
-
     @property
     def corrections(self) -> SensorCorrections:
         """The calibrations that are applied to the axes' readings; any thread."""
         return self._worker.corrections
-
-    @property
-    def effects(self) -> tuple[AxisEffect, ...] | None:
-        """The effects on a simulated machine; None where the device is none that carries any."""
-        return self.driver.effects if isinstance(self.driver, EffectCarrier) else None
-
-    def set_effects(self, effects: Sequence[AxisEffect]) -> None:
-        """Put other effects on a simulated machine, also while it moves.
-
-        Raises
-        ------
-        EffectError
-            With axis, effect, parameter, value and bound.
-        RefusedError
-            If the device carries no effects, is not connected, or a queue is full.
-        """
-        permit = self.permit(Purpose.SERVICE)
-        if not isinstance(self.driver, EffectCarrier):
-            raise RefusedError(
-                f"driver {self.driver.name!r} is a real machine: its effects are its own; "
-                "connect to the simulator"
-            )
-        self.driver.check_effects(effects)
-        if self._worker.state.connection is not Connection.CONNECTED:
-            raise RefusedError(self._worker.state.locked or "not connected; connect first")
-        self._mailbox.post(SetEffects(tuple(effects)), permit)
 
     def snapshot(self) -> SessionState:
         """Return the present state; any thread."""
@@ -432,10 +351,6 @@ class DeviceSession:
         if self._worker.state.connection is not Connection.CONNECTED:
             raise RefusedError(self._worker.state.locked or "not connected; connect first")
         self._mailbox.post(Ask(action), permit)
-
-    def _refuse_without_parameters(self) -> None:
-        if not isinstance(self.driver, Parameterised):
-            raise RefusedError(f"driver {self.driver.name!r} keeps no parameters")
 
     def _emit(self, event: Event) -> None:
         with self._lock:

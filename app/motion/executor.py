@@ -52,6 +52,8 @@ class Executor:
         self.targets = _NOWHERE
         self.drives: Mapping[str, Drive] = _NO_DRIVES
         self.recorder: PlaybackRecorder | None = None
+        #: The axes whose switches were looked for last.
+        self.sought: frozenset[str] = frozenset()
         self._driver = driver
         self._clock = clock
         self._corrections = corrections
@@ -137,6 +139,7 @@ class Executor:
         elif isinstance(command, Home):
             assert isinstance(driver, Homer), "the session refuses on any other"
             driver.home(command.axes, permit=permit)
+            self.sought = frozenset(command.axes)
             self.forget()
         elif isinstance(command, SetEffects | Compensate | Regulate):
             self._change(command, permit)

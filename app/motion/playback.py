@@ -156,15 +156,17 @@ class Playback:
             self._pausing = True
         self._session.stop("the playback is paused", by=by)
 
-    def resume(self, *, speed: float | None = None) -> None:
+    def resume(self, *, speed: float | None = None, permit: Permit | None = None) -> None:
         """Go on from the last row that began, at the speed of before or at another one.
+
+        ``permit`` as in :meth:`play`.
 
         Raises
         ------
         RefusedError
             If nothing is paused, or as :meth:`MotionSession.play`.
         """
-        permit = self._session.permit()
+        permit = self._session.permit() if permit is None else permit
         whole, watch, state = self._paused("go on with")
         pace = state.speed if speed is None else check_speed(speed)
         row = min(max(state.row, 0), state.rows - 1)

@@ -19,10 +19,14 @@ _SURE = 6.0  # standard deviations of a sensor's noise, beside a step of it
 
 
 class Judgement(NamedTuple):
-    """What a portion of samples has shown: why motion must lock, and what is only told."""
+    """What a portion of samples has shown: why motion must lock, and what is only told.
+
+    ``axis`` is the one because of which motion must lock; empty where it need not.
+    """
 
     lock: str | None
     alarms: tuple[str, ...]
+    axis: str = ""
 
 
 class PositionWatch:
@@ -79,7 +83,7 @@ class PositionWatch:
                 much = readable(float(apart[-1, column]), unit)
                 what = f"axis {name} reads {much} from where it was sent"
             most = readable(float(self._following[column]), unit)
-            return Judgement(f"{what}, {most} at most", ())
+            return Judgement(f"{what}, {most} at most", (), name)
         alarms = tuple(
             f"axis {name} reads {readable(float(beyond[-1, column]), unit)} beyond its range"
             for column in np.flatnonzero(outside & ~self._alarmed)

@@ -66,7 +66,7 @@ class RegulatedRequests(CompensatedRequests, ABC):
         )
 
     def regulate(self, loop: NamedRegulation, *, permit: Permit | None = None) -> None:
-        """Close a loop around its axis, which stays where it is.
+        """Close a loop around its axis, which stays where it is; no way leads back from there.
 
         Its command becomes the position that its sensor tells. An inverse that is on goes over
         into the loop's feed-forward.
@@ -86,9 +86,10 @@ class RegulatedRequests(CompensatedRequests, ABC):
                 command = Regulate(axis, loop.regulation)
                 self._mailbox.post(command, permit.owned((axis,), OPERATOR))
             self._regulations = MappingProxyType({**self._regulations, axis: loop})
+            self._forget_way_back()
 
     def unregulate(self, axis: str, *, permit: Permit | None = None) -> None:
-        """Open the loop of an axis, which stays where it is.
+        """Open the loop of an axis, which stays where it is; no way leads back from there.
 
         Raises
         ------
@@ -102,6 +103,7 @@ class RegulatedRequests(CompensatedRequests, ABC):
             self._refuse_unless_at_rest("opening a loop")
             with self._worker.ownership.claimed((axis,), OPERATOR):
                 self._mailbox.post(Regulate(axis, None), permit.owned((axis,), OPERATOR))
+            self._forget_way_back()
 
     def use(self, driver: Driver) -> None:
         """Stop, let go of the device, and connect to another one, without any loop.

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from rotemina.app.motion.compensation import NamedInverse
 from rotemina.app.motion.guard import Leg, Place
 from rotemina.app.motion.mailbox import (
     Drive,
@@ -17,7 +16,7 @@ from rotemina.app.motion.mailbox import (
     RefusedError,
 )
 from rotemina.app.motion.ownership import HOMING, OPERATOR, PLAYBACK
-from rotemina.app.motion.regulation import NamedRegulation, RegulatedRequests
+from rotemina.app.motion.regulation import RegulatedRequests
 from rotemina.app.motion.safe_way import safe_way
 from rotemina.app.motion.state import (
     SessionState,
@@ -193,54 +192,6 @@ class MotionSession(RegulatedRequests):
         """Whether there is a move to take back."""
         with self._lock:
             return self._undo.leads_from(dict(self._worker.state.command))
-
-    def compensate(self, inverse: NamedInverse, *, permit: Permit | None = None) -> None:
-        """Put an inverse on its axis, which stays where it is; no way leads back from there.
-
-        Raises
-        ------
-        CompensationError, RefusedError
-            As :meth:`CompensatedRequests.compensate`.
-        """
-        super().compensate(inverse, permit=permit)
-        with self._lock:
-            self._undo.forget()
-
-    def uncompensate(self, axis: str, *, permit: Permit | None = None) -> None:
-        """Take the inverse off an axis; it stays where it is, and no way leads back from there.
-
-        Raises
-        ------
-        RefusedError
-            As :meth:`CompensatedRequests.uncompensate`.
-        """
-        super().uncompensate(axis, permit=permit)
-        with self._lock:
-            self._undo.forget()
-
-    def regulate(self, loop: NamedRegulation, *, permit: Permit | None = None) -> None:
-        """Close a loop around its axis, which stays where it is; no way leads back from there.
-
-        Raises
-        ------
-        RefusedError
-            As :meth:`RegulatedRequests.regulate`.
-        """
-        super().regulate(loop, permit=permit)
-        with self._lock:
-            self._undo.forget()
-
-    def unregulate(self, axis: str, *, permit: Permit | None = None) -> None:
-        """Open the loop of an axis, which stays where it is; no way leads back from there.
-
-        Raises
-        ------
-        RefusedError
-            As :meth:`RegulatedRequests.unregulate`.
-        """
-        super().unregulate(axis, permit=permit)
-        with self._lock:
-            self._undo.forget()
 
     def use(self, driver: Driver) -> None:
         """Stop, let go of the device, and connect to another one; no way leads back to the first.
@@ -431,6 +382,9 @@ class MotionSession(RegulatedRequests):
         """Keep where the machine rests, to come back to, before it begins to move."""
         if self._worker.state.activity is DeviceState.IDLE and not len(self._mailbox):
             self._undo.note(self._worker.state.command)
+
+    def _forget_way_back(self) -> None:
+        self._undo.forget()
 
     def _tip(self, state: SessionState) -> tuple[float, float, float] | None:
         zone = self._guard.zone

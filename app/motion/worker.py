@@ -5,7 +5,7 @@ without any thread, by a test.
 """
 
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from types import MappingProxyType
@@ -13,6 +13,7 @@ from types import MappingProxyType
 from rotemina.app.motion.executor import Executor
 from rotemina.app.motion.history import LiveHistory
 from rotemina.app.motion.live_model import LiveModel
+from rotemina.app.motion.lock_reasons import NOT_CONNECTED, lock_reason
 from rotemina.app.motion.mailbox import (
     ClearFault,
     Drive,
@@ -24,7 +25,7 @@ from rotemina.app.motion.mailbox import (
     SetVoltage,
 )
 from rotemina.app.motion.ownership import Ownership
-from rotemina.app.motion.position_watch import PositionWatch
+from rotemina.app.motion.position_trust import LOST, PositionTrust
 from rotemina.app.motion.reading_deviation import ReadingDeviation
 from rotemina.app.motion.sensor_corrections import SensorCorrections
 from rotemina.app.motion.state import (
@@ -40,7 +41,7 @@ from rotemina.app.motion.state import (
 )
 from rotemina.app.motion.stop_latency import StopLatency
 from rotemina.app.motion.stop_request import StopRequest
-from rotemina.drivers.abilities import Linked, Parameterised
+from rotemina.drivers.abilities import Homer, Linked, Parameterised
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.errors import DriverError, StateError
@@ -75,7 +76,7 @@ class Worker:
     ) -> None:
         #: What puts readings right, before anybody sees them.
         self.corrections = SensorCorrections(driver.axes)
-        self.state = SessionState(locked=_NOT_CONNECTED)
+        self.state = SessionState(locked=NOT_CONNECTED)
         self.ownership = Ownership()
         self.latency = StopLatency()
         #: The one that is open, or was open last; exchanged on this worker's thread.
@@ -87,7 +88,7 @@ class Worker:
         self._emit = emit
         self._tell = tell
         self._model = LiveModel(driver.robot)
-        self._watch = PositionWatch(driver.robot)
+        self._trust = PositionTrust(driver.robot)
         #: What the tip's bounds are judged on beside commands.
         self.deviation = ReadingDeviation(driver.robot)
         self._executor = Executor(driver, clock, self.corrections)
@@ -95,7 +96,6 @@ class Worker:
         self._unread: list[Samples] = []
         self._worked_up_s = float("-inf")
         self._received_s = float("-inf")
-        self._distrust: str | None = None
         self._stirred = False  # since the state was published
         # Set by other threads, each in one assignment.
         self._stop_asked_s: float | None = None
@@ -136,14 +136,13 @@ class Worker:
             self._cycle()
         except Exception as error:  # a driver may raise anything; motion must lock and say so
             if self._next.connection is Connection.CONNECTED:
-                self._distrust = "the connection was lost"
+                self._trust.doubt(LOST, self._lost_axes())
             self._fail(_described(error))
         self._publish()
 
     def confirm_position(self) -> None:
         """Trust the device's position again after a lost connection; on the worker's thread."""
-        self._distrust = None
-        self._watch.restart()
+        self._trust.confirm()
 
     def shut_down(self) -> None:
         """Stop and let go of the device."""
@@ -166,7 +165,7 @@ class Worker:
         if driver is not self.driver:
             self.driver = driver
             self._executor = Executor(driver, self._clock, self.corrections)
-            self._distrust = None  # another device vouches for itself
+            self._trust.confirm()  # another device vouches for itself
 
     def _cycle(self) -> None:
         wish = self._mailbox.take_wish()
@@ -200,7 +199,7 @@ class Worker:
         self._worked_up_s = float("-inf")
         self._history.clear()
         self._model.restart()
-        self._watch.restart()
+        self._trust.restart()
         self.deviation.restart()
         self._stirred = False
         self._next = replace(self._next, connection=Connection.CONNECTED)
@@ -267,12 +266,11 @@ class Worker:
     def _supervised(self, samples: Samples, status: DeviceStatus) -> list[Event]:
         """Stop and lock motion where an axis is not where it was sent; return what to tell."""
         if not status.position_known or status.state is DeviceState.HOMING:
-            self._watch.restart()
+            self._trust.restart()
             return []
-        lock, alarms = self._watch.judge(samples)
+        lock, alarms = self._trust.judge(samples)
         found: list[Event] = [Alarmed(alarm) for alarm in alarms]
-        if lock is not None and self._distrust is None:
-            self._distrust = lock
+        if lock is not None:
             self._gate.stop()
             self._mailbox.clear()
             self._executor.forget()
@@ -294,7 +292,7 @@ class Worker:
         if status.state is DeviceState.FAULT:
             fault = status.fault or "the device reports a fault"
         if self._next.activity is DeviceState.HOMING and status.state is DeviceState.IDLE:
-            self._distrust = None  # the switches have been found
+            self._trust.homed(self._executor.sought - set(status.unhomed))
         between_legs = self._executor.between_legs and status.state is DeviceState.IDLE
         state = replace(
             self._next,
@@ -318,7 +316,7 @@ class Worker:
             )
         known = status.position_known and state.sample_host_time_s is not None
         state = replace(state, position_known=known)
-        return replace(state, locked=self._lock_reason(state))
+        return replace(state, locked=lock_reason(state, self._trust.reason))
 
     def _link(self) -> LinkQuality | None:
         driver = self.driver
@@ -334,8 +332,10 @@ class Worker:
             return ()
         return tuple(str(one) for one in driver.differences)
 
-    def _lock_reason(self, state: SessionState) -> str | None:
-        return _lock_reason(state, self._distrust)
+    def _lost_axes(self) -> Sequence[str]:
+        """Return the axes that may be elsewhere after a lost connection."""
+        driver = self.driver
+        return driver.homing_axes if isinstance(driver, Homer) else driver.axes
 
     def _note_confirmation(self, now_s: float) -> None:
         """Note how long the device took to confirm the latest stop."""
@@ -386,7 +386,7 @@ class Worker:
             silent_s=0.0,
             stopping=False,
         )
-        self._next = replace(self._next, locked=self._lock_reason(self._next))
+        self._next = replace(self._next, locked=lock_reason(self._next, self._trust.reason))
 
     def _publish(self) -> None:
         before, self.state = self.state, self._next
@@ -395,35 +395,9 @@ class Worker:
 
 
 _STIRRING = (Move, Drive, Play, Home, RunProfile, SetVoltage)
-_NOT_CONNECTED = "not connected; connect first"
 _PORTION_S = 0.016  # between two times that samples are worked up
 _LATEST_S = 0.019
 _MOST_STOPS = 16  # that wait to be told
-
-
-def _lock_reason(state: SessionState, distrust: str | None) -> str | None:
-    if state.connection is Connection.FAILED:
-        return f"the device failed ({state.fault}); reconnect, then check where it stands"
-    if state.connection is not Connection.CONNECTED:
-        return _NOT_CONNECTED
-    if state.fault is not None:
-        return f"the device reports a fault ({state.fault}); clear it first"
-    if state.silent_s > 0.0:
-        return "the device does not answer; wait until it does"
-    if state.differences:
-        return (
-            f"the device's parameters are not those of the robot file ({state.differences[0]}); "
-            "write or accept them first"
-        )
-    if not state.position_known:
-        which = f" of {', '.join(state.unhomed)}" if state.unhomed else ""
-        return f"the position{which} is not known; home first" if which else _NOT_YET
-    if distrust is not None:
-        return f"{distrust}: the position may be wrong; home, or confirm it"
-    return None
-
-
-_NOT_YET = "the position is not known yet"
 
 
 def _told(state: SessionState) -> tuple[object, ...]:

@@ -102,8 +102,9 @@ class Background(QObject):
 
     def _deliver(self, number: int, answer: object, failure: str) -> None:
         request = self._requests.pop(number)
-        if self._latest[request.kind] != number:
+        if self._latest.get(request.kind) != number:
             return
+        del self._latest[request.kind]
         if failure:
             request.failed(failure)
         else:

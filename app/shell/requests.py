@@ -1,12 +1,14 @@
 """What an operator asks of the motion session: thin requests, whose refusals are told."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from itertools import count
 from typing import NamedTuple
 
 from PySide6.QtCore import QObject, Signal
 
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.session import MotionSession
+from rotemina.app.shell.background import Background
 from rotemina.app.shell.help_topics import explained
 from rotemina.app.shell.language import translate
 from rotemina.drivers.driver import Driver
@@ -41,6 +43,9 @@ class Requests(QObject):
         super().__init__()
         self.session = session
         self.robot = session.robot
+        # Apart from other work, behind which a request must not wait.
+        self._aside = Background(self)
+        self._asked_aside = count()
 
     # --- stop -------------------------------------------------------------------------------------
 
@@ -131,6 +136,24 @@ class Requests(QObject):
     def clear_floor(self) -> None:
         """Take the tip's floor away."""
         self.ask(self.session.clear_floor)
+
+    def ask_aside(
+        self,
+        request: Callable[[], object],
+        done: Callable[[], None] = lambda: None,
+        undone: Callable[[], None] = lambda: None,
+    ) -> None:
+        """Make a request that checks a path, which may take seconds: away from the window's thread.
+
+        So a stop never waits for it. The request takes a permit that was drawn before this call.
+        ``done`` or ``undone`` is called when it was taken, or was refused and that is told.
+        """
+
+        def refused(reason: str) -> None:
+            self.refused.emit(reason)
+            undone()
+
+        self._aside.run(f"request {next(self._asked_aside)}", request, lambda _: done(), refused)
 
     def ask(self, request: Callable[[], object]) -> bool:
         """Make a request of the session; a refusal is told. Return whether it was taken."""

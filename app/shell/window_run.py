@@ -93,9 +93,10 @@ def run(session: MotionSession, settings: Settings) -> int:
     window.workbench.closing.connect(session.screen.end)  # what closing waits for is no hang
     watched.start()
     window.late_panels.done.connect(window.loop_watch.restart)  # what it measures is use, no start
-    window.workbench.start()
     # Only asked for here: a handler may interrupt anything, a lock that closing needs as well.
-    signal.signal(signal.SIGINT, lambda *_: QTimer.singleShot(0, window.close))
+    for name in {"SIGINT", "SIGTERM", "SIGHUP"} & signal.Signals.__members__.keys():
+        signal.signal(signal.Signals[name], lambda *_: QTimer.singleShot(0, window.close))
+    window.workbench.start()
     # Python handles signals only between its own instructions: this wakes it now and then.
     wake = QTimer(application, interval=200)
     wake.timeout.connect(lambda: None)

@@ -179,6 +179,7 @@ class Workbench(Requests):
         self.playback.close()
         self.session.close()
         self._background.wait()
+        self._aside.wait()
 
     @property
     def source(self) -> MotionSession | Replay:
@@ -214,15 +215,14 @@ class Workbench(Requests):
 
         A ``permit`` is that of the wish, where it waited: nothing plays if a stop came since.
         """
-        plan = self.plan
+        plan, permit = self.plan, permit or self.session.permit()
         if plan is None:
             text = translate("shell", "There is no trajectory to play: load one first.")
             self.notify(Level.WARNING, text, about="trajectory.md")
-        else:
-            self.ask(
-                lambda: self.playback.play(
-                    plan.dry_run.require(), speed=self.pace, bounds=self.bounds, permit=permit
-                )
+        elif self.ask(plan.dry_run.require):
+            checked, pace, bounds = plan.dry_run.require(), self.pace, dict(self.bounds)
+            self.ask_aside(
+                lambda: self.playback.play(checked, speed=pace, bounds=bounds, permit=permit)
             )
 
     def toggle_playback(self) -> None:
@@ -231,7 +231,8 @@ class Workbench(Requests):
         if phase is PlaybackPhase.PLAYING:
             self.ask(lambda: self.playback.pause(by=OPERATOR))
         elif phase is PlaybackPhase.PAUSED:
-            self.ask(lambda: self.playback.resume(speed=self.pace))
+            permit, pace = self.session.permit(), self.pace
+            self.ask_aside(lambda: self.playback.resume(speed=pace, permit=permit))
         else:
             self.play()
 

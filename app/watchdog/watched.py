@@ -42,13 +42,10 @@ class Watched:
 
     def start(self) -> None:
         """Start the process and begin to beat; where it cannot be, that is logged."""
-        if getattr(sys, "frozen", False):
-            _LOG.warning("there is no watchdog beside the program: the bundle has no Python")
-            return
         try:
             Path(self._arguments[0]).parent.mkdir(parents=True, exist_ok=True)
             self._process = subprocess.Popen(
-                [sys.executable, "-I", "-S", str(process.__file__), *self._arguments],
+                [*_command(), *self._arguments],
                 stdin=subprocess.PIPE,
                 text=True,
                 start_new_session=True,  # a Ctrl-C that ends the program must not end its watchdog
@@ -103,3 +100,10 @@ class Watched:
         except OSError:
             _LOG.warning("the watchdog beside the program has ended")
             self._process = None
+
+
+def _command() -> list[str]:
+    """Return what starts the process: a bundle is no Python, but answers to ``-m`` as one does."""
+    if getattr(sys, "frozen", False):
+        return [sys.executable, "-m", process.__name__]
+    return [sys.executable, "-I", "-S", str(process.__file__)]

@@ -1,7 +1,9 @@
 """The bench that a driver is put on: it makes the driver and lets its time pass."""
 
+import signal
+import threading
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 
@@ -45,7 +47,7 @@ class Bench:
     def opened(self, *, to_move: bool = True) -> Iterator[Subject]:
         """Make a driver, open it and, in order ``to_move`` it, home it if it has to be.
 
-        Afterwards it is stopped and closed.
+        Afterwards it is stopped and closed; that is also what a Ctrl-C does, and a signal to end.
 
         Raises
         ------
@@ -53,18 +55,55 @@ class Bench:
             If the position is unknown and the device cannot home, so that it cannot be moved.
         """
         driver = self.make({})
-        driver.open()
-        try:
-            subject = Subject(driver, self.advance)
-            if to_move:
-                subject.make_ready()
-            yield subject
-        finally:
-            # What closing raises is the matter of the checks of closing, not of every check.
-            with suppress(Exception):
-                driver.stop()
-            with suppress(Exception):
-                driver.close()
+        with _ended_by_signals():
+            try:
+                driver.open()
+                subject = Subject(driver, self.advance)
+                if to_move:
+                    subject.make_ready()
+                yield subject
+            finally:
+                # What closing raises is the matter of the checks of closing, not of every check.
+                with _deaf(), suppress(Exception):
+                    driver.stop()
+                with suppress(Exception):
+                    driver.close()
+
+
+def _to_end() -> tuple[signal.Signals, ...]:
+    """Return the signals by which this thread is told to end; Python tells the main one alone."""
+    if threading.current_thread() is not threading.main_thread():
+        return ()
+    return tuple(signal.Signals[name] for name in _ENDS if name in signal.Signals.__members__)
+
+
+@contextmanager
+def _handled(handler: Callable[..., object], numbers: Iterable[signal.Signals]) -> Iterator[None]:
+    before = {number: signal.signal(number, handler) for number in numbers}
+    try:
+        yield
+    finally:
+        for number, other in before.items():
+            signal.signal(number, other)
+
+
+@contextmanager
+def _ended_by_signals() -> Iterator[None]:
+    """End as Ctrl-C does, wherever a signal would end the program without stopping anything."""
+    ends = [one for one in _to_end() if signal.getsignal(one) is signal.SIG_DFL]
+    with _handled(signal.default_int_handler, ends):
+        yield
+
+
+@contextmanager
+def _deaf() -> Iterator[None]:
+    """Let no second Ctrl-C come between the first one and the stop."""
+    known = [one for one in _to_end() if signal.getsignal(one) is not None]
+    with _handled(lambda *_: None, known):
+        yield
+
+
+_ENDS = ("SIGINT", "SIGTERM", "SIGHUP")
 
 
 def bench_of(

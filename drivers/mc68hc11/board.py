@@ -173,7 +173,9 @@ class Board:
             return  # of another machine: told apart when the board was identified
         time_us = self.clock.unwrapped(told.time_us)
         said_s = now_s - self._wire_s()
-        if self.wary and (self.clock.jumped(time_us, said_s) or told.fault == Fault.RESET):
+        # A fault of before, which nobody was allowed to clear, is no reset of now.
+        newly = told.fault == Fault.RESET and self.telemetry_fault is not Fault.RESET
+        if self.wary and (self.clock.jumped(time_us, said_s) or newly):
             self.reset = True
             return
         if self.latest is not None and time_us <= self.latest_us and self.clock.known:

@@ -9,7 +9,7 @@ from typing import ClassVar
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.errors import ConnectionLostError, DriverError
-from rotemina.drivers.gate import Permit
+from rotemina.drivers.gate import Permit, Purpose
 from rotemina.drivers.mc68hc11.axes import board_axes
 from rotemina.drivers.mc68hc11.board import Board
 from rotemina.drivers.mc68hc11.dialogue import Urgency
@@ -107,6 +107,7 @@ class Connected(Driver):
             clock=self.clock,
             pause=self._pause,
             open_port=self._open_port,
+            permit=self.gate.permit(Purpose.SERVICE),
         )
         self._period_s = self._session.setpoint_period_s
 

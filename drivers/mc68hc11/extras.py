@@ -134,7 +134,8 @@ class Extras(Connected, Capturer, ProfileRunner, AnalogInputs, Display, Paramete
         for board in self._running.boards:
             if board.able(Ability.PROFILE):
                 board.orders.forget()
-                board.orders.give("abort", partial(said, AbortProfile()), permit=None)
+                message = partial(said, AbortProfile())
+                board.orders.give("abort", message, permit=None, halts=True)
         self._serve()
 
     def _show(self, row: int, text: str) -> None:

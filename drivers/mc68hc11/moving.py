@@ -66,7 +66,7 @@ class Moving(Connected, TrajectoryPlayer, VelocityMover, Homer, VoltageOutput):
             expires_s = now_s + 0.5 * lease_s if speed else float("inf")
             make = partial(_velocity, axis.number, speed, now_s + lease_s)
             key = ("axis", axis.number)
-            board.orders.give(key, make, expires_s=expires_s, permit=permit)
+            board.orders.give(key, make, expires_s=expires_s, permit=permit, halts=not speed)
         self._serve()
 
     def _home(self, axes: tuple[str, ...], permit: Permit) -> None:

@@ -6,6 +6,7 @@ from math import ceil
 
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import DriverError, DriverTimeoutError, ProtocolError
+from rotemina.drivers.gate import Permit
 from rotemina.drivers.mc68hc11.board import Board
 from rotemina.drivers.mc68hc11.budget import BAUDS, Line
 from rotemina.drivers.mc68hc11.codes import VERSION, Ability, Fault, State
@@ -68,6 +69,7 @@ class Opening:
         clock: Clock,
         pause: Callable[[float], None],
         exchange: Callable[[], None],
+        permit: Permit,
     ) -> None:
         self._robot = robot
         self._boards = tuple(boards)
@@ -76,6 +78,7 @@ class Opening:
         self._clock = clock
         self._pause = pause
         self._exchange = exchange
+        self._permit = permit
         self.period_ms = 0
         self.setpoint_every = 1
 
@@ -190,7 +193,10 @@ class Opening:
         )
 
     def _settle(self) -> None:
-        """Bring to rest what still moves, and forget what happened before this session."""
+        """Bring to rest what still moves, and forget what happened before this session.
+
+        Where a stop is latched, or comes meanwhile, the boards keep their faults.
+        """
         for board in self._boards:
             # One with a fault comes to rest by itself, or ramps its piezos after power came.
             if board.telemetry_fault is Fault.NONE and board.state & _UNDER_WAY:
@@ -205,7 +211,9 @@ class Opening:
         )
         for board in self._boards:
             if board.telemetry_fault in _OF_BEFORE:
-                board.link.dialogues[board.address].ask(Request(message=ClearFault()))
+                board.link.dialogues[board.address].ask(
+                    Request(message=ClearFault(), permit=self._permit)
+                )
         self._wait(self._quiet, _ASK_S, "to forget its fault")
 
     def _begin_telemetry(self) -> None:

@@ -34,6 +34,7 @@ class _Order:
     expected: DeviceState
     expires_s: float
     permit: Permit | None
+    halts: bool
 
 
 class Orders:
@@ -94,13 +95,14 @@ class Orders:
         *,
         expires_s: float = float("inf"),
         permit: Permit | None,
+        halts: bool = False,
     ) -> None:
         """Queue an order, in place of an earlier one with the same key that was not said yet.
 
-        ``make`` returns the message at the host time when it is said; ``permit`` is None for what
-        halts.
+        ``make`` returns the message at the host time when it is said. What only ``halts`` may do
+        without a permit, and is not said to a board that a stop has halted.
         """
-        self._pending[key] = _Order(make, expected, expires_s, permit)
+        self._pending[key] = _Order(make, expected, expires_s, permit, halts)
 
     def stop(self) -> None:
         """Forget all orders, also what is under way, and say stop until it is acknowledged."""
@@ -139,6 +141,9 @@ class Orders:
         if not self._pending or told is None:
             return
         key, order = next(iter(self._pending.items()))
+        if self._stopped and order.halts:
+            del self._pending[key]  # no stop is cleared for it
+            return
         if self._stopped and not self._released(told, order.permit):
             return
         del self._pending[key]

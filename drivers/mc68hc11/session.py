@@ -5,7 +5,7 @@ from functools import partial
 
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import ConnectionLostError
-from rotemina.drivers.gate import OvertakenError
+from rotemina.drivers.gate import OvertakenError, Permit
 from rotemina.drivers.mc68hc11.axes import BoardAxis
 from rotemina.drivers.mc68hc11.board import Board
 from rotemina.drivers.mc68hc11.capturing import Capturing
@@ -56,6 +56,7 @@ class Session:
         clock: Clock,
         pause: Callable[[float], None],
         open_port: OpenPort,
+        permit: Permit,
     ) -> None:
         self._clock = clock
         self._watch_ms = watch_ms
@@ -93,6 +94,7 @@ class Session:
                 clock=clock,
                 pause=pause,
                 exchange=self._exchange,
+                permit=permit,
             )
             self.trust: Trust = opening.run()
         except BaseException:

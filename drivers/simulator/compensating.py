@@ -1,5 +1,7 @@
 """Inverses between the set-points of the simulated machine and its actuators, tick by tick."""
 
+from typing import NamedTuple
+
 from rotemina.drivers.simulator.setpoints import SetpointLimits
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.errors import CompensationError
@@ -7,6 +9,13 @@ from rotemina.sim.compensate.inverse import Beyond, Inverse, resting_at
 from rotemina.sim.compensate.model import InverseModel
 
 _SLACK = 1e-3  # share of the span by which an axis may stand beyond what its inverse saw
+
+
+class Rest(NamedTuple):
+    """The inverse of an axis at rest, if it has one, and its command there, m or rad."""
+
+    inverse: Inverse | None
+    command: float
 
 
 class Compensating:
@@ -33,21 +42,24 @@ class Compensating:
         """Return the inverse in use of an axis; None where there is none."""
         return self._models.get(index)
 
-    def change(self, index: int, model: InverseModel | None, sent: float) -> float:
-        """Use another inverse, or none, of an axis that was sent to ``sent``; return its command.
+    def rest(self, model: InverseModel | None, sent: float) -> Rest:
+        """Return how an axis that was sent to ``sent`` rests under a model, or under none.
+
+        The first one may take tens of milliseconds; nothing changes.
 
         Raises
         ------
         CompensationError
             If the inverse asks for ``sent`` nowhere.
         """
-        inverse, wanted = None, sent
-        if model is not None:
-            inverse, wanted = resting_at(model, self._tick_s, sent)
+        return Rest(None, sent) if model is None else Rest(*resting_at(model, self._tick_s, sent))
+
+    def change(self, index: int, model: InverseModel | None, rest: Rest) -> float:
+        """Use another inverse, or none, of an axis that rests so; return its command."""
         self._use(index, model)
-        if inverse is not None:
-            self._inverses[index] = inverse
-        return wanted
+        if rest.inverse is not None:
+            self._inverses[index] = rest.inverse
+        return rest.command
 
     def lend(self, index: int, model: InverseModel | None, at: float) -> float:
         """Let a loop have the inverse of an axis that stands at ``at``; return its command there.

@@ -6,7 +6,7 @@ from enum import Enum, auto
 import numpy as np
 
 from rotemina.drivers.samples import Samples
-from rotemina.drivers.simulator.compensating import Compensating
+from rotemina.drivers.simulator.compensating import Compensating, Rest
 from rotemina.drivers.simulator.homing import Homing
 from rotemina.drivers.simulator.playing import Chunk, Playing, told
 from rotemina.drivers.simulator.profile_motion import ProfileMotion
@@ -175,21 +175,32 @@ class SimulatedDevice:
         """Go on with another plant at a state of its own."""
         self._plant, self._state = plant, state
 
-    def compensate(self, index: int, model: InverseModel | None) -> None:
-        """Send an axis, by its number, through an inverse, or as it is told; it is at rest.
+    def rest(self, index: int, model: InverseModel | None) -> Rest:
+        """Return how an axis, by its number, rests under an inverse, or none; nothing changes.
 
         Raises
         ------
         CompensationError
             If the inverse does not reach where the axis stands.
         """
-        sent = float(self._sent[index])
+        if index in self._regulating.regulations:
+            return Rest(None, float(self._sent[index]))  # the loop has it, in its feed-forward
+        return self._compensating.rest(model, float(self._sent[index]))
+
+    def compensate(self, index: int, model: InverseModel | None, rest: Rest) -> None:
+        """Send an axis, by its number, through an inverse, or as it is told; it rests so.
+
+        Raises
+        ------
+        CompensationError
+            If the inverse of a loop's feed-forward does not reach where the axis stands.
+        """
         loop = self._regulating.regulations.get(index)
         if loop is None:
-            wanted = self._compensating.change(index, model, sent)
+            wanted = self._compensating.change(index, model, rest)
         else:
             wanted = self._compensating.lend(index, model, float(self._command[index]))
-            self._regulating.put(index, loop, model, wanted, sent)
+            self._regulating.put(index, loop, model, wanted, rest.command)
         self._rest_at(index, wanted)
 
     def regulate(self, index: int, regulation: Regulation | None) -> None:
@@ -216,9 +227,10 @@ class SimulatedDevice:
             self._regulating.remove(index)
             self._retime()
             try:
-                wanted = self._compensating.change(index, model, sent)
+                rest = self._compensating.rest(model, sent)
             except CompensationError:
-                wanted = self._compensating.change(index, None, sent)
+                model, rest = None, Rest(None, sent)
+            wanted = self._compensating.change(index, model, rest)
         self._rest_at(index, wanted)
 
     def _rest_at(self, index: int, wanted: float) -> None:

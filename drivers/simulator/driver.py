@@ -180,8 +180,10 @@ class Simulator(
     def _compensate(self, axis: str, model: InverseModel | None, permit: Permit) -> None:
         index = self._open_loop_piezo(axis, "an inverse")
         self._catch_up()
-        with permit.passing(), _as_limit():
-            self._running.compensate(index, model)
+        with _as_limit():
+            rest = self._running.rest(index, model)  # it takes a while, for which no stop may wait
+            with permit.passing():
+                self._running.compensate(index, model, rest)
 
     def _regulate(self, axis: str, regulation: Regulation | None, permit: Permit) -> None:
         index = self._open_loop_piezo(axis, "a loop")

@@ -100,9 +100,14 @@ class CalibrationPanel(Panel):
             self._run.close()
         run = CalibrationRun(self.workbench.session, self.procedure.chosen, self._motion)
         self._run = run
-        if not self.workbench.ask(run.start):
+        permit = self.workbench.session.permit()
+
+        def refused() -> None:
             run.close()
-            self._run = None
+            if self._run is run:
+                self._run = None
+
+        self.workbench.ask_aside(lambda: run.start(permit=permit), undone=refused)
 
     def stop(self) -> None:
         """Stop the machine; nothing of the run is kept."""

@@ -67,9 +67,10 @@ class Acting:
             return
         if tuning is None or tuning.axis != axis:
             return
+        permit = session.permit()  # a stop while the loop is checked ends the wish
 
         def done(loop: NamedRegulation) -> None:
-            workbench.ask(lambda: session.regulate(loop))
+            workbench.ask(lambda: session.regulate(loop, permit=permit))
 
         workbench.work(
             "apply gains",
@@ -86,10 +87,13 @@ class Acting:
             start = session.snapshot().command[axis]
             self._play(lambda: conditioning(self._workbench.robot, inverse.model, start))
 
-    def try_it(self) -> bool:
-        """Play swings that fade; what is left is shown beside what other states left."""
+    def try_it(self, begun: Callable[[], None]) -> None:
+        """Play swings that fade; what is left is shown beside what other states left.
+
+        ``begun`` is called if they are played.
+        """
         axis = self._controls.chosen
-        return self._play(lambda: trial_motion(self._workbench.robot, axis))
+        self._play(lambda: trial_motion(self._workbench.robot, axis), begun)
 
     def forget(self) -> None:
         """Forget all trials."""
@@ -166,10 +170,10 @@ class Acting:
             "Played trajectories go through the inverse; single moves go as they are told",
         )
 
-    def _play(self, motion: Callable[[], Record]) -> bool:
+    def _play(self, motion: Callable[[], Record], begun: Callable[[], None] = lambda: None) -> None:
         session = self._workbench.session
-        permit = session.permit()  # making the motion takes a while
-        return self._workbench.ask(lambda: session.play(motion(), permit=permit))
+        permit = session.permit()
+        self._workbench.ask_aside(lambda: session.play(motion(), permit=permit), begun)
 
     @property
     def _unit(self) -> str:

@@ -156,8 +156,7 @@ class CompensationPanel(Panel):
 
     def try_it(self) -> None:
         """Play swings that fade; what is left is shown beside what other states left."""
-        if self.acting.try_it():
-            self.tabs.setCurrentIndex(LIVE)
+        self.acting.try_it(lambda: self.tabs.setCurrentIndex(LIVE))
 
     def tune(self) -> None:
         """Search gains; the front is drawn as it evolves."""

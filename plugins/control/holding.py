@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QApplication, QPushButton
 
 from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.clock import Clock
+from rotemina.drivers.gate import Permit
 from rotemina.sim.errors import InputError
 
 RENEW_MS = 50  # well within the lease of a speed
@@ -18,9 +19,10 @@ REPEATED_S = 1.0  # a key that repeats no more for so long is let go of, whoever
 class Holding(QObject):
     """Renews the speed of one axis while a button is down.
 
-    Release, loss of focus, another window, a menu or dialog, a modifier key, a dock that is hidden
-    or a button that is locked end it; so does a key that stops repeating, for its release may be
-    lost, and a window that hangs, because nobody renews the lease then.
+    A stop, release, loss of focus, another window or program, a locked screen, a menu or dialog, a
+    modifier key, a dock that is hidden or a button that is locked end it; so does a key that stops
+    repeating, for its release may be lost, and a window that hangs, because nobody renews the lease
+    then. After a stop the button has to be pressed anew.
     """
 
     def __init__(
@@ -30,6 +32,7 @@ class Holding(QObject):
         self._workbench, self._axis = workbench, axis
         self._button: QPushButton | None = None
         self._speed, self._clock = 0.0, clock
+        self._permit: Permit | None = None  # of the press: a stop since then ends it
         self._key_s: float | None = None  # when the key said last that it is down
         self._modifiers = Qt.KeyboardModifier.NoModifier
         self._renewing = QTimer(self, interval=RENEW_MS)
@@ -55,6 +58,7 @@ class Holding(QObject):
     def begin(self, button: QPushButton, speed: float) -> None:
         """Go at a speed, m/s or rad/s, while the button is held."""
         self._button, self._speed = button, speed
+        self._permit = self._workbench.session.permit()
         self._modifiers = QGuiApplication.keyboardModifiers()
         self._renewing.start()
         self._renew()
@@ -65,23 +69,27 @@ class Holding(QObject):
             return
         self._button = None
         self._renewing.stop()
-        with suppress(InputError):  # it is locked or another's by now; the lease ends by itself
-            self._workbench.session.move_velocity({self._axis: 0.0})
+        # Stopped, locked or another's by now, it is refused; the lease ends by itself.
+        with suppress(InputError):
+            self._workbench.session.move_velocity({self._axis: 0.0}, permit=self._permit)
 
     def _renew(self) -> None:
-        session, speeds = self._workbench.session, {self._axis: self._speed}
+        session, speeds, permit = self._workbench.session, {self._axis: self._speed}, self._permit
         if not self._held():
             self.end()
-        elif not self._workbench.ask(lambda: session.move_velocity(speeds)):
+        elif not self._workbench.ask(lambda: session.move_velocity(speeds, permit=permit)):
             self.end()  # the reason is told once
 
     def _held(self) -> bool:
         button = self._button
         return (
             button is not None
+            and self._permit is not None
+            and self._permit.valid
             and button.isDown()
             and button.isEnabled()
             and button.isActiveWindow()
+            and QGuiApplication.applicationState() is Qt.ApplicationState.ApplicationActive
             # A dock behind another one is not hidden for Qt, only moved away.
             and not button.visibleRegion().isEmpty()
             and QGuiApplication.keyboardModifiers() == self._modifiers

@@ -165,7 +165,9 @@ class ExciteView(QWidget):
             permit = self._awaited.permit
             # At its own pace, and without a bound of the deviation from the model: that is what
             # the motion is to show. All limits hold as ever.
-            self._workbench.ask(lambda: playback.play(plan.dry_run.require(), permit=permit))
+            if self._workbench.ask(plan.dry_run.require):
+                checked = plan.dry_run.require()
+                self._workbench.ask_aside(lambda: playback.play(checked, permit=permit))
             self.begun.emit()
         if not self.isVisible():
             return

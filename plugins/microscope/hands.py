@@ -11,6 +11,7 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.pending import Pending
 from rotemina.app.shell.workbench import Workbench
+from rotemina.drivers.gate import Permit
 from rotemina.plugins.microscope.overlays import ghost_text
 from rotemina.plugins.microscope.picture_view import Hand, PictureView
 from rotemina.plugins.microscope.standing import against_aiming, against_clicking
@@ -37,7 +38,7 @@ class Hands(QObject):
         self._permit = workbench.session.permit()
         #: Whether a move is planned; a stop ends that at once, before it is told of.
         self._planned: Pending[bool] = Pending(workbench.session)
-        self._confirmed: Callable[[], object] = lambda: None  # what a yes does
+        self._asked: Callable[..., object] = microscope.go  # what waits for a yes
         self._begin = (0.0, 0.0)
         view.pressed.connect(self._press)
         view.dragged.connect(self._drag)
@@ -77,12 +78,12 @@ class Hands(QObject):
         targets = microscope.sight.targets
         target = next((one for one in targets if one.visit is None), None)
         if target is not None and self._plan(target.column, target.row):
-            self._go(microscope.visit_next, lambda: microscope.visit_next(confirmed=True))
+            self._go(microscope.visit_next)
 
     def answer(self, yes: bool) -> None:
         """Make the move that was asked about, or forget it."""
         if yes and self._planned.what and self._may_move():
-            self._make(self._confirmed)
+            self._make(lambda permit: self._asked(confirmed=True, permit=permit))
         else:
             self._forget()
 
@@ -111,7 +112,7 @@ class Hands(QObject):
     def _release(self, column: float, row: float) -> None:
         microscope = self._microscope
         if self._view.hand is Hand.MOVE and self._planned.what:
-            self._go(microscope.go, lambda: microscope.go(confirmed=True))
+            self._go(microscope.go)
         elif self._view.hand is Hand.MEASURE:
             self._view.line = None
             begin, end = np.array(self._begin), np.array([column, row])
@@ -133,23 +134,25 @@ class Hands(QObject):
             self._forget()
         return planned
 
-    def _go(self, go: Callable[[], object], confirmed: Callable[[], object]) -> None:
+    def _go(self, go: Callable[..., object]) -> None:
         """Make the planned move, or ask first."""
         sight = self._microscope.sight
         if sight.planned is None or not self._may_move():
             self._forget()
         elif sight.planned.confirm:
-            self._confirmed = confirmed
+            self._asked = go
             self.asks.emit(
                 translate("microscope", "Move the tip {how}?").format(how=ghost_text(sight))
             )
         else:
-            self._make(go)
+            self._make(lambda permit: go(permit=permit))
 
-    def _make(self, move: Callable[[], object]) -> None:
+    def _make(self, move: Callable[[Permit], object]) -> None:
+        """Make a move with the permit of the plan: no stop that came since lets it pass."""
+        permit = self._planned.permit
         self._planned.withdraw()
         self.asks.emit("")
-        self._workbench.ask(move)
+        self._workbench.ask(lambda: move(permit))
         self._microscope.cancel_plan()
 
     def _may_move(self) -> bool:

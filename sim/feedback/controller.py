@@ -16,6 +16,7 @@ from rotemina.sim.feedback.filters import THROUGH, Biquad, low_pass, notch
 from rotemina.sim.feedback.gains import AntiWindup, Gains, OutputLimits
 
 NO_LIMITS = OutputLimits()
+_ANY = float(np.finfo(np.float64).max)  # of finite errors
 
 
 class Controller:
@@ -64,14 +65,19 @@ class Controller:
         self.begun_at = self.integral
 
     def hold(self, most: float) -> None:
-        """Keep the output within ``most`` (m or rad) of what it is now, until :meth:`lead`."""
+        """Keep the output within ``most`` (m or rad) of what it is now, until :meth:`lead`.
+
+        A reading that is farther from the reference is not answered at all.
+        """
         low, high = self._limits
         self.numbers[kernel.LOW] = max(low, self.output - most)
         self.numbers[kernel.HIGH] = min(high, self.output + most)
+        self.numbers[kernel.BELIEVED] = most
 
     def lead(self) -> None:
         """Let the output go as far as the limits allow again."""
         self.numbers[kernel.LOW], self.numbers[kernel.HIGH] = self._limits
+        self.numbers[kernel.BELIEVED] = _ANY
 
     def step(self, reference: float, measured: float) -> float:
         """Return the output of this sample, m or rad, held until the next.
@@ -89,13 +95,14 @@ class Controller:
         return self.answer(reference, measured)
 
     def answer(self, reference: float, measured: float) -> float:
-        """Return the output of this sample; where a number is not finite, the last one again.
+        """Return the output of this sample, or the last one again where none can be found.
 
-        The feed-forward goes on all the same, as a machine's does, which cannot wait.
+        That is where a number is not finite, or the reading of a held loop not believed. The
+        feed-forward goes on all the same, as a machine's does, which cannot wait.
         """
         feed = self.feed_forward.step(reference)
         error = reference - measured
-        if not (isfinite(error) and isfinite(feed)):
+        if not (abs(error) <= self.numbers[kernel.BELIEVED] and isfinite(feed)):
             return self.output
         return float(kernel.control(self.numbers, self.memory, error, feed))
 
@@ -136,6 +143,7 @@ def numbers_of(gains: Gains, interval_s: float, limits: OutputLimits) -> FloatAr
     numbers[kernel.CONDITIONAL] = gains.anti_windup is AntiWindup.CONDITIONAL
     numbers[kernel.LOW], numbers[kernel.HIGH] = limits.low, limits.high
     numbers[kernel.MOST] = limits.rate * interval_s
+    numbers[kernel.BELIEVED] = _ANY
     for place, biquad in zip(
         (kernel.NOTCH, kernel.LOW_PASS), _filters(gains, interval_s), strict=True
     ):

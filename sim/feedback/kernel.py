@@ -4,9 +4,9 @@ import numba
 
 from rotemina.sim.arrays import FloatArray
 
-# Places of the numbers.
+# Places of the numbers. BELIEVED: the greatest error that is answered; a larger one is no reading.
 P, I_STEP, D_STEP, D_POLE, BACK, CONDITIONAL, LOW, HIGH, MOST = range(9)
-NOTCH, LOW_PASS, J_STEP, NUMBERS = 9, 14, 19, 20
+NOTCH, LOW_PASS, J_STEP, BELIEVED, NUMBERS = 9, 14, 19, 20, 21
 
 # Places of the memory. DRIFT: by how much the second integral moves the first at each sample.
 # OUTPUT, ASKED: what was put out, and what would have been without limits.

@@ -6,7 +6,7 @@ import numba
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray, IntArray
-from rotemina.sim.feedback.kernel import ASKED, OUTPUT, control
+from rotemina.sim.feedback.kernel import ASKED, BELIEVED, OUTPUT, control
 from rotemina.sim.plant.kernel import Given, State, Steps, Taken, run
 from rotemina.sim.plant.machine import Machine
 
@@ -52,7 +52,8 @@ def follow(
 
     ``output`` (n, l) is filled with what the controllers ask for; ``command`` (n, axes) is of the
     robot's own controllers. ``steps`` go from a row to the next, so the plant is stepped as a live
-    one is. A reading or reference that is not finite leaves a controller as it was.
+    one is. A reading or reference that is not finite, or farther apart than is believed, leaves a
+    controller as it was.
     """
     axes, count = rows.inputs.shape[1], loops.column.shape[0]
     none, no_kick, limited = np.zeros((0, axes)), np.zeros((0, 0)), 0
@@ -80,7 +81,8 @@ def follow(
         for i in range(count):
             column, memory = loops.column[i], loops.memory[i]
             error = reference[k, i] - (rows.reading[k + 1, column] - loops.offset[i])
-            if np.isfinite(error) and np.isfinite(feed[k, i]):
+            # An error that is no number is not believed either.
+            if abs(error) <= loops.numbers[i, BELIEVED] and np.isfinite(feed[k, i]):
                 output[k, i] = control(loops.numbers[i], memory, error, feed[k, i])
                 limited += memory[OUTPUT] != memory[ASKED]
             else:

@@ -1,5 +1,8 @@
 """The kit on drivers that do one thing wrong: each fails the check meant for it, and no other."""
 
+import signal
+import subprocess
+import sys
 import threading
 from dataclasses import replace
 
@@ -559,3 +562,39 @@ def test_a_driver_of_few_abilities_is_spared_the_others():
     assert result.verdict is Verdict.SKIPPED
     assert all(check.needs is not None for check in CHECKS if "velocit" in check.name)
     assert VelocityMover in {check.needs for check in CHECKS}
+
+
+KIT = """
+import time
+from dataclasses import replace
+from rotemina.drivers.conformance.bench import bench_of
+from rotemina.drivers.conformance.suite import checks_named, run_checks
+from rotemina.drivers.simulator.driver import Simulator
+from rotemina.sim.robot.file import load_robot
+
+class Real(Simulator):
+    virtual_time = False
+
+    def _move_to(self, *given):
+        super()._move_to(*given)
+        print("moves", flush=True)
+
+    def _stop(self):
+        super()._stop()
+        print("stopped", flush=True)
+
+    def _close(self):
+        super()._close()
+        print("closed", flush=True)
+
+list(run_checks(bench_of(Real, load_robot("rotemina")), checks_named(["move-arrives"])))
+"""
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
+def test_whoever_is_told_to_end_in_mid_move_stops_first(name):
+    with subprocess.Popen([sys.executable, "-c", KIT], stdout=subprocess.PIPE, text=True) as kit:
+        assert kit.stdout.readline() == "moves\n"
+        kit.send_signal(signal.Signals[name])
+        assert kit.stdout.read().split() == ["stopped", "closed"]
+    assert kit.returncode != 0

@@ -13,6 +13,7 @@ from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.focus_run import Search
 from rotemina.app.microscope.recorded_reference import recorded_reference
 from rotemina.app.microscope.sight import Activity, ScaleSource, TipState
+from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.penetration.status import Phase as PenetrationPhase
 from rotemina.app.motion.recording.reading import Recording
 from rotemina.app.motion.recording.session_recorder import SessionRecorder
@@ -158,6 +159,22 @@ def test_a_lost_tip_ends_a_click(work):
     assert "tip is" in sight.visiting.reason
     work.step(5)
     assert still(work)
+
+
+def test_a_stop_since_the_wish_ends_a_click_and_a_visit_of_a_target(work):
+    """A yes that was said before the stop, and arrives after it, moves nothing."""
+    work.tracking()
+    place = work.true_pixel() + np.array([20.0, 0.0])
+    microscope, session = work.microscope, work.microscope.session
+    microscope.mark_target(place)
+    for go in (microscope.go, microscope.visit_next):
+        microscope.plan(place)
+        permit = session.permit()
+        session.stop()
+        with pytest.raises(RefusedError, match="ask again"):
+            go(confirmed=True, permit=permit)
+        work.step(2)
+        assert still(work)
 
 
 def test_stop_ends_a_calibration_where_it_is(work):

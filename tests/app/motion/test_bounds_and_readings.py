@@ -1,12 +1,15 @@
 """Bounds do not trust one reading: what a session does where command and reading disagree."""
 
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.state import Alarmed, Faulted
+from rotemina.drivers.samples import DeviceState
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.errors import EffectError
@@ -103,6 +106,48 @@ def test_the_wrong_reading_also_locks_motion_until_it_is_mended_and_confirmed(mi
     stepped.session.go_to({"x": 0.03})
 
 
+def doubted(misread, axis):
+    """A machine of which one axis reads a fifth of its range off, for long enough."""
+    stepped = misread(**{axis: 0.2 * ROBOT.axes[axis].span})
+    if axis == "zn":
+        stepped.driver.off = {axis: 0.5 * ROBOT.axes[axis].span}
+    assert f"axis {axis} reads" in stepped.step(times=8).locked
+    stepped.driver.off = {}
+    return stepped
+
+
+def homed(stepped, *axes):
+    stepped.session.home(axes)
+    stepped.step()
+    assert stepped.session.snapshot().activity is DeviceState.HOMING
+    return stepped.until_idle()
+
+
+def test_homing_ends_the_doubt_about_the_axes_that_were_homed_and_no_others(misread):
+    stepped = doubted(misread, "x")
+    assert "axis x reads" in homed(stepped, "y").locked
+    assert homed(stepped, "x").locked is None
+    stepped = doubted(misread, "zn")  # which has no switch: somebody has to look
+    assert "axis zn reads" in homed(stepped, "x", "y", "z").locked
+    stepped.session.confirm_position()
+    assert stepped.step(times=3).locked is None
+
+
+def test_a_stop_withdraws_a_confirmation_of_the_position(misread, monkeypatch):
+    stepped = doubted(misread, "x")
+    session, take = stepped.session, stepped.session._mailbox.take
+
+    def taken():
+        posted = take()
+        if posted is not None:
+            session.stop()
+        return posted
+
+    monkeypatch.setattr(session._mailbox, "take", taken)
+    session.confirm_position()
+    assert "axis x reads" in stepped.step(times=3).locked
+
+
 def test_a_single_outlier_neither_locks_nor_opens_nor_bars(misread):
     stepped = misread()
     for much in (-0.04, 0.04):
@@ -166,6 +211,13 @@ def test_a_voltage_is_put_out_only_at_rest(make_stepped):
 
 #: What docs/safety.md states, of the range.
 OVERSHOOT = {"x": 1e-5, "y": 1e-5, "z": 1e-5, "thx": 0.065, "thy": 0.065, "zn": 0.06}
+
+
+def test_the_page_states_that_overshoot():
+    page = (Path(__file__).parents[3] / "docs" / "safety.md").read_text("utf-8")
+    rows = re.findall(r"^\| ([\w, ]+) \| ([0-9.]+) % \|$", page, re.MULTILINE)
+    stated = {axis: 0.01 * float(most) for axes, most in rows for axis in axes.split(", ")}
+    assert stated == pytest.approx(OVERSHOOT)
 
 
 def crossings(stepped):

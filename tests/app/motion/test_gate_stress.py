@@ -16,6 +16,7 @@ from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import Connection, Phase
 from rotemina.drivers.mc68hc11.driver import MC68HC11
+from rotemina.drivers.samples import DeviceState
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record, Tap
@@ -25,7 +26,15 @@ pytestmark = pytest.mark.slow
 ROBOT = load_robot("rotemina")
 TIMES = int(os.environ.get("ROTEMINA_STRESS", "200"))
 ON_BOARDS = 0.1  # as often: their line is in real time
-LATEST_S = 4e-4  # of the stop, after the request
+# Of the stop, after the request: about twice what it takes from there to the device.
+LATEST_S = {
+    "go_to": 2e-3,
+    "jog": 2e-3,
+    "velocity": 2e-3,
+    "play": 10e-3,
+    "recentre": 100e-3,
+    "penetrate": 20e-3,
+}
 BRAKING_S = 0.1  # of any axis from any speed
 HOLDS_S = 0.03  # watched after each stop, on a machine at rest
 REST_S = 30.0
@@ -142,10 +151,11 @@ class Stress:
         at_s = time.monotonic() + delay_s
         while time.monotonic() < at_s:
             pass
-        before = self.session.snapshot().command
+        before = self.session.snapshot()
         self.session.emergency_stop()
         self.holds(asking)
-        self.begun += dict(self.session.snapshot().command) != dict(before)
+        moved = dict(self.session.snapshot().command) != dict(before.command)
+        self.begun += moved or before.activity is not DeviceState.IDLE
         self.session.release()
 
     def holds(self, asking):
@@ -192,7 +202,7 @@ def test_the_machine_holds_wherever_a_stop_meets_a_request(request, tmp_path, ma
         stress = Stress(MotionSession(driver), tmp_path)
         try:
             for _ in range(times):
-                stress.attack(kind, rng.uniform(0.0, LATEST_S))
+                stress.attack(kind, rng.uniform(0.0, LATEST_S[kind]))
         finally:
             stress.operation.close()
             stress.session.close()

@@ -1,8 +1,13 @@
 """Leaving while a recording is put together, and stops from windows beside the main one."""
 
 import html
+import os
+import signal
+import subprocess
+import sys
 import threading
 
+import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 
@@ -66,3 +71,42 @@ def test_stops_reach_from_a_floating_dock_and_from_a_page(qtbot, window):
     for each in (button, window.stop_button):
         assert "not the machine" in html.unescape(each.toolTip())
     QApplication.processEvents()
+
+
+PROGRAM = """
+import sys
+from pathlib import Path
+from rotemina.app.motion.session import MotionSession
+from rotemina.app.settings import Settings
+from rotemina.app.shell.window_run import run
+from rotemina.drivers.simulator.driver import Simulator
+from rotemina.sim.robot.file import load_robot
+
+class Told(MotionSession):
+    def start(self):
+        super().start()
+        print("started", flush=True)
+
+    def stop(self, *given, **named):
+        super().stop(*given, **named)
+        print("stopped", flush=True)
+
+session = Told(Simulator(load_robot("rotemina")))
+sys.exit(run(session, Settings(Path(sys.argv[1]) / "settings.json")))
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])
+def test_a_program_that_is_told_to_end_stops_the_machine_first(tmp_path, name):
+    with subprocess.Popen(
+        [sys.executable, "-c", PROGRAM, str(tmp_path)],
+        env={**os.environ, "XDG_DATA_HOME": str(tmp_path), "QT_QPA_PLATFORM": "offscreen"},
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as program:
+        assert program.stdout.readline() == "started\n"
+        program.send_signal(signal.Signals[name])
+        assert program.stdout.readline() == "stopped\n"
+        program.stdout.read()
+    assert program.returncode == 0

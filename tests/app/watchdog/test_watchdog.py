@@ -12,7 +12,7 @@ import pytest
 
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.watchdog import process
-from rotemina.app.watchdog.watched import Watched
+from rotemina.app.watchdog.watched import Watched, _command
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.robot.file import load_robot
 
@@ -93,11 +93,23 @@ def test_the_session_tells_who_is_alive_and_a_farewell_ends_it(log):
     assert not log.exists()  # a farewell is no alarm
 
 
+def test_a_bundle_starts_its_watchdog_too(log, monkeypatch):
+    """A bundle's executable does what its start-up file does here."""
+    monkeypatch.setattr(sys, "frozen", True, raising=False)
+    python, *words = _command()
+    start = Path(__file__).parents[3] / ".ci" / "bundle" / "start.py"
+    told = subprocess.run(
+        [python, str(start), *words, str(log)], input=beat(), text=True, check=False, timeout=60
+    )
+    assert told.returncode == 1  # the input ended without a farewell
+    assert "has ended without" in log.read_text(encoding="utf-8")
+
+
 PROGRAM = """
 import sys, time
 from pathlib import Path
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.watchdog.watched import Watched
+from rotemina.app.watchdog.watched import Watched, _command
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.robot.file import load_robot
 watched = Watched(MotionSession(Simulator(load_robot("rotemina"))), Path(sys.argv[1]), screen=False)

@@ -5,6 +5,7 @@ import pytest
 
 from rotemina.drivers.errors import StateError
 from rotemina.drivers.gate import GateError
+from rotemina.drivers.mc68hc11.codes import Fault
 from rotemina.drivers.mc68hc11.framing import Decoder
 from rotemina.drivers.mc68hc11.requests import (
     ArmProfile,
@@ -47,11 +48,11 @@ def bench(robot, joined_bench):
 
 
 class Line:
-    """The types of the frames that the host has written since."""
+    """The types of the frames that the host has written since, or ever."""
 
-    def __init__(self, bench):
+    def __init__(self, bench, *, ever=False):
         self._bench = bench
-        self._begin = [len(port.written) for port in bench.ports]
+        self._begin = [0 if ever else len(port.written) for port in bench.ports]
 
     @property
     def types(self):
@@ -130,6 +131,50 @@ def test_while_a_stop_is_latched_no_fault_is_cleared_and_nothing_moves(bench):
     samples = bench.run_until(IDLE)
     assert ClearFault.TYPE in line.types  # of the stop, by the permit of what came after it
     assert samples.command[-1, 0] == pytest.approx(0.0285)
+
+
+HALTS = {
+    "abort": lambda driver: driver.abort(),
+    "speed 0": lambda driver: driver.move_velocity({"x": 0.0}, 0.15),
+}
+
+
+@pytest.mark.parametrize(
+    ("halt", "latch"), [("abort", None), ("abort", "emergency stop"), ("speed 0", None)]
+)
+def test_a_halt_after_a_stop_clears_no_fault(bench, halt, latch):
+    """Nobody who only lets go of a stick, or of a key, asks that the boards may move again."""
+    driver = bench.driver
+    driver.move_to({"x": 0.03})
+    bench.run(0.1)
+    driver.gate.stop(latch)
+    driver.halt()
+    bench.run_until(IDLE)
+    line = Line(bench)
+    HALTS[halt](driver)
+    bench.run(0.5)
+    assert not line.types & MOVING
+
+
+@pytest.mark.parametrize("fault", [Fault.STOPPED, Fault.WATCHDOG, Fault.RESET])
+def test_while_a_stop_is_latched_boards_are_connected_with_their_faults(robot, joined_bench, fault):
+    bench = joined_bench(robot)
+    for board in bench.boards.boards:
+        board.fault = fault
+    driver = bench.driver
+    driver.gate.stop("emergency stop")
+    driver.open()
+    bench.run(0.3)
+    assert ClearFault.TYPE not in Line(bench, ever=True).types
+    assert driver.status().state is DeviceState.FAULT
+    with pytest.raises(GateError):
+        driver.clear_fault()
+    driver.gate.release()
+    driver.clear_fault()
+    bench.run_until(IDLE)
+    driver.move_to({"x": 0.028})
+    bench.run_until(IDLE)
+    driver.close()
 
 
 def test_a_stop_that_cuts_the_writing_of_parameters_off_leaves_them_to_be_written_again(

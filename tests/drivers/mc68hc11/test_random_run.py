@@ -8,6 +8,7 @@ import os
 
 import numpy as np
 import pytest
+from tests.app.motion.test_bounds_and_readings import OVERSHOOT
 
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.clock import VirtualClock
@@ -20,8 +21,6 @@ from rotemina.sim.robot.file import load_robot
 pytestmark = pytest.mark.slow
 ROBOT = load_robot("rotemina")
 OPERATIONS = int(os.environ.get("ROTEMINA_OPERATIONS", "1000"))
-# Of the range, that an axis may swing beyond it at most.
-OVERSHOOT = {"x": 1e-5, "y": 1e-5, "z": 1e-5, "thx": 0.065, "thy": 0.065, "zn": 0.06}
 # Of the range, by which a machine at rest may still ring or creep after a stop.
 STILL = {"x": 1e-5, "y": 1e-5, "z": 1e-5, "thx": 2e-3, "thy": 2e-3, "zn": 2e-2}
 TIME_S = np.arange(60) / 200.0

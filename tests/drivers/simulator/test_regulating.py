@@ -9,7 +9,9 @@ from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.errors import LimitError, StateError
 from rotemina.drivers.profile import Profile, ProfileSegment
 from rotemina.drivers.samples import DeviceState
+from rotemina.drivers.simulator import compensating
 from rotemina.drivers.simulator.driver import Simulator
+from rotemina.sim.compensate.inverse import resting_at
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.feedback import regulated_plant
 from rotemina.sim.feedback.axis_loop import AxisLoop
@@ -323,8 +325,28 @@ def test_a_loop_that_holds_a_stopped_axis_leads_its_output_no_farther_than_the_b
     machine.run(0.1)
     (controller,) = machine.driver._running._regulating._controllers.values()
     held = controller.output
-    astray = [controller.answer(held, held - 40e-6) for _ in range(500)]  # a sensor that is wrong
-    assert max(astray) == pytest.approx(held + 0.35 * AXIS.span)
+    most = 0.35 * AXIS.span
+    astray = [controller.answer(held, held - 0.9 * most) for _ in range(500)]  # a wrong sensor
+    assert max(astray) == pytest.approx(held + most)
+
+
+def test_a_loop_that_holds_a_stopped_axis_does_not_answer_a_reading_out_of_bounds(monkeypatch):
+    monkeypatch.setattr(regulated_plant, "_watch", lambda *_: None)  # which gives such a loop up
+    machine = Machine(QUIET)
+    machine.close_loop()
+    machine.driver.stop()
+    machine.run(0.1)
+    device = machine.driver._running
+    (controller,) = device._regulating._controllers.values()
+    reference, held = float(device.command[ZN]), controller.output
+    for wrong in (1.1 * 0.35 * AXIS.span, -AXIS.span, float("nan")):
+        assert {controller.answer(reference, reference + wrong) for _ in range(50)} == {held}
+    # The compiled loop does as the sampled one, here with a reference that is too far off.
+    elsewhere = np.array([*device.command[:ZN], reference + 0.4 * AXIS.span])
+    device._setpoints.take_over(elsewhere, np.zeros(ZN + 1))
+    device.advance(device.time_s + 0.004)
+    assert device.command[ZN] == elsewhere[ZN]
+    assert device.sent[ZN] == held
 
 
 def test_a_stopped_axis_goes_anywhere_again_when_it_is_told_to():
@@ -335,3 +357,16 @@ def test_a_stopped_axis_goes_anywhere_again_when_it_is_told_to():
         machine.run(0.05)
         machine.driver.move_to({"zn": target})
         assert machine.run(0.5)[3][-1] == pytest.approx(target, abs=50e-9)
+
+
+def test_an_inverse_is_prepared_while_a_stop_can_pass_the_gate(monkeypatch):
+    machine, held = Machine(QUIET), []
+
+    def resting(*given):
+        held.append(machine.driver.gate._lock.locked())
+        return resting_at(*given)
+
+    monkeypatch.setattr(compensating, "resting_at", resting)
+    machine.driver.compensate("zn", MODEL)
+    assert held == [False]
+    assert list(machine.driver.compensated) == ["zn"]

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 from PySide6.QtCore import QEvent, Qt
-from PySide6.QtGui import QKeyEvent
+from PySide6.QtGui import QGuiApplication, QKeyEvent
 from PySide6.QtWidgets import (
     QApplication,
     QDialog,
@@ -17,13 +17,14 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.drivers.clock import VirtualClock
+from rotemina.drivers.gate import Gate
 from rotemina.plugins.control.holding import REPEATED_S, Holding
 
 LONG_MS = 30_000
 
 
 @pytest.fixture
-def held(qtbot):
+def held(qtbot, monkeypatch):
     """A button in a tab of a window, held down by its key, and the speeds that it sends."""
     window = QWidget()
     qtbot.addWidget(window)
@@ -35,7 +36,13 @@ def held(qtbot):
     column.addWidget(tabs)
     column.addWidget(field)
     sent, clock = [], VirtualClock(1.0)
-    session = SimpleNamespace(move_velocity=lambda speeds: sent.append(speeds["x"]))
+    gate = Gate(clock)
+
+    def move_velocity(speeds, permit):
+        permit.check()
+        sent.append(speeds["x"])
+
+    session = SimpleNamespace(move_velocity=move_velocity, permit=gate.permit)
     bench = SimpleNamespace(session=session, ask=lambda request: (request(), True)[1])
     holding = Holding(bench, "x", window, clock)
     holding.watch(button)
@@ -72,12 +79,21 @@ def dialog(held):
     asked.open()
 
 
+def locked_screen(held):
+    """The lock takes the keyboard: no window of the program has the focus any more."""
+    held.application_state = Qt.ApplicationState.ApplicationInactive
+    held.monkeypatch.setattr(
+        QGuiApplication, "applicationState", staticmethod(lambda: held.application_state)
+    )
+
+
 TAKEN = {
     "tab": lambda held: held.tabs.setCurrentIndex(1),
     "focus": lambda held: held.field.setFocus(),
     "window": other_window,
     "menu": popup,
     "dialog": dialog,
+    "locked screen": locked_screen,
     "lost release": lambda held: held.clock.advance(1.01 * REPEATED_S),
 }
 
@@ -88,6 +104,19 @@ def test_it_ends_where_its_release_may_be_lost(qtbot, held, taken):
     held.holding._renew()
     assert not held.holding.busy
     assert held.sent[-1] == 0.0
+
+
+@pytest.mark.parametrize("way", ["stop", "stop and release"])
+def test_a_stop_ends_it_although_the_button_stays_down(held, way):
+    held.gate.stop("emergency stop" if way == "stop and release" else None)
+    if way == "stop and release":
+        held.gate.release()
+    held.holding._renew()
+    assert held.button.isDown()
+    assert not held.holding.busy
+    assert held.sent == [1e-3]  # not even a halt: the stop has done that
+    held.holding._renew()
+    assert held.sent == [1e-3]
 
 
 def test_a_key_that_repeats_goes_on(held):

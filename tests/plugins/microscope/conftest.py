@@ -16,6 +16,7 @@ from rotemina.app.microscope.sight import ScaleSource, Sight
 from rotemina.drivers.cameras.camera import CameraIdentity
 from rotemina.drivers.cameras.frame import Frame, Region
 from rotemina.drivers.cameras.settings import CameraDescription, CameraSettings, PixelType, Trigger
+from rotemina.drivers.gate import Permit
 
 PIXEL_M = 0.335e-6
 
@@ -101,9 +102,14 @@ class FakeMicroscope:
         self._ask("cancel_plan")
         self.change(planned=None)
 
-    def go(self, *, confirmed=False):
+    def go(self, *, permit, confirmed=False):
+        assert isinstance(permit, Permit)
         self._ask("go", confirmed)
         self.change(planned=None)
+
+    def visit_next(self, *, permit, confirmed=False):
+        assert isinstance(permit, Permit)
+        self._ask("visit_next", confirmed)
 
     def _ask(self, name, *given):
         self.asked.append((name, *given))
