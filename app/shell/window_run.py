@@ -1,5 +1,6 @@
 """The window on a display, until its user closes it."""
 
+import atexit
 import gc
 import signal
 import sys
@@ -15,13 +16,14 @@ from PySide6.QtWidgets import QApplication
 
 from rotemina.app.motion.heartbeat import PERIOD_S
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.plugin_kit.panel_watch import PanelWatch
 from rotemina.app.settings import Settings
 from rotemina.app.shell import language
 from rotemina.app.shell import theme as themes
 from rotemina.app.shell.allocator import give_memory_back
+from rotemina.app.shell.exits import exits_refused
 from rotemina.app.shell.layouts import OPERATE
 from rotemina.app.shell.main_window import MainWindow
+from rotemina.app.shell.panel_watch import PanelWatch
 from rotemina.app.shell.preloading import preload
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.watchdog.watched import Watched
@@ -61,9 +63,23 @@ def make_window(
 
 def run(session: MotionSession, settings: Settings) -> int:
     """Show the window and run it; return the exit status."""
+    atexit.register(session.stop, "the program ends")  # also where a plugin's SystemExit ends it
+    try:
+        with exits_refused():
+            return _run(session, settings)
+    except BaseException:
+        session.stop("the program ends")
+        raise
+    finally:
+        atexit.unregister(session.stop)
+
+
+def _run(session: MotionSession, settings: Settings) -> int:
     give_memory_back()
     sys.setswitchinterval(SWITCH_S)
     application = make_application()
+    # Only asked for here: a handler may interrupt anything, a lock that closing needs as well.
+    signal.signal(signal.SIGINT, lambda *_: QTimer.singleShot(0, application.closeAllWindows))
     window = make_window(session, settings)
     panels = window.panels
     watch = PanelWatch(window, panels, window.docks, window.workbench.notify, panels.kinds)
@@ -94,8 +110,6 @@ def run(session: MotionSession, settings: Settings) -> int:
     watched.start()
     window.late_panels.done.connect(window.loop_watch.restart)  # what it measures is use, no start
     window.workbench.start()
-    # Only asked for here: a handler may interrupt anything, a lock that closing needs as well.
-    signal.signal(signal.SIGINT, lambda *_: QTimer.singleShot(0, window.close))
     # Python handles signals only between its own instructions: this wakes it now and then.
     wake = QTimer(application, interval=200)
     wake.timeout.connect(lambda: None)
