@@ -20,7 +20,7 @@ REBUILD := $(shell $(USABLE) || echo rebuild)
 
 EXTRAS_run :=
 EXTRAS_test := [test]
-EXTRAS_slow := [test,docs]
+EXTRAS_slow := [test,docs,bench,dask]
 EXTRAS_lint := [lint]
 EXTRAS_bench := [test,bench]
 EXTRAS_screenshots := [test]
@@ -66,8 +66,8 @@ lint: system $(VENV)/.lint $(VENV)/src  ## check style, types and the layers
 	@$(BIN)/lint-imports --no-logo --no-cache
 	@$(BIN)/mypy
 
-bench: system $(VENV)/.bench  ## measure against the alternatives (tests/benchmarks)
-	@$(PYTEST) -s --override-ini python_files='bench_*.py' tests/benchmarks
+bench: system $(VENV)/.bench  ## measure (tests/benchmarks), and write docs/benchmarks.md
+	@$(PYTEST) --override-ini python_files='bench_*.py' --page docs/benchmarks.md tests/benchmarks
 
 screenshots: system $(VENV)/.screenshots  ## draw the pictures of the documentation
 	@$(BIN)/python -m rotemina.app.shell.screenshots docs/screenshots

@@ -14,6 +14,7 @@ from rotemina.sim.simulation.simulation import simulate
 
 LIMIT_S = 20e-6
 SAMPLES, ROUNDS = 5000, 7
+QUICK = {"SAMPLES": 50, "ROUNDS": 1}
 
 
 def test_a_sample_takes_less_than_the_limit() -> None:

@@ -22,6 +22,7 @@ from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.plate import Plate
 
 FINE = 440  # divisions of a turn
+QUICK = {"FINE": 60}
 
 
 def best_of(repeats, work):
