@@ -25,7 +25,7 @@ from rotemina.app.shell.layouts import OPERATE
 from rotemina.app.shell.main_window import MainWindow
 from rotemina.app.shell.panel_watch import PanelWatch
 from rotemina.app.shell.preloading import preload
-from rotemina.app.shell.workbench import Workbench
+from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.watchdog.watched import Watched
 
 DEFAULT_THEME = "dark"
@@ -58,7 +58,25 @@ def make_window(
     language.use(application, language.chosen(settings))  # before anything is made that speaks
     theme = themes.theme_named(settings.get("window.theme", DEFAULT_THEME))
     themes.apply(application, theme)
-    return MainWindow(Workbench(session, settings, theme, folder))
+    window = MainWindow(Workbench(session, settings, theme, folder))
+    _tell_of(settings, window.workbench)
+    return window
+
+
+def _tell_of(settings: Settings, workbench: Workbench) -> None:
+    """Tell of preferences that could not be read, and where they are kept."""
+    if settings.aside is not None:
+        text = language.translate(
+            "shell", "The preferences begin anew: {fault}. That file is kept as {path}."
+        ).format(fault=settings.fault, path=settings.aside)
+    elif settings.fault:
+        text = language.translate(
+            "shell",
+            "The preferences begin anew, and none is kept: {fault}. Move that file away.",
+        ).format(fault=settings.fault)
+    else:
+        return
+    workbench.notify(Level.WARNING, text, about="window.md")
 
 
 def run(session: MotionSession, settings: Settings) -> int:
