@@ -1,7 +1,7 @@
 """Effects in the simulation, beside the same loop in C, beside real time, and one by one.
 
 Limits: six axes with hysteresis (10 plays), creep, friction and a further mode each, recorded at
-2 kHz and stepped at 20 kHz, run at least 50 times faster than real time and within 3 times of
+2 kHz and stepped at 20 kHz, run at least 50 times faster than real time and within 2 times of
 reference.c at -O3. One axis with one effect, 10 s at 2 kHz: 5 ms without inner steps, 50 ms with.
 The first call, with compilation, 10 s.
 """
@@ -71,17 +71,18 @@ def test_six_axes_beside_c_and_real_time(whole_plant, tmp_path):
     seconds = {"ours": [], "c": []}
     for _ in range(TURNS):
         for name, run in (("ours", ours), ("c", c_run)):
-            begin = time.perf_counter()
+            begin = time.thread_time()
             run()
-            seconds[name].append(time.perf_counter() - begin)
+            seconds[name].append(time.thread_time() - begin)
     ratios = [a / b for a, b in zip(seconds["ours"], seconds["c"], strict=True)]
     faster = [SECONDS / own for own in seconds["ours"]]
     print(
         f"\nsix axes, four effects each, {SECONDS:g} s at 2 kHz / 20 kHz: "
         f"{median(faster):.0f} times real time ({min(faster):.0f} to {max(faster):.0f}); "
         f"limit 50\nbeside C at -O3: {median(ratios):.2f} times its time "
-        f"({min(ratios):.2f} to {max(ratios):.2f}, {TURNS} pairs); limit 3"
+        f"({min(ratios):.2f} to {max(ratios):.2f}, {TURNS} pairs); limit 2"
     )
+    assert median(ratios) <= 2.0
 
 
 def c_reference(plant, start, time_s, command, folder):
@@ -187,7 +188,7 @@ def one_effect(asked):
     for _ in range(TURNS):
         begin = time.perf_counter()
         simulate(alone, [asked], commands)
-        seconds.append(time.perf_counter() - begin)
+        seconds.append(time.thread_time() - begin)
     inner = plant.assembly.inner_step_s < 0.999 / RATE_HZ
     return 1e3 * median(seconds), inner, f"{asked.id}/{asked.formulation}"
 
