@@ -17,8 +17,9 @@ import pytest
 ROOT = Path(__file__).parents[2]
 HEAD = """# Benchmarks
 
-What `make bench` printed, which writes this page: nothing in it was copied by hand. A range in
-brackets is the spread over the repetitions beside it; a limit is what the benchmark demands.
+`make bench` writes this page: nothing in it was copied by hand. What is not in it was not among the
+benchmarks of that run. A range in brackets is the spread over the repetitions beside it; a limit is
+what the benchmark demands.
 
 | | |
 |---|---|
