@@ -5,6 +5,9 @@ VENV := .venv
 BIN := $(VENV)/bin
 PYTEST := $(BIN)/pytest
 PIP := $(BIN)/python -m pip --disable-pip-version-check
+# What was tested with this version of Python; one without such a file gets the newest of all.
+TESTED = .ci/constraints/$(shell $(BIN)/python -c 'import sys; print("%d.%d" % sys.version_info[:2])').txt
+CONSTRAINTS = $(addprefix --constraint ,$(wildcard $(TESTED)))
 
 # The Qt platform that must work: empty for the one of the display in use.
 QT_PLATFORM := offscreen
@@ -17,7 +20,7 @@ REBUILD := $(shell $(USABLE) || echo rebuild)
 
 EXTRAS_run :=
 EXTRAS_test := [test]
-EXTRAS_slow := [test,docs]
+EXTRAS_slow := [test,docs,bench,dask]
 EXTRAS_lint := [lint]
 EXTRAS_bench := [test,bench]
 EXTRAS_screenshots := [test]
@@ -25,7 +28,7 @@ EXTRAS_docs := [docs]
 EXTRAS_release := [release]
 
 .NOTPARALLEL:
-.PHONY: run test test-slow soak lint bench screenshots languages docs dist bundle clean help system rebuild
+.PHONY: run test test-slow soak latest lint bench screenshots languages viewer docs dist bundle clean help system rebuild
 
 run: QT_PLATFORM :=
 run: system $(VENV)/.run  ## open the program with the built-in simulator
@@ -45,14 +48,26 @@ soak: system $(VENV)/.test  ## hours of random faults, requests and stops
 	tests/drivers/mc68hc11/test_soak.py tests/drivers/mc68hc11/test_random_run.py \
 	tests/app/motion/test_gate_stress.py
 
+# The other extras are installed along with it so that their versions are written down as well.
+latest:  ## run the quick tests with the newest versions; those that pass are the tested ones
+	@rm -rf .latest
+	@$(MAKE) --no-print-directory VENV=.latest CONSTRAINTS= \
+	EXTRAS_test='[test,lint,bench,docs,release,dask]' test
+	@mkdir -p .ci/constraints
+	@$(MAKE) --no-print-directory VENV=.latest .latest/.tested
+
+.latest/.tested:
+	@$(PIP) freeze --exclude-editable > $(TESTED)
+	@echo 'Tested versions: $(TESTED)'
+
 lint: system $(VENV)/.lint $(VENV)/src  ## check style, types and the layers
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
 	@$(BIN)/lint-imports --no-logo --no-cache
 	@$(BIN)/mypy
 
-bench: system $(VENV)/.bench  ## measure against the alternatives (tests/benchmarks)
-	@$(PYTEST) -s --override-ini python_files='bench_*.py' tests/benchmarks
+bench: system $(VENV)/.bench  ## measure (tests/benchmarks), and write docs/benchmarks.md
+	@$(PYTEST) --override-ini python_files='bench_*.py' --page docs/benchmarks.md tests/benchmarks
 
 screenshots: system $(VENV)/.screenshots  ## draw the pictures of the documentation
 	@$(BIN)/python -m rotemina.app.shell.screenshots docs/screenshots
@@ -68,6 +83,12 @@ languages: system $(VENV)/.run  ## find what is to be translated, make resources
 	$(LUPDATE) $${folder%/}/*.py -ts resources/languages/de/$$(basename $$folder).ts || exit 1; \
 	fi; done
 	@$(LRELEASE) resources/languages/de/*.ts -qm resources/languages/de.qm
+
+viewer: $(VENV)/.python  ## take the viewer of the 3-D view from the newest package meshcat
+	@$(PIP) download --quiet --no-deps --only-binary :all: --dest build/meshcat meshcat
+	@$(BIN)/python -m zipfile -e build/meshcat/meshcat-*.whl build/meshcat
+	@cp build/meshcat/meshcat/viewer/dist/main.min.js* build/meshcat/meshcat/viewer/LICENSE \
+	resources/meshcat
 
 # The site of a later version of a theme is not this one's business, nor are its makers' notices.
 docs: system $(VENV)/.docs $(VENV)/src  ## make the site of the documentation, build/docs
@@ -88,7 +109,7 @@ bundle: system $(VENV)/.release $(VENV)/src  ## make a folder that runs without 
 	@echo build/bundle/rotemina
 
 clean:  ## remove .venv and everything else that was generated
-	rm -rf $(VENV) build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) .latest build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find app drivers plugins resources sim tests -name __pycache__ -prune -exec rm -rf {} +
 
 help:  ## list these targets
@@ -123,10 +144,10 @@ $(VENV)/.python: $(REBUILD) | system
 
 # Killed on the way, pip leaves packages that look complete: .unfinished has them made again.
 $(VENV)/.run $(VENV)/.test $(VENV)/.slow $(VENV)/.lint $(VENV)/.bench $(VENV)/.screenshots $(VENV)/.docs $(VENV)/.release: \
-$(VENV)/.%: pyproject.toml $(VENV)/.python
+$(VENV)/.%: pyproject.toml $(wildcard .ci/constraints/*.txt) $(VENV)/.python
 	@echo 'Installing RoTeMiNa into $(VENV) (the first time this takes minutes)'
 	@touch $(VENV)/.unfinished
-	@$(PIP) install --quiet --editable '.$(EXTRAS_$*)' || { rm -f $(VENV)/.unfinished; exit 1; }
+	@$(PIP) install --quiet $(CONSTRAINTS) --editable '.$(EXTRAS_$*)' || { rm -f $(VENV)/.unfinished; exit 1; }
 	@rm -f $(VENV)/.unfinished
 	@touch $@
 

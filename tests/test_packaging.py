@@ -1,15 +1,19 @@
 """An editable install hides what a wheel lacks: the packaging tables are held to the folders."""
 
+import re
 import shutil
 import subprocess
 import sys
 import tomllib
 import venv
+from contextlib import suppress
 from fnmatch import fnmatch
 from importlib import metadata
 from pathlib import Path
 
 import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 
 from rotemina.sim.effects.formulation import Effect
 
@@ -81,6 +85,36 @@ def test_the_version_is_written_once():
     assert metadata.version("rotemina") == PROJECT["version"]
     sources = [path for _, path in shipped_files() if path.suffix == ".py"]
     assert [path.name for path in sources if "__version__ =" in path.read_text("utf-8")] == []
+
+
+def test_nothing_is_installed_that_has_no_business_in_a_laboratory():
+    """Tunnels to the internet, shells and message queues came by way of meshcat once."""
+    wanted, seen = [*PROJECT["dependencies"]], set()
+    while wanted:
+        requirement = Requirement(wanted.pop())
+        name = canonicalize_name(requirement.name)
+        if name not in seen and (requirement.marker is None or requirement.marker.evaluate()):
+            seen.add(name)
+            with suppress(metadata.PackageNotFoundError):  # tells of an extra that is not asked for
+                wanted += [one for one in metadata.requires(name) or () if "extra ==" not in one]
+    assert len(seen) > 25
+    assert not seen & {"meshcat", "pyngrok", "ngrok", "ipython", "pyzmq", "jedi"}
+
+
+@pytest.mark.parametrize("file", sorted(ROOT.glob(".ci/constraints/*.txt")), ids=lambda f: f.name)
+def test_tested_versions_name_every_package_and_no_host(file):
+    lines = file.read_text("utf-8").splitlines()
+    assert [line for line in lines if not re.fullmatch(r"[\w.-]+==[\w.+]+", line)] == []
+    tested = {canonicalize_name(line.partition("==")[0]) for line in lines}
+    extras = PROJECT["optional-dependencies"]
+    kinds = [PROJECT["dependencies"], *(extras[name] for name in ("test", "lint", "bench", "docs"))]
+    named = (Requirement(one) for kind in kinds for one in kind)
+    wanted = {
+        canonicalize_name(one.name)
+        for one in named
+        if one.marker is None or one.marker.evaluate({"python_version": file.stem})
+    }
+    assert wanted - tested <= {"setuptools"}  # which comes with Python and is not listed
 
 
 @pytest.mark.slow

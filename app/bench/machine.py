@@ -1,17 +1,18 @@
 """A machine in a folder: its robot file, its records, and what is known of it."""
 
-import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from rotemina.sim.errors import InputError
+from rotemina.sim.input_files import parse_toml, read_text
 from rotemina.sim.records.metadata import parse_comment
 from rotemina.sim.records.record import Tap
 from rotemina.sim.records.source import LIMITS, open_blocks
 
 _ROBOT = "robot.toml"
+_MOST_BYTES = 1_000_000
 _TRUTH = "truth.toml"
 _ENDINGS = (".csv", ".csv.gz", ".txt", ".txt.gz")
 
@@ -124,10 +125,7 @@ def _mode(path: Path) -> str | None:
 
 
 def _truth(path: Path) -> Truth:
-    try:
-        read = tomllib.loads(path.read_text("utf-8"))
-    except (OSError, ValueError) as error:
-        raise BenchError(f"{path}: it cannot be read ({error})") from error
+    read = parse_toml(read_text(path, BenchError, _MOST_BYTES), str(path), BenchError)
     for key, value in read.items():
         allowed, advice = _KEYS.get(key, (lambda _: False, f"use {', '.join(_KEYS)}"))
         if not allowed(value):

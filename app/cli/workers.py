@@ -44,7 +44,7 @@ def workers(jobs: int | None, cluster: str | None) -> Iterator[int]:
         yield jobs or joblib.cpu_count()
         return
     try:
-        from distributed import Client
+        from distributed import Client, KilledWorker
     except ImportError as error:
         raise InputError(
             f"--cluster {cluster}: Dask is not installed; install it by "
@@ -66,19 +66,40 @@ def workers(jobs: int | None, cluster: str | None) -> Iterator[int]:
             raise InputError(
                 f"--cluster {cluster}: it has no workers; start some by dask worker {cluster}"
             ) from error
-        with joblib.parallel_config(backend=_backend()):
-            yield jobs or sum(client.ncores().values())
+        try:
+            with joblib.parallel_config(backend=_backend()):
+                yield jobs or sum(client.ncores().values())
+        except KilledWorker as error:
+            raise InputError(
+                f"--cluster: a worker of it died again and again at the same work ({error}); look "
+                "at its memory and its log"
+            ) from error
 
 
 def _backend() -> Any:
-    """Return joblib's way to the current Dask client, on which a failed submission is told.
+    """Return joblib's way to the current Dask client, on which failures of Dask's are told.
 
-    By itself joblib submits in a callback of Dask's loop, which swallows what is raised there:
-    whoever waits for the result waits for ever.
+    By itself joblib submits in a callback of Dask's loop, which swallows what is raised there, and
+    hears of no work that Dask gave up: whoever waits for the result waits for ever.
     """
     from joblib._dask import DaskDistributedBackend
 
     class Telling(DaskDistributedBackend):  # type: ignore[misc]  # joblib has no types
+        def submit(self, func: Any, callback: Any = None) -> Any:
+            def give_up(done: Any) -> None:
+                error = done.exception()
+                if error is not None and callback is not None:
+                    callback(error)
+
+            future = super().submit(func, callback)
+            future.add_done_callback(give_up)
+            return future
+
+        def retrieve_result_callback(self, out: Any) -> Any:
+            if isinstance(out, BaseException):
+                raise out
+            return super().retrieve_result_callback(out)
+
         async def _to_func_args(self, func: Any) -> Any:
             try:
                 return await super()._to_func_args(func)

@@ -51,7 +51,7 @@ class Panels(MutableMapping[str, Panel]):
             self._under_way.add(name)
             try:
                 panel = self.made[name] = self.kinds[name](self._workbench)
-            except (Exception, SystemExit) as error:  # whatever it raises, the window goes on
+            except BaseException as error:  # whatever it raises, the window goes on
                 logger.exception("panel %s cannot be made", name)
                 del self.kinds[name]
                 self.failed(name, f"{type(error).__name__}: {error}")

@@ -19,6 +19,7 @@ PERIOD_S = 0.02
 STALL_S = 0.25
 _OVERDUE_S = 0.1  # from which on it is looked at what the thread does
 _LOOKS_S = 0.05  # between two looks at whether a beat is overdue
+_TOLD_EVERY_S = 60.0  # a machine that is always late must not fill the log
 _MOST_STALLS = 100  # that are remembered
 _DEPTH = 12  # calls that are named
 _UNSEEN = "what it was cannot be told: the interpreter was held"
@@ -36,7 +37,7 @@ class LoopWatch(QObject):
     """Measures how late events reach the window's thread.
 
     A timer beats on that thread; a thread of its own sees when a beat is overdue, and looks which
-    calls the window's thread is in. Each stall is logged with these.
+    calls the window's thread is in. Stalls are logged with these, one a minute at most.
 
     Attributes
     ----------
@@ -52,6 +53,8 @@ class LoopWatch(QObject):
         self._measured = Latenesses(PERIOD_S)
         self.stalls: deque[Stall] = deque(maxlen=_MOST_STALLS)
         self._last_s = clock()
+        self._told_s = float("-inf")
+        self._untold: list[float] = []  # how long stalls lasted that are not in the log, s
         # The beat that is overdue, and the calls that were seen then; written by the other thread.
         self._seen: tuple[float, tuple[str, ...]] = (0.0, ())
         self._watched = threading.get_ident()
@@ -97,11 +100,21 @@ class LoopWatch(QObject):
             overdue_s, calls = self._seen
             stall = Stall(late_s, calls if overdue_s == before_s else (_UNSEEN,))
             self.stalls.append(stall)
-            logger.warning(
-                "the window did not react for %.2f s; it was in\n%s",
-                stall.lasted_s,
-                "\n".join(stall.calls),
-            )
+            if now_s - self._told_s < _TOLD_EVERY_S:
+                self._untold.append(stall.lasted_s)
+            else:
+                self._tell(stall)
+                self._told_s, self._untold = now_s, []
+
+    def _tell(self, stall: Stall) -> None:
+        more = ""
+        if self._untold:
+            most = max(self._untold)
+            more = f" (and {len(self._untold)} times since the last word, up to {most:.2f} s)"
+        calls = "\n".join(stall.calls)
+        logger.warning(
+            "the window did not react for %.2f s%s; it was in\n%s", stall.lasted_s, more, calls
+        )
 
     def look(self) -> None:
         """See, from any thread, what the window's thread does if its beat is overdue."""

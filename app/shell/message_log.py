@@ -88,7 +88,8 @@ class MessageLog(logging.Handler):
 
     def _add(self, level: Level, source: str, text: str, page: str) -> None:
         if len(text) > LONGEST:
-            text = f"{text[:LONGEST]} …"
+            half = LONGEST // 2  # the end of a traceback says what happened
+            text = f"{text[:half]} … {text[-half:]}"
         message = Message(self._clock(), level, source, text, page)
         with self._guard:
             self._messages.append(message)

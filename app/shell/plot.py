@@ -26,6 +26,7 @@ class SignalPlot(pg.PlotWidget):
         self._curves: dict[str, pg.PlotCurveItem] = {}
         self._pens: dict[str, tuple[str, int]] = {}
         self._scale: tuple[float, float] | None = None
+        self._stale = False
         self.setMenuEnabled(False)
         self.hideButtons()
         self.setAntialiasing(False)
@@ -59,6 +60,13 @@ class SignalPlot(pg.PlotWidget):
             axis.setTextPen(QColor(theme.quiet))
         for name in self._curves:
             self._colour_curve(name)
+
+    def set_stale(self, stale: bool) -> None:
+        """Draw all curves in grey, or in their colours again."""
+        if stale != self._stale:
+            self._stale = stale
+            for name in self._curves:
+                self._colour_curve(name)
 
     def show_times(self, shown: bool) -> None:
         """Show or hide the numbers of the time axis."""
@@ -100,4 +108,5 @@ class SignalPlot(pg.PlotWidget):
 
     def _colour_curve(self, name: str) -> None:
         role, width = self._pens[name]
+        role = "quiet" if self._stale else role
         self._curves[name].setPen(pg.mkPen(QColor(getattr(self._theme, role)), width=width))

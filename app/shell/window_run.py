@@ -1,5 +1,6 @@
 """The window on a display, until its user closes it."""
 
+import atexit
 import gc
 import signal
 import sys
@@ -15,15 +16,16 @@ from PySide6.QtWidgets import QApplication
 
 from rotemina.app.motion.heartbeat import PERIOD_S
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.plugin_kit.panel_watch import PanelWatch
 from rotemina.app.settings import Settings
 from rotemina.app.shell import language
 from rotemina.app.shell import theme as themes
 from rotemina.app.shell.allocator import give_memory_back
+from rotemina.app.shell.exits import exits_refused
 from rotemina.app.shell.layouts import OPERATE
 from rotemina.app.shell.main_window import MainWindow
+from rotemina.app.shell.panel_watch import PanelWatch
 from rotemina.app.shell.preloading import preload
-from rotemina.app.shell.workbench import Workbench
+from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.watchdog.watched import Watched
 
 DEFAULT_THEME = "dark"
@@ -56,14 +58,49 @@ def make_window(
     language.use(application, language.chosen(settings))  # before anything is made that speaks
     theme = themes.theme_named(settings.get("window.theme", DEFAULT_THEME))
     themes.apply(application, theme)
-    return MainWindow(Workbench(session, settings, theme, folder))
+    window = MainWindow(Workbench(session, settings, theme, folder))
+    _tell_of(settings, window.workbench)
+    return window
+
+
+def _tell_of(settings: Settings, workbench: Workbench) -> None:
+    """Tell of preferences that could not be read, and where they are kept."""
+    if settings.aside is not None:
+        text = language.translate(
+            "shell", "The preferences begin anew: {fault}. That file is kept as {path}."
+        ).format(fault=settings.fault, path=settings.aside)
+    elif settings.fault:
+        text = language.translate(
+            "shell",
+            "The preferences begin anew, and none is kept: {fault}. Move that file away.",
+        ).format(fault=settings.fault)
+    else:
+        return
+    workbench.notify(Level.WARNING, text, about="window.md")
 
 
 def run(session: MotionSession, settings: Settings) -> int:
     """Show the window and run it; return the exit status."""
+    atexit.register(session.stop, "the program ends")  # also where a plugin's SystemExit ends it
+    try:
+        with exits_refused():
+            return _run(session, settings)
+    except BaseException:
+        session.stop("the program ends")
+        raise
+    finally:
+        atexit.unregister(session.stop)
+
+
+def _run(session: MotionSession, settings: Settings) -> int:
     give_memory_back()
     sys.setswitchinterval(SWITCH_S)
     application = make_application()
+    # Only asked for here: a handler may interrupt anything, a lock that closing needs as well.
+    for name in {"SIGINT", "SIGTERM", "SIGHUP"} & signal.Signals.__members__.keys():
+        signal.signal(
+            signal.Signals[name], lambda *_: QTimer.singleShot(0, application.closeAllWindows)
+        )
     window = make_window(session, settings)
     panels = window.panels
     watch = PanelWatch(window, panels, window.docks, window.workbench.notify, panels.kinds)
@@ -93,9 +130,6 @@ def run(session: MotionSession, settings: Settings) -> int:
     window.workbench.closing.connect(session.screen.end)  # what closing waits for is no hang
     watched.start()
     window.late_panels.done.connect(window.loop_watch.restart)  # what it measures is use, no start
-    # Only asked for here: a handler may interrupt anything, a lock that closing needs as well.
-    for name in {"SIGINT", "SIGTERM", "SIGHUP"} & signal.Signals.__members__.keys():
-        signal.signal(signal.Signals[name], lambda *_: QTimer.singleShot(0, window.close))
     window.workbench.start()
     # Python handles signals only between its own instructions: this wakes it now and then.
     wake = QTimer(application, interval=200)

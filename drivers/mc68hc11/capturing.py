@@ -59,6 +59,7 @@ class Capturing:
         self._early: list[Report] = []
         self._next = self._had = 0
         self._told = False
+        self._last: tuple[float, float] | None = None  # number and time, s, of the latest taken
 
     @property
     def mask(self) -> int:
@@ -140,7 +141,7 @@ class Capturing:
         self._told = self.over
         begin_us = float(self._begin_us or 0)
         index = np.array([number for number, _ in received], dtype=np.float64)
-        time_s = self._on_clock(begin_us + index * self._period_us)
+        time_s = self._in_order(index, self._on_clock(begin_us + index * self._period_us))
         measured = np.array(
             [
                 [axis.value(at) for axis, at in zip(self._axes, row, strict=True)]
@@ -151,3 +152,14 @@ class Capturing:
         return Captured(
             self._names, time_s, measured[:, columns], self._next - self._had, self.over
         )
+
+    def _in_order(self, index: FloatArray, time_s: FloatArray) -> FloatArray:
+        """Return times (n,), later where a better estimate of the clock would turn them back."""
+        if not len(index):
+            return time_s
+        if self._last is not None:
+            number, last_s = self._last
+            earliest_s = last_s + 0.5e-6 * self._period_us * (index[0] - number)
+            time_s = time_s + max(earliest_s - time_s[0], 0.0)
+        self._last = float(index[-1]), float(time_s[-1])
+        return time_s

@@ -21,7 +21,8 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.display import stages
 from rotemina.app.motion.history import LiveWindow
-from rotemina.app.panel import Area, Panel
+from rotemina.app.motion.state import SessionState
+from rotemina.app.panel import STALE_S, Area, Panel
 from rotemina.app.shell.controls import plain_tip
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
@@ -83,11 +84,15 @@ class PlotsPanel(Panel):
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(3)
         column.addLayout(self._header())
-        column.addWidget(self._legend)
+        below = QHBoxLayout()
+        below.addWidget(self._legend, 1)
+        below.addWidget(self.age)
+        column.addLayout(below)
         column.addWidget(self.area_of_plots, 1)
         self._waiting: list[Sequence[AxisPlot]] = []  # to be drawn as the others are already
         self._next = QTimer(self, singleShot=True, interval=0)
         self._next.timeout.connect(self._draw_next)
+        workbench.shown.connect(self._show_age)
         workbench.shown.connect(lambda _: self._refresh_by_parts())
         workbench.replaying.changed.connect(self._begin_anew)
         workbench.theme_changed.connect(self._use_theme)
@@ -105,6 +110,17 @@ class PlotsPanel(Panel):
             plots = list(self.plots.values())
             self._waiting = [plots[at::_PARTS] for at in range(min(_PARTS, len(plots)))]
             self._draw_next()
+
+    def _show_age(self, state: SessionState) -> None:
+        """Turn the curves grey and say how old they are while no new readings come."""
+        age_s = state.age_s
+        stale = age_s is not None and age_s > STALE_S
+        if age_s is not None and stale:
+            text = translate("plots", "The newest reading is {n} s old")
+            self.age.setText(text.format(n=max(1, round(age_s))))
+        self.age.setVisible(stale)
+        for plot in self.plots.values():
+            plot.plot.set_stale(stale)
 
     def _draw_next(self) -> None:
         if self._waiting and self._picture is not None:
@@ -216,6 +232,9 @@ class PlotsPanel(Panel):
         self._legend = QLabel()
         self._legend.setTextFormat(Qt.TextFormat.RichText)
         self._legend.setMinimumWidth(1)  # it is cut before the window is made wider
+        self.age = QLabel()
+        self.age.setProperty("tone", "warning")
+        self.age.hide()
         self._use_theme(self.workbench.theme)
         row = QHBoxLayout()
         row.setSpacing(4)

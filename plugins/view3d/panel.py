@@ -44,8 +44,8 @@ class View3dPanel(Panel):
         self.robot_scene, self._unfit = scene_of(workbench.robot, workbench.theme)
         self.serving = None if self.robot_scene is None else Serving(self.robot_scene.scene)
         self._view: WebProcess | None = None
-        self._own_window = False
-        self._busy = False
+        self.own_window = False
+        self.busy = False
         self._make_widgets()
         self._lay_out()
         self.show_state()
@@ -74,7 +74,7 @@ class View3dPanel(Panel):
         self.stack.setCurrentIndex(0)
         if view is not None:
             view.release(wait)
-        self._busy = self._own_window = False
+        self.busy = self.own_window = False
         self.show_state()
 
     def look(self, view: View) -> None:
@@ -86,7 +86,7 @@ class View3dPanel(Panel):
         scene, server = self.robot_scene, self.serving and self.serving.server
         if scene is None or server is None:
             return
-        hidden = self._view is not None and not self._own_window and not self.in_sight
+        hidden = self._view is not None and not self.own_window and not self.in_sight
         out_of_sight = 1 if hidden else 0
         if server.watching <= out_of_sight:
             return
@@ -101,21 +101,21 @@ class View3dPanel(Panel):
 
     def _serve(self, then: Callable[[], None]) -> None:
         """Start the server in the background, if there is none yet, and go on."""
-        if self.serving is None or self._busy:
+        if self.serving is None or self.busy:
             return
         if self.serving.server is not None:
             then()
             return
-        self._busy = True
+        self.busy = True
         self.show_state()
 
         def done(_: None) -> None:
-            self._busy = False
+            self.busy = False
             then()
             self.show_state()
 
         def failed() -> None:
-            self._busy = False
+            self.busy = False
             self.show_state()
 
         self.workbench.work(
@@ -126,7 +126,7 @@ class View3dPanel(Panel):
         server = self.serving and self.serving.server
         if server is None or self._view is not None:
             return
-        self._busy = True
+        self.busy = True
         self._view = view = WebProcess(self)
         view.made.connect(self._adopt)
         view.loaded.connect(self._came)
@@ -141,10 +141,10 @@ class View3dPanel(Panel):
             widget.setAccessibleName(translate("view3d", "The robot in three dimensions"))
             self.stack.addWidget(widget)
             self.stack.setCurrentWidget(widget)
-        self._own_window = widget is None
+        self.own_window = widget is None
 
     def _came(self) -> None:
-        self._busy = False
+        self.busy = False
         self.show_state()
 
     def _ended(self, why: str) -> None:
@@ -177,12 +177,12 @@ class View3dPanel(Panel):
     def show_state(self, trouble: str = "") -> None:
         """Show what can be done now, and why not."""
         unfit = embedding.why_not(os.environ, embedding.user_number())
-        busy = translate("view3d", "the view is being opened") if self._busy else None
+        busy = translate("view3d", "the view is being opened") if self.busy else None
         served = self.serving is not None and self.serving.server is not None
         lines = [self._unfit or translate("view3d", words.INTRODUCTION)]
-        if self._busy:
+        if self.busy:
             lines.append(translate("view3d", words.STARTING))
-        elif self._own_window:
+        elif self.own_window:
             lines.append(translate("view3d", words.OWN_WINDOW))
         elif self._unfit is None:
             lines += [unfit or "", trouble]

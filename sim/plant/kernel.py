@@ -12,6 +12,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.effects.step import call_step
 from rotemina.sim.plant.machine import Machine, TableArray
+from rotemina.sim.plant.unchecked import item
 
 # How a loop obtains its speed.
 NO_LOOP, STATE_VELOCITY, BACKWARD_VELOCITY = 0, 1, 2
@@ -126,7 +127,7 @@ def _outputs(
         one = output[o]
         total = one.through * u[one.source] if one.through != 0.0 else 0.0
         for term in range(one.begin, one.end):
-            total += weight[term] * x[state[term]]
+            total += item(weight, term) * item(x, item(state, term))
         shown[o] = total
 
 
@@ -215,7 +216,7 @@ def _forces(
                 numbers, one.numbers_at, memory, one.memory_at,
             )  # fmt: skip
             for row in range(n):
-                fresh[first + row] += into[column + row * wide] * force
+                fresh[first + row] += item(into, column + row * wide) * force
 
 
 @numba.njit(cache=True, error_model="numpy", inline="always")
@@ -243,15 +244,15 @@ def _linear(
     for row in range(n):
         # Inputs first: they do not wait for the step before, so the processor can run ahead.
         place = at + row * (2 * m + 1)
-        total = into[place + m]
+        total = item(into, place + m)
         for c in range(m):
-            total += into[place + c] * u[member[begin + c]]
+            total += item(into, place + c) * item(u, item(member, begin + c))
         if force.shape[0] > 0:
             for c in range(m):
-                total += into[place + m + 1 + c] * force[member[begin + c]]
+                total += item(into, place + m + 1 + c) * item(force, item(member, begin + c))
         place = own + row * n
         for c in range(n):
-            total += within[place + c] * x[first + c]
+            total += item(within, place + c) * item(x, first + c)
         fresh[first + row] = total
 
 
@@ -406,7 +407,7 @@ def run(
     shown, fresh, no_force = np.zeros(output.shape[0]), np.empty(x.shape[0]), np.zeros(0)
     most = np.zeros(x.shape[0])
     before = np.full(axis.shape[0], -1, dtype=np.int64)
-    static, forces, followed = _kinds(axis)
+    static, forces, followed, inside = _kinds(axis)
     held = not axis["inner_input"].any()
     t, k = start_s, first - 1
     if first > 0:  # the sample before was taken in the piece before: its position is shown again
@@ -433,7 +434,7 @@ def run(
         force = forced[k - first + 1] if forced.shape[0] > 0 else no_force
         still = 0
         for part in range(parts[j]):
-            if followed and (part > 0 or (s > 0 and not taking)):
+            if inside if part > 0 else followed and s > 0 and not taking:
                 _follow(
                     axis, function, numbers, memory, seen, output, state, weight, x, u, shown, t,
                     variates,
@@ -466,15 +467,21 @@ def _rests(fresh: FloatArray, x: FloatArray, most: FloatArray, part: int) -> boo
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _kinds(axis: TableArray) -> tuple[bool, bool, bool]:
-    """Return whether any axis is static, has forces of effects, is followed between samples."""
-    static, forces, followed = False, False, False
+def _kinds(axis: TableArray) -> tuple[bool, bool, bool, bool]:
+    """Return whether any axis is static, has forces of effects, is followed between samples.
+
+    Last whether it is so at the steps inside a segment as well, where no held input changes.
+    """
+    static, forces, followed, inside = False, False, False, False
     for i in range(axis.shape[0]):
-        static |= axis[i].place < 0
-        forces |= axis[i].force < axis[i].motion
-        followed |= axis[i].inner_position != 0
-        followed |= axis[i].electronics < axis[i].force  # these know the position
-    return static, forces, followed
+        own = axis[i]
+        informed = own.electronics < own.force  # these know the position
+        static |= own.place < 0
+        forces |= own.force < own.motion
+        followed |= own.inner_position != 0 or informed
+        inside |= own.inner_position != 0
+        inside |= informed and (own.inner_input != 0 or own.place < 0)
+    return static, forces, followed, inside
 
 
 @numba.njit(cache=True, error_model="numpy")

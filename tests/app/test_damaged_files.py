@@ -3,28 +3,40 @@
 import gzip
 import json
 import random
+from io import BytesIO
 
 import cv2
 import numpy as np
 import pytest
 
+from rotemina.app.bench.machine import machines
+from rotemina.app.blind.cases import FolderCases
+from rotemina.app.blind.classifier import classifier_for
+from rotemina.app.calibration.files import FORMAT as SENSOR_FILES
 from rotemina.app.calibration.health_book import HealthBook
 from rotemina.app.cli.main import main
+from rotemina.app.microscope.calibration_file import file_of, load
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.run_log import PenetrationRun, RunLog, Verdict
 from rotemina.app.motion.recording.merging import recover
 from rotemina.app.motion.recording.reading import Recording
 from rotemina.app.motion.recording.writer import RecordingWriter
 from rotemina.app.motion.saved_positions import FOLDER, SavedPositions
+from rotemina.app.motion.teleoperation.calibration import CalibrationFolder
 from rotemina.app.motion.teleoperation.profile import load_profile
 from rotemina.app.motion.teleoperation.scales import Scales
 from rotemina.app.recorded_events import happenings
 from rotemina.app.settings import Settings
 from rotemina.drivers.cameras.errors import CameraLostError
 from rotemina.drivers.cameras.sequence import ImageSequences
+from rotemina.drivers.inputs.device import InputIdentity
 from rotemina.drivers.inputs.script import Script
 from rotemina.drivers.samples import Samples
 from rotemina.plugins.gap.blind_result import BlindResult
+from rotemina.sim.compensate import anfis
+from rotemina.sim.compensate.file import Provenance, read_trained, write_trained
+from rotemina.sim.compensate.samples import Samples as Compared
+from rotemina.sim.compensate.training import train
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap.reading import read_document
 from rotemina.sim.plugin_import import _kept
@@ -32,7 +44,7 @@ from rotemina.sim.records.reading import read_record
 from rotemina.sim.robot.file import load_robot, robot_file_text
 from rotemina.sim.tuning.result import load_tuning
 
-MUTATIONS = 400  # of each of 19 kinds of file
+MUTATIONS = 2000  # of each kind of file
 ROBOT = load_robot("rotemina")
 
 RECORD = "# mode: open_loop\nt [s],x.cmd [um],x.meas [um]\n" + "".join(
@@ -70,6 +82,64 @@ DIAGNOSIS = {
         "effects": [{"axis": "zn", "effect": "creep", "parameters": {"rate": 0.02}}],
     },
 }
+TRUTH = 'causes = [["hysteresis", "creep"]]\nalso = ["friction"]\ntap = "meas"\nto_beat = 0.5\n'
+LABELS = {
+    "case": {
+        "verdict": "explained",
+        "effects": [{"axis": "zn", "effect": "creep"}],
+        "floors": 3.0,
+    }
+}
+SENSOR = """robot = "RoTeMiNa"
+axis = "zn"
+unit = "m"
+date = "2024-01-01T10:00:00+00:00"
+travel = [0.0, 65e-6]
+runs = 3
+before_rms = 1e-7
+after_rms = 1e-9
+notes = ["warm"]
+[sensor]
+low = 0.0
+high = 65e-6
+offset = 1e-8
+gain_error = 0.01
+bend = [1e-9, 2e-9]
+lag = "delay"
+lag_s = 1e-4
+[[figures]]
+name = "gain_error"
+value = 0.01
+half_width = 0.001
+unit = "1"
+[[sources]]
+name = "a.csv"
+digest = "0123456789abcdef"
+"""
+PICTURES = """camera = "simulated:1"
+objective = "20x"
+[view]
+left = 0
+top = 0
+width = 1300
+height = 1030
+[micro]
+date = "2024-01-01T10:00:00+00:00"
+matrix = [[3e6, 1e3], [-1e3, 3e6]]
+covariance = [[1.0, 0, 0, 0], [0, 1.0, 0, 0], [0, 0, 1.0, 0], [0, 0, 0, 1.0]]
+tip_m = [0.0, 0.0, 0.01]
+tip_px = [650.0, 515.0]
+residual_px = 0.1
+"""
+STICK = """device = "046d:c215"
+[axes."axis 1"]
+low = -0.9
+centre = 0.0
+high = 0.95
+dead_zone = 0.02
+expo = 0.3
+"""
+DEVICE = InputIdentity("046d:c215", "stick", "somebody")
 CARD = {"version": 1, "date": "2024-01-01", "record": "a.csv", "figures": [["a", 1.0, 0.1, "m"]]}
 RUN = PenetrationRun(
     started="2024-01-01T10:00:00+00:00",
@@ -108,6 +178,25 @@ def tuned(folder):
     short = ["--generations", "6", "--population", "12", "--jobs", "1"]
     assert main(["tune", "--axis", "zn", *short, "-o", str(out)]) == 0
     return out.read_bytes()
+
+
+def trained(folder):
+    """An inverse that is computed in an instant, as ``compensate train`` writes it."""
+    rng = np.random.default_rng(0)
+    turns = np.linspace(0.0, 40.0, 3000)
+    command = 65e-6 * (0.5 - 0.4 * np.linspace(1.0, 0.2, 3000) * np.cos(turns))
+    measured = 0.9 * command + 1e-9 * rng.standard_normal(3000)
+    samples = Compared("made", "zn", "m", 1e-3, command, measured)
+    settings = anfis.Settings(memberships=3, plays=(), epochs=2, patience=2)
+    about = Provenance(robot="RoTeMiNa", trained_on=[], held_out=[], seed=None, versions={})
+    write_trained(folder / "made.json", train(ROBOT, [samples], settings=settings), about)
+    return (folder / "made.json").read_bytes()
+
+
+def classified(_):
+    file = BytesIO()
+    np.savez(file, rows=np.arange(12.0).reshape(3, 4), names=np.array(["a", "b", "c"]))
+    return file.getvalue()
 
 
 def read_recording(path):
@@ -151,6 +240,33 @@ def read_cards(path):
     book.cards("x")
 
 
+def read_truth(path):
+    for name in ("robot.toml", "train_1.csv"):
+        text = robot_file_text("rotemina") if name == "robot.toml" else RECORD
+        (path.parent / name).write_text(text)
+    machines([path.parent])
+
+
+def read_labels(path):
+    (path.parent / "case").mkdir(exist_ok=True)
+    (path.parent / "case" / "train_1.csv").write_text(RECORD)
+    cases = FolderCases(path.parent, path, "rotemina")
+    with cases.sealed("case", "salt") as case:
+        cases.label("case", "salt", case.seal)
+
+
+def read_stick(path):
+    folder = CalibrationFolder(path.parent)
+    path.rename(folder.path(DEVICE))
+    folder.read(DEVICE)
+
+
+def read_pictures(path):
+    path.rename(file_of(path.parent, "simulated:1", "20x"))
+    found = load(path.parent, "simulated:1", "20x")
+    found.stage("micro").pixel_of(np.zeros(3))
+
+
 def read_settings(path):
     settings = Settings(path)
     for key, default in (("a", 1.0), ("b", "text"), ("c", False)):
@@ -173,6 +289,13 @@ READERS = {
     "penetration.toml": (PenetrationParameters().text(), PenetrationParameters.load),
     "runs.jsonl": (RUN.line() + "\n", lambda path: RunLog(path).read()),
     "cards.jsonl": (json.dumps(CARD) + "\n", read_cards),
+    "inverse.json": (trained, read_trained),
+    "sensor.toml": (SENSOR, lambda path: SENSOR_FILES.load(path).applied),
+    "pictures.toml": (PICTURES, read_pictures),
+    "stick.toml": (STICK, read_stick),
+    "truth.toml": (TRUTH, read_truth),
+    "labels.json": (json.dumps(LABELS), read_labels),
+    "classifier.npz": (classified, lambda path: classifier_for(ROBOT, path)),
     "tuning.toml": (tuned, load_tuning),
     "diagnosis.json": (json.dumps(DIAGNOSIS), lambda path: read_document(path).corrected),
     "blind.json": (json.dumps(BLIND), BlindResult.read),

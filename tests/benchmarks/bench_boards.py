@@ -37,6 +37,7 @@ WITH_WINDOW = 60
 SECONDS, CAPTURE_HZ, CAPTURED = 20.0, 2000.0, 8000
 HEARD = re.compile(r"^([\d.]+) s: board (\d): stop heard$")
 BEGAN = re.compile(r"^0.0000 s is ([\d.]+) s of")
+QUICK = {"STOPS": 2, "WITH_WINDOW": 2, "SECONDS": 2.0, "CAPTURED": 200}
 
 
 class Boards:

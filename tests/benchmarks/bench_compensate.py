@@ -4,6 +4,7 @@ from time import perf_counter
 
 import numpy as np
 
+from rotemina.sim.compensate.anfis import Settings
 from rotemina.sim.compensate.excitation import excitation
 from rotemina.sim.compensate.inverse import Inverse
 from rotemina.sim.compensate.samples import samples_of
@@ -13,7 +14,8 @@ from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.simulation.simulation import simulate
 
 LIMIT_S = 20e-6
-SAMPLES, ROUNDS = 5000, 7
+SAMPLES, ROUNDS, EPOCHS = 5000, 7, Settings().epochs
+QUICK = {"SAMPLES": 50, "ROUNDS": 1, "EPOCHS": 1}
 
 
 def test_a_sample_takes_less_than_the_limit() -> None:
@@ -25,7 +27,7 @@ def test_a_sample_takes_less_than_the_limit() -> None:
     rng = np.random.default_rng(0)
     record = simulate(robot, effects, excitation(robot, "zn", rng), rng)
     begin_s = perf_counter()
-    trained = train(robot, [samples_of(robot, "zn", record)])
+    trained = train(robot, [samples_of(robot, "zn", record)], settings=Settings(epochs=EPOCHS))
     rows = len(record.time_s)
     print(f"\ntraining on {rows} rows, all kinds: {perf_counter() - begin_s:.1f} s")
     wanted = 32e-6 + 25e-6 * np.sin(np.linspace(0.0, 60.0, SAMPLES))

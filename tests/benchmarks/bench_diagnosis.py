@@ -30,6 +30,7 @@ CASES = {
     ),
     "one loop": ([AxisEffect(axis="thx", id="hysteresis")], 60.0),
 }
+QUICK = {"TURNS": 1, "RATE_HZ": 100.0}
 
 
 def commands(number):
@@ -50,7 +51,7 @@ def commands(number):
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_a_diagnosis_beside_the_simulation_of_its_records(case, tmp_path, capsys):
+def test_a_diagnosis_beside_the_simulation_of_its_records(case, tmp_path):
     effects, limit = CASES[case]
     asked = [commands(number) for number in range(3)]
     names = []
@@ -79,9 +80,8 @@ def test_a_diagnosis_beside_the_simulation_of_its_records(case, tmp_path, capsys
         rows.append(time.perf_counter() - begin)
         ratios.append(rows[-1] / simulated)
         peaks.append(usage.ru_maxrss / 2**20)
-    with capsys.disabled():
-        print(
-            f"\n{case}: {median(rows):.1f} s ({min(rows):.1f} to {max(rows):.1f}, {TURNS} runs), "
-            f"limit {limit:.0f} s; {median(ratios):.0f} times the simulation of its records; "
-            f"{max(peaks):.2f} GB, limit 2 GB"
-        )
+    print(
+        f"\n{case}: {median(rows):.1f} s ({min(rows):.1f} to {max(rows):.1f}, {TURNS} runs), "
+        f"limit {limit:.0f} s; {median(ratios):.0f} times the simulation of its records; "
+        f"{max(peaks):.2f} GB, limit 2 GB"
+    )

@@ -22,6 +22,8 @@ from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.plate import Plate
 
 FINE = 440  # divisions of a turn
+REPEATS, FRAMES = 3, 100
+QUICK = {"FINE": 60, "REPEATS": 1, "FRAMES": 2}
 
 
 def best_of(repeats, work):
@@ -35,8 +37,8 @@ def best_of(repeats, work):
 
 def test_default_mesh():
     with threadpool_limits(1):
-        solve_s, solutions = best_of(3, lambda: solve(hold(Plate())))
-        modes_s, _ = best_of(3, lambda: eigenmodes(solutions.held, 0.04, 10))
+        solve_s, solutions = best_of(REPEATS, lambda: solve(hold(Plate())))
+        modes_s, _ = best_of(REPEATS, lambda: eigenmodes(solutions.held, 0.04, 10))
     print(f"\ndefault mesh, {solutions.unknowns} unknowns: solve {solve_s:.2f} s (bound 2)")
     print(f"ten modes: {modes_s:.2f} s (bound 5)")
     assert solve_s < 2.0
@@ -60,7 +62,7 @@ def test_superposition():
     def superpose():
         return deflection(solutions, pose), von_mises(surface_stress(solutions, pose))
 
-    each_s, _ = best_of(50, superpose)
+    each_s, _ = best_of(FRAMES // 2, superpose)
     print(f"\none pose from unit solutions: {1e3 * each_s:.2f} ms")
     assert each_s < 0.01
 
@@ -81,11 +83,11 @@ def test_slider_frames(qtbot):
         canvas.repaint()
         return pose_lines(answer, pose)
 
-    shares = iter(np.linspace(0.0, 1.0, 101))
+    shares = iter(np.linspace(0.0, 1.0, FRAMES + 1))
     frame()
     begin, used = time.perf_counter(), time.process_time()
-    for _ in range(100):
+    for _ in range(FRAMES):
         frame()
-    each_s, used_s = (time.perf_counter() - begin) / 100, (time.process_time() - used) / 100
+    each_s, used_s = (time.perf_counter() - begin) / FRAMES, (time.process_time() - used) / FRAMES
     print(f"\na slider's frame: {1 / each_s:.0f} frames/s (20), {1e3 * used_s:.1f} ms of one core")
     assert 1 / each_s >= 20.0

@@ -30,6 +30,7 @@ ONE_TURN = "pandas, one turn"
 
 MOST_TIMES_THE_FASTEST = 2.0
 MOST_TIMES_THE_ARRAY = 5.0
+QUICK = {"ROWS": 1000, "TURNS": 1}
 
 MEMORY_PROBE = """
 import sys

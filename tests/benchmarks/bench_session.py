@@ -30,6 +30,7 @@ MOST_LATE_S = 2e-3
 MOST_LOAD = 0.15
 STOPS = 20
 PATH_ROWS, CALLS = 1_500_000, 5000
+QUICK = {"SECONDS": 1.0, "STOPS": 1, "PATH_ROWS": 10_000, "CALLS": 50}
 
 
 class Timed(Simulator):

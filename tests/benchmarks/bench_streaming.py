@@ -24,6 +24,7 @@ RATE_HZ = 1000
 DURATIONS_S = (600, 3600)
 LIMIT_MB = 500.0
 MOST_GROWTH = 1.1  # of the peak, from the shortest to the longest
+QUICK = {"DURATIONS_S": (2, 4)}
 
 EFFECTS = """
 [[axis.thx.effect]]

@@ -26,16 +26,17 @@ from rotemina.sim.tuning.scenario import step_of
 from rotemina.sim.tuning.search import SearchSettings, generations
 
 RATE_HZ, H = 5000.0, 2e-4
-LONGEST_S, CORES = 60.0, 2
+LONGEST_S, CORES, GENERATIONS = 60.0, 2, 50
 HYSTERESIS = AxisEffect(axis="zn", id="hysteresis", parameters={"width": 0.12 * 65e-6})
 CREEP = AxisEffect(axis="zn", id="creep", parameters={"rate": 0.02})
 ROBOT = replace(load_robot("rotemina"), effects=(HYSTERESIS, CREEP))
+QUICK = {"GENERATIONS": 2}
 
 
 def test_a_search_and_what_it_recommends() -> None:
     problem = TuningProblem(ROBOT, "zn", RATE_HZ)
     problem.evaluate(problem.gains_of([0.5, 0.05, 0.1, 0.9, 0.8, 0.5]))  # loads what is compiled
-    settings = SearchSettings()
+    settings = SearchSettings(generations=GENERATIONS)
     begin_s, busy_s = time.perf_counter(), time.process_time()
     with ThreadPoolExecutor(CORES) as pool:
         *_, last = generations(problem, settings, pool.map)

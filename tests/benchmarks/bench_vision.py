@@ -26,6 +26,8 @@ UPRIGHT = np.array([0.0, 0.0, 1.0])
 OPTICS = Optics(rotation_rad=0.3, skew_rad=0.01, mirrored=True)
 PIN = Pin(approach_rad=np.pi / 6)
 CELL = Cell((-5e-6, -3e-6, -16e-6))
+FITS, FRAMES, STEPS, MOUNTINGS = 100, 40, 1000, 20
+QUICK = {"FITS": 3, "FRAMES": 2, "STEPS": 20, "MOUNTINGS": 2}
 
 
 @pytest.fixture(autouse=True)
@@ -60,11 +62,11 @@ def timed(call):
 
 def test_tip_at_distances_from_focus():
     bench = Bench()
-    print("\ntip, of 100 fits each, started within 1 px")
+    print(f"\ntip, of {FITS} fits each, started within 1 px")
     print("from focus  miss rms  worst  told   depth rms  told   time")
     for depth in (0.0, 3e-6, -3e-6, 6e-6, -6e-6, 10e-6, -10e-6, 20e-6, -20e-6):
         rows, lost = [], 0
-        for _ in range(100):
+        for _ in range(FITS):
             tip_m = np.append(bench.rng.uniform(-100e-6, 100e-6, 2), 0.0)
             truth, image = bench.optics.pixel_of(tip_m), bench.image(tip_m, -depth)
             start = truth + bench.rng.uniform(-1.0, 1.0, 2)
@@ -89,14 +91,14 @@ def test_tip_at_distances_from_focus():
 
 def test_tip_in_a_whole_frame():
     bench, times, found = Bench(), [], 0
-    for _ in range(40):
+    for _ in range(FRAMES):
         tip_m = np.append(bench.rng.uniform(-120e-6, 120e-6, 2), bench.rng.uniform(-5e-6, 5e-6))
         image = bench.image(tip_m)
         fit, took_s = timed(lambda i=image: find_tip(i, bench.pipette))
         times.append(took_s)
         found += bool(np.linalg.norm(fit.pixel - bench.optics.pixel_of(tip_m)) < 0.5)
-    print(f"\nwhole frame: {found} of 40 tips found, {1e3 * np.median(times):.0f} ms each")
-    assert found == 40
+    print(f"\nwhole frame: {found} of {FRAMES} tips found, {1e3 * np.median(times):.0f} ms each")
+    assert found == FRAMES
 
 
 @pytest.mark.parametrize(
@@ -107,7 +109,7 @@ def test_tip_in_a_whole_frame():
 def test_track_through_a_penetration(known, told):
     """The pin comes down upright, so that by kinematics its tip stays where it is seen."""
     bench = Bench(CELL)
-    share = np.linspace(0.0, 1.0, 1000)
+    share = np.linspace(0.0, 1.0, STEPS)
     deep = np.interp(share, [0.0, 0.05, 0.4, 0.5, 0.75, 1.0], [0.0, 0.0, 8.0, 20.0, 20.0, 0.0])
     focus_m = float(bench.optics.depth_of(np.array(CELL.centre_m)))
     away = np.array([5e-3, 0.0, 0.0])
@@ -131,7 +133,7 @@ def test_track_through_a_penetration(known, told):
     table = np.array(rows)
     rms = np.sqrt((table**2).mean(axis=0))
     print(
-        f"\npenetration, {lost} of 1000 lost; off by {rms[0]:.2f} px rms (told {rms[2]:.2f}), "
+        f"\npenetration, {lost} of {STEPS} lost; off by {rms[0]:.2f} px rms (told {rms[2]:.2f}), "
         f"{np.percentile(table[:, 0], 99):.2f} px at the 99th percentile; "
         f"depth {1e6 * rms[1]:.2f} µm rms; {1e3 * np.median(times):.1f} ms a frame, "
         f"{1e3 * np.percentile(times, 99):.1f} at the 99th percentile"
@@ -142,10 +144,10 @@ def test_track_through_a_penetration(known, told):
 
 
 def test_calibration():
-    print("\ncalibration, 20 hidden mountings: ten tips each, moved by ±40 µm")
+    print(f"\ncalibration, {MOUNTINGS} hidden mountings: ten tips each, moved by ±40 µm")
     worst = np.zeros(4)
     rng = np.random.default_rng(1)
-    for _ in range(20):
+    for _ in range(MOUNTINGS):
         optics = Optics(
             width=800,
             height=640,
@@ -194,7 +196,7 @@ def test_cell_outline():
     bench = Bench(cell)
     middle = bench.optics.pixel_of(np.array(cell.centre_m))
     rows, times = [], []
-    for _ in range(30):
+    for _ in range(FRAMES):
         image = bench.image([bench.rng.uniform(20e-6, 60e-6), 0.0, 4e-6])
         near = middle + bench.rng.uniform(-20.0, 20.0, 2)
         found, took_s = timed(lambda i=image, n=near: find_cell(i, n, (20.0, 95.0)))

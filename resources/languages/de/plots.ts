@@ -67,6 +67,10 @@
         <translation>Spektrum</translation>
     </message>
     <message>
+        <source>The newest reading is {n} s old</source>
+        <translation>Der neueste Messwert ist {n} s alt</translation>
+    </message>
+    <message>
         <source>There is no other run to align: choose one.</source>
         <translation>Es gibt keinen anderen Lauf zum Ausrichten: einen wählen.</translation>
     </message>

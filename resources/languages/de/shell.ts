@@ -1115,5 +1115,29 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <source>La&amp;nguage</source>
         <translation>Sp&amp;rache</translation>
     </message>
+    <message>
+        <source>RoTeMiNa has a fault: {error}. The log has more; save a support bundle.</source>
+        <translation>RoTeMiNa hat einen Fehler: {error}. Mehr steht im Protokoll; speichern Sie ein Support-Paket.</translation>
+    </message>
+    <message>
+        <source>Panel {name!r} is left out: it fails to paint itself: {error}</source>
+        <translation>Das Panel {name!r} fehlt: Es kann sich nicht zeichnen: {error}</translation>
+    </message>
+    <message>
+        <source>Panel {name!r} is left out after {n} faults: {error}</source>
+        <translation>Das Panel {name!r} fehlt nach {n} Fehlern: {error}</translation>
+    </message>
+    <message>
+        <source>Panel {name!r} has failed: {error}</source>
+        <translation>Das Panel {name!r} hat einen Fehler gemeldet: {error}</translation>
+    </message>
+    <message>
+        <source>The preferences begin anew: {fault}. That file is kept as {path}.</source>
+        <translation>Die Einstellungen beginnen neu: {fault}. Diese Datei ist als {path} aufgehoben.</translation>
+    </message>
+    <message>
+        <source>The preferences begin anew, and none is kept: {fault}. Move that file away.</source>
+        <translation>Die Einstellungen beginnen neu, und keine wird behalten: {fault}. Verschieben Sie diese Datei.</translation>
+    </message>
 </context>
 </TS>

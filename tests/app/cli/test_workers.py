@@ -1,15 +1,27 @@
 """Parallel work on a real Dask scheduler of this machine."""
 
+import os
+import signal
+import threading
+from pathlib import Path
+
 import joblib
+import numpy as np
 import pytest
 
+from rotemina.app.cli.main import main
 from rotemina.app.cli.workers import workers
 from rotemina.sim.errors import InputError
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records.writing import write_record
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.simulation.simulation import simulate
 
 pytestmark = pytest.mark.slow  # starts processes
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def cluster():
     distributed = pytest.importorskip("distributed")
     with distributed.LocalCluster(
@@ -41,3 +53,47 @@ def test_work_that_cannot_be_sent_ends_the_run_with_an_error(cluster):
         pytest.raises(InputError, match=r"could not be sent: .*Unsendable"),
     ):
         joblib.Parallel(n_jobs=jobs)([joblib.delayed(_nothing)(Unsendable())])
+
+
+def test_a_diagnosis_goes_on_when_a_worker_is_killed(cluster, tmp_path, monkeypatch, capsys):
+    """Another one takes over, and the answer is that of a run without a cluster."""
+    monkeypatch.chdir(tmp_path)
+    robot = load_robot("rotemina")
+    time_s = np.arange(2000) / 200.0
+    command = 5.8e-4 + 3e-4 * np.sin(2.0 * time_s) * np.exp(-0.1 * time_s)
+    commands = Record.from_signals(time_s, {("thx", Tap.CMD): command}, {"thx": "rad"})
+    effect = AxisEffect(axis="thx", id="hysteresis")
+    write_record(simulate(robot, [effect], commands, np.random.default_rng(1)), "a.csv")
+    killed = []
+    distributed = pytest.importorskip("distributed")
+
+    def kill():
+        with distributed.Client(cluster, set_as_default=False) as client:
+            while not killed:
+                busy = [address for address, keys in client.processing().items() if keys]
+                if busy:
+                    pids = client.run(os.getpid, workers=busy[:1])
+                    killed.extend(pids.values())
+                    os.kill(killed[0], signal.SIGKILL)
+
+    killer = threading.Thread(target=kill)
+    killer.start()
+    address = cluster.scheduler_address
+    assert main(["gap", "diagnose", "a.csv", "--json", "far.json", "--cluster", address]) == 0
+    killer.join()
+    assert killed
+    assert main(["gap", "diagnose", "a.csv", "--json", "near.json", "--jobs", "1"]) == 0
+    assert Path("far.json").read_bytes() == Path("near.json").read_bytes()
+
+
+def _ends_its_process(_):
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def test_work_that_ends_its_worker_ends_the_run_with_an_error(cluster):
+    cluster.scheduler.allowed_failures = 0  # otherwise three more try it first
+    with (
+        pytest.raises(InputError, match=r"--cluster: a worker of it died again"),
+        workers(None, cluster.scheduler_address) as jobs,
+    ):
+        joblib.Parallel(n_jobs=jobs)([joblib.delayed(_ends_its_process)(1)])

@@ -65,6 +65,17 @@ def test_a_stall_is_logged_with_the_calls_that_the_window_was_in(qtbot, caplog):
     assert watch.lateness.watched_s == 0.0
 
 
+def test_a_window_that_is_always_late_does_not_fill_the_log(qtbot, caplog):
+    clock = Clock()
+    watch = LoopWatch(clock=clock)
+    for _ in range(130):
+        clock.now_s += 0.5 + PERIOD_S
+        watch.beat()
+    told = [record.getMessage() for record in caplog.records]
+    assert len(told) == 2
+    assert "(and 115 times since the last word, up to 0.50 s)" in told[1]
+
+
 def test_a_watch_beats_by_itself_until_it_is_closed(qtbot):
     watch = LoopWatch()
     watch.start()

@@ -7,15 +7,20 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog, QLabel, QMessageBox
 
+from rotemina.app.motion.session import MotionSession
+from rotemina.app.settings import Settings
 from rotemina.app.shell import main_window as module
+from rotemina.app.shell import window_run
 from rotemina.app.shell.host import GROUP
 from rotemina.app.shell.late_panels import LatePanels
 from rotemina.drivers import registry
 from rotemina.drivers.samples import DeviceState
+from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_record
+from rotemina.sim.robot.file import load_robot
 
 LONG_MS = 30_000
 BUILT_IN = ["control", "plots", "trajectory", "microscope", "comparison", "connection"]
@@ -347,3 +352,15 @@ def test_a_notice_is_plain_text_and_can_be_closed(qtbot, window):
     label = notice.findChild(QLabel)
     assert label.textFormat() is Qt.TextFormat.PlainText
     assert "<script>" in label.text()
+
+
+def test_preferences_that_cannot_be_read_are_told_of_with_the_place_of_the_file(qtbot, tmp_path):
+    path = tmp_path / "settings.json"
+    path.write_text("{", "utf-8")
+    session = MotionSession(Simulator(load_robot("rotemina")))
+    window = window_run.make_window(session, Settings(path), tmp_path / "played")
+    qtbot.addWidget(window)
+    told = window.notices.notices()[0].text
+    window.workbench.close()
+    assert f"{path}:1: not valid JSON" in told
+    assert f"kept as {tmp_path / 'settings.damaged-1.json'}" in told

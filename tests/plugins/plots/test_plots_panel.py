@@ -1,8 +1,12 @@
 """The live plots: what is drawn, paused, and how the gap is shown."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from PySide6.QtGui import QColor
 
+from rotemina.app.panel import STALE_S
 from rotemina.app.shell.plot import SignalPlot
 from rotemina.app.shell.theme import DARK
 from rotemina.plugins.plots.axis_plot import AxisPlot
@@ -136,3 +140,21 @@ def test_new_samples_reach_all_plots_a_few_at_a_time(qtbot, window, panel, monke
     assert len(order) == 14
     qtbot.wait(50)
     assert len(order) == 14
+
+
+def test_old_readings_are_grey_and_their_age_is_said(qtbot, window, panel):
+    def pens():
+        curves = panel.plots["zn"].plot._curves
+        return {curves[name].opts["pen"].color().name() for name in ("command", "measured")}
+
+    state = window.workbench.session.snapshot()
+    own = pens()
+    window.workbench.shown.emit(replace(state, age_s=STALE_S + 0.1))
+    assert pens() == {QColor(window.workbench.theme.quiet).name()}
+    assert not panel.age.isHidden()
+    assert panel.age.text() == "The newest reading is 1 s old"
+    window.workbench.shown.emit(replace(state, age_s=72.4))
+    assert panel.age.text() == "The newest reading is 72 s old"
+    window.workbench.shown.emit(replace(state, age_s=0.0))
+    assert pens() == own
+    assert panel.age.isHidden()

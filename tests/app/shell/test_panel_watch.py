@@ -1,6 +1,9 @@
 """A third party's panel that fails while the window is open is named and left out; ours stay."""
 
+import gc
+import logging
 import sys
+import threading
 from types import ModuleType
 
 import pytest
@@ -8,10 +11,13 @@ from PySide6.QtCore import QCoreApplication, QEvent, Qt
 from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QTabWidget, QWidget
 from shiboken6 import isValid
 
-from rotemina.app.plugin_kit.panel_watch import MOST_FAULTS, PanelWatch
+from rotemina.app.shell.exits import ExitRefusedError, exits_refused
+from rotemina.app.shell.panel_watch import MOST_FAULTS, PanelWatch
 from rotemina.app.shell.workbench import Level
 
 THEIRS = """
+import sys
+
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QLabel
 
@@ -25,6 +31,9 @@ class Fragile(QLabel):
 
     def click(self):
         raise KeyError("thy")
+
+    def leave(self):
+        sys.exit(3)
 
     def tick(self):
         QTimer.singleShot(0, self, self.click)
@@ -98,7 +107,7 @@ def test_one_that_fails_in_slots_and_timers_has_a_few_chances(make):
         bad.tick()
         settle()
     assert [level for level, _ in told] == [Level.WARNING, Level.ERROR]
-    assert f"failing {MOST_FAULTS} times: KeyError: 'thy'" in told[-1][1]
+    assert f"after {MOST_FAULTS} faults: KeyError: 'thy'" in told[-1][1]
     assert not isValid(bad)
     assert [tabs.tabText(number) for number in range(tabs.count())] == ["ours"]
     assert list(panels) == ["docked"]
@@ -135,21 +144,54 @@ def test_what_is_left_of_a_panel_may_fail_in_silence(make):
 
 
 @pytest.mark.parametrize("package", ["rotemina.plugins.control", "rotemina.app.shell"])
-def test_our_own_stay_and_go_to_the_hook_before(make, monkeypatch, package):
-    passed_on = []
-    monkeypatch.setattr(sys, "excepthook", lambda *seen: passed_on.append(seen[0]))
+def test_our_own_stay_and_their_faults_are_logged_and_told_once(make, caplog, package):
     _, panels, docks, told = make(package)
-    sys.excepthook(*raised(panels["docked"].click))
-    assert passed_on == [KeyError]
-    assert (told, list(panels), list(docks)) == ([], ["docked", "tabbed"], ["docked"])
+    seen = raised(panels["docked"].click)
+    for _ in range(5):
+        sys.excepthook(*seen)
+    assert (list(panels), list(docks)) == (["docked", "tabbed"], ["docked"])
+    ((level, text),) = told
+    assert (level, "KeyError: 'thy'" in text) == (Level.ERROR, True)
+    first, *later = caplog.records
+    assert first.exc_info[1] is seen[1]
+    assert [(one.levelno, one.args[0]) for one in later] == [(logging.ERROR, 2), (logging.ERROR, 4)]
 
 
-def test_what_no_panel_raised_goes_to_the_hook_before(make, monkeypatch):
-    passed_on = []
-    monkeypatch.setattr(sys, "excepthook", lambda *seen: passed_on.append(seen[0]))
-    make()
-    sys.excepthook(*raised(lambda: 1 / 0))
-    assert passed_on == [ZeroDivisionError]
+def test_what_a_thread_of_a_panel_raises_is_told_on_the_window_s_thread(make):
+    _, panels, _, told = make()
+    for call in (panels["docked"].click, sys.exit):  # the latter is how a thread may end
+        thread = threading.Thread(target=call)
+        thread.start()
+        thread.join()
+    assert told == []
+    settle()
+    ((_, text),) = told
+    assert "Panel 'docked' has failed: KeyError" in text
+
+
+def test_what_a_panel_raises_as_it_is_collected_is_told(make):
+    _, panels, _, told = make()
+
+    class Leaving:
+        def __del__(self, click=panels["docked"].click):
+            click()
+
+    Leaving()
+    gc.collect()
+    settle()
+    assert "Panel 'docked' has failed: KeyError" in told[0][1]
+
+
+def test_a_call_that_would_end_the_program_is_a_fault_of_the_panel(make):
+    _, panels, _, told = make()
+    before = sys.exit, exit, quit
+    with exits_refused():
+        sys.excepthook(*raised(panels["docked"].leave))
+        for call in (exit, quit):
+            with pytest.raises(ExitRefusedError, match=r"exit\(None\)"):
+                call()
+    assert (sys.exit, exit, quit) == before
+    assert "'docked' has failed: ExitRefusedError: it called exit(3)" in told[0][1]
 
 
 def test_a_panel_that_stands_alone_is_taken_out(make, qtbot):

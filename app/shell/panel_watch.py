@@ -1,25 +1,28 @@
 """Panels of others that fail while the window is open: they are named and left out.
 
-What a panel raises in a paint event, a timer or a slot reaches nobody but Python's hook, and would
-come again with every frame. The hook finds the panel by the code that was running. One that cannot
-paint is left out at once, for Qt may not survive the next attempt; one that fails otherwise gets a
-few chances, for a button that does not work is no reason to take the rest away. Panels of this
-program stay, whatever they raise: an operator needs them.
+What a panel raises in a paint event, a timer, a slot or a thread reaches nobody but Python's hooks,
+and would come again with every frame. The hooks find the panel by the code that was running. One
+that cannot paint is left out at once, for Qt may not survive the next attempt; one that fails
+otherwise gets a few chances, for a button that does not work is no reason to take the rest away.
+Panels of this program stay, whatever they raise: an operator needs them. What is no panel's of
+others is logged, so that the log page and a support bundle hold it, and told once.
 
 A panel that never returns holds up the window, and nothing in its own process can end it.
 """
 
 import logging
 import sys
+import threading
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, MutableMapping
 from contextlib import contextmanager
 from types import FrameType, TracebackType
 
-from PySide6.QtCore import QTimer
+from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QTabWidget, QWidget
 
 from rotemina.app.panel import Panel
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level
 
 logger = logging.getLogger(__name__)
@@ -28,10 +31,8 @@ logger = logging.getLogger(__name__)
 MOST_FAULTS = 3
 _OWN = "rotemina."
 
-Hook = Callable[[type[BaseException], BaseException, TracebackType | None], object]
 
-
-class PanelWatch:
+class PanelWatch(QObject):
     """Watches the panels of a window from :meth:`install` to :meth:`remove`.
 
     Parameters
@@ -47,6 +48,8 @@ class PanelWatch:
         The panels' classes, where some panels are not made yet.
     """
 
+    _raised = Signal(object)
+
     def __init__(
         self,
         window: QMainWindow,
@@ -55,6 +58,7 @@ class PanelWatch:
         tell: Callable[[Level, str], object],
         kinds: Mapping[str, type[Panel]] | None = None,
     ) -> None:
+        super().__init__()
         self._window = window
         self._panels = panels
         self._docks = docks
@@ -68,22 +72,26 @@ class PanelWatch:
                 for module in _upwards(kind.__module__):
                     self._modules.setdefault(module, name)
         self._faults: Counter[str] = Counter()
-        self._before: Hook = sys.excepthook
+        self._places: Counter[tuple[type[BaseException], str, int]] = Counter()
+        self._before = sys.excepthook, threading.excepthook, sys.unraisablehook
+        self._raised.connect(self._judge)
 
     def install(self) -> None:
         """Begin to watch."""
-        self._before, sys.excepthook = sys.excepthook, self.on_exception
+        self._before = sys.excepthook, threading.excepthook, sys.unraisablehook
+        sys.excepthook = self.on_exception
+        threading.excepthook = self._on_thread
+        sys.unraisablehook = self._on_unraisable
 
     def remove(self) -> None:
         """Watch no longer."""
-        sys.excepthook = self._before
+        sys.excepthook, threading.excepthook, sys.unraisablehook = self._before
 
     def on_exception(
         self, kind: type[BaseException], error: BaseException, trace: TracebackType | None
     ) -> None:
-        """Take note of an exception that nobody caught; others' go to the hook before."""
-        if not self._noted(error, trace):
-            self._before(kind, error, trace)
+        """Take note of an exception that nobody caught, on any thread."""
+        self._raised.emit(error.with_traceback(trace))
 
     @contextmanager
     def guarding(self) -> Iterator[None]:
@@ -93,9 +101,38 @@ class PanelWatch:
         """
         try:
             yield
-        except Exception as error:
+        except BaseException as error:
             if not self._noted(error, error.__traceback__):
                 raise
+
+    def _on_thread(self, seen: threading.ExceptHookArgs) -> None:
+        # A thread may end itself by SystemExit, which nothing else hears of.
+        if seen.exc_value is not None and not isinstance(seen.exc_value, SystemExit):
+            self.on_exception(seen.exc_type, seen.exc_value, seen.exc_traceback)
+
+    def _on_unraisable(self, seen: "sys.UnraisableHookArgs") -> None:
+        if seen.exc_value is not None:
+            self.on_exception(seen.exc_type, seen.exc_value, seen.exc_traceback)
+
+    def _judge(self, error: BaseException) -> None:
+        """Take note of an exception, on the window's thread."""
+        if not self._noted(error, error.__traceback__):
+            self._log(error)
+
+    def _log(self, error: BaseException) -> None:
+        """Log what is no panel's of others; the same again only at 2, 4, 8 … times."""
+        frames = list(_frames(error.__traceback__))
+        where = (frames[-1].f_code.co_filename, frames[-1].f_lineno) if frames else ("", 0)
+        self._places[type(error), *where] += 1
+        times = self._places[type(error), *where]
+        if times == 1:
+            logger.error("a fault of the program", exc_info=error)
+            text = translate(
+                "shell", "RoTeMiNa has a fault: {error}. The log has more; save a support bundle."
+            )
+            self._tell(Level.ERROR, text.format(error=_said(error)))
+        elif times & (times - 1) == 0:
+            logger.error("the same fault of the program, %d times so far: %s", times, _said(error))
 
     def _noted(self, error: BaseException, trace: TracebackType | None) -> bool:
         """Judge an exception, and return whether it is that of a panel that is watched."""
@@ -107,17 +144,22 @@ class PanelWatch:
             return True  # what is left of it may fail as long as it likes
         logger.error("panel %s", name, exc_info=error)
         self._faults[name] += 1
-        said = f"{type(error).__name__}: {error}"
         painting = any(frame.f_code.co_name == "paintEvent" for frame in frames)
         if painting or self._faults[name] >= MOST_FAULTS:
             panel = self._panels.pop(name)
             dock = self._docks.pop(name, None)
-            what = "failing to paint itself" if painting else f"failing {self._faults[name]} times"
-            self._tell(Level.ERROR, f"Panel {name!r} is left out after {what}: {said}")
+            text = (
+                translate("shell", "Panel {name!r} is left out: it fails to paint itself: {error}")
+                if painting
+                else translate("shell", "Panel {name!r} is left out after {n} faults: {error}")
+            )
+            told = text.format(name=name, n=self._faults[name], error=_said(error))
+            self._tell(Level.ERROR, told)
             # Not now: this may be in the middle of the panel's own event.
             QTimer.singleShot(0, self._window, lambda: self._take_out(panel, dock))
         elif self._faults[name] == 1:
-            self._tell(Level.WARNING, f"Panel {name!r} has failed: {said}")
+            text = translate("shell", "Panel {name!r} has failed: {error}")
+            self._tell(Level.WARNING, text.format(name=name, error=_said(error)))
         return True
 
     def _owner(self, frame: FrameType) -> str | None:
@@ -134,6 +176,10 @@ class PanelWatch:
         elif (tabs := _tabs_of(panel)) is not None:
             tabs.removeTab(tabs.indexOf(panel))
         panel.deleteLater()
+
+
+def _said(error: BaseException) -> str:
+    return f"{type(error).__name__}: {error}"
 
 
 def _frames(trace: TracebackType | None) -> Iterator[FrameType]:

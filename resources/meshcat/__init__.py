@@ -1,0 +1,1 @@
+"""The viewer of meshcat 0.3.2, as that package ships it, with its licences and those inside it."""

@@ -1,0 +1,30 @@
+"""Reading an array in compiled code by an index that never counts from the end.
+
+numba asks of each signed index whether it is negative, which takes as long as the sums of a short
+step themselves.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+from numba import types
+from numba.core.errors import TypingError
+from numba.extending import intrinsic
+
+
+def _item(typing_context: Any, array: Any, index: Any) -> Any:
+    """Read the flat, contiguous ``array`` at ``index``, which must lie in it."""
+    if array.layout != "C" or array.ndim != 1:
+        raise TypingError(f"{array}: it is no flat, contiguous array")
+    signature = array.dtype(array, types.intp)
+
+    def generate(context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
+        values, place = arguments
+        data = context.make_array(array)(context, builder, values).data
+        return builder.load(builder.gep(data, [place]))
+
+    return signature, generate
+
+
+#: Reads an array from compiled code; see :func:`_item`.
+item: Callable[..., Any] = intrinsic(_item)

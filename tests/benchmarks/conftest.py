@@ -1,0 +1,115 @@
+"""Benchmarks in a short form, and the page of what they measured.
+
+``--quick`` runs each on so little that it says nothing of speed, to see that it still runs: names
+in a module's ``QUICK`` take those values, and limits are not held against it. ``--page FILE``
+writes what was printed, with the machine, the date and the commit.
+"""
+
+import os
+import platform
+import shutil
+import subprocess
+from datetime import UTC, datetime
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+HEAD = """# Benchmarks
+
+`make bench` writes this page: nothing in it was copied by hand. What is not in it was not among the
+benchmarks of that run. A range in brackets is the spread over the repetitions beside it; a limit is
+what the benchmark demands.
+
+| | |
+|---|---|
+| machine | {machine} |
+| load before | {load} of {cores} cores |
+| Python | {python} |
+| date | {date} |
+| commit | {commit} |
+"""
+
+
+def pytest_addoption(parser):
+    parser.addoption("--quick", action="store_true", help="run each as shortly as it can be")
+    parser.addoption("--page", type=Path, metavar="FILE", help="write what was printed to a page")
+
+
+def pytest_configure(config):
+    config.printed = {}
+    config.load = os.getloadavg()[0] if hasattr(os, "getloadavg") else float("nan")
+
+
+def pytest_collection_modifyitems(config, items):
+    if config.getoption("quick"):
+        for item in items:
+            for name, value in getattr(item.module, "QUICK", {}).items():
+                assert hasattr(item.module, name), f"{item.module.__name__} has no {name}"
+                setattr(item.module, name, value)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item, call):
+    """Hold no limit against a short run."""
+    report = yield
+    failed = call.excinfo is not None and call.excinfo.errisinstance(AssertionError)
+    if failed and item.config.getoption("quick"):
+        report.outcome = "passed"
+    if call.when == "call":
+        told = item.config.printed.setdefault(item.module, [])
+        told.append(report.capstdout.strip("\n"))
+        if report.outcome != "passed":
+            told.append(f"{item.name}: {report.outcome}")
+        item.config.get_terminal_writer().write(f"\n{report.capstdout}")
+    return report
+
+
+def pytest_sessionfinish(session):
+    page = session.config.getoption("page")
+    if page is not None:
+        page.write_text(_page(session.config), "utf-8")
+
+
+def _page(config):
+    parts = [
+        HEAD.format(
+            machine=_machine(),
+            load=f"{config.load:.1f}",
+            cores=os.cpu_count(),
+            python=f"{platform.python_version()}, {platform.system()}",
+            date=f"{datetime.now(UTC):%Y-%m-%d}",
+            commit=_commit(),
+        )
+    ]
+    for module, told in config.printed.items():
+        file = Path(module.__file__).relative_to(ROOT)
+        title = (module.__doc__ or file.stem).split("\n\n")[0].replace("\n", " ")
+        lines = "\n".join(filter(None, told))
+        parts.append(
+            f"## {title.split(': ')[0].rstrip('.')}\n\n`{file}`\n\n```text\n{lines}\n```\n"
+        )
+    return "\n".join(parts)
+
+
+def _machine():
+    """Return processor and memory; the machine's own name is nobody's business."""
+    info = Path("/proc/cpuinfo")
+    lines = info.read_text("utf-8").splitlines() if info.exists() else []
+    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    memory_gb = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
+    return (
+        f"{names[0] if names else platform.machine()}, {os.cpu_count()} cores, {memory_gb:.0f} GB"
+    )
+
+
+def _commit():
+    git = shutil.which("git")
+    if git is None:
+        return "unknown"
+    told = [
+        subprocess.run([git, *words], cwd=ROOT, capture_output=True, text=True, check=False)
+        for words in (("rev-parse", "--short=12", "HEAD"), ("status", "--porcelain", "-uno"))
+    ]
+    commit, changes = (one.stdout.strip() for one in told)
+    return f"{commit}, with changes" if changes else commit
