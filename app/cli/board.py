@@ -4,19 +4,18 @@ import argparse
 import gc
 import os
 import selectors
-import signal
 import sys
 import threading
 import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
-from types import FrameType
 from typing import Literal
 
 from rotemina.app.cli.board_ports import HostPort, PseudoTerminal, Socket
+from rotemina.app.cli.ending import told_to_end
 from rotemina.app.cli.options import add_robot, robot_of
 from rotemina.drivers.mc68hc11.axes import board_axes
 from rotemina.drivers.mc68hc11.budget import BAUDS
@@ -86,7 +85,7 @@ def run(options: argparse.Namespace) -> int:
         for make in _makers(options, count):
             ports.append(make())
             stack.callback(ports[-1].close)
-        ended = stack.enter_context(_signals())
+        ended = stack.enter_context(told_to_end())
         _boards(options, robot, count).rehearse()
         for port, line in zip(ports, boards.lines, strict=True):
             who = " and ".join(f"board {number}" for number in line.numbers)
@@ -229,22 +228,6 @@ class _Server:
                     inject(self._boards, command)
             except FaultCommandError as error:
                 print(f"rotemina: {error}", file=sys.stderr, flush=True)
-
-
-@contextmanager
-def _signals() -> Iterator[Callable[[], bool]]:
-    """Tell whether somebody wants an end, rather than be interrupted."""
-    received: list[int] = []
-
-    def note(number: int, _: FrameType | None) -> None:
-        received.append(number)
-
-    before = {one: signal.signal(one, note) for one in (signal.SIGINT, signal.SIGTERM)}
-    try:
-        yield lambda: bool(received)
-    finally:
-        for one, handler in before.items():
-            signal.signal(one, handler)
 
 
 def _tell(text: str) -> None:

@@ -11,6 +11,9 @@ QUERY, HOLD, RESET, JOG_CANCEL = b"?", b"!", b"\x18", b"\x85"
 _ASK_AGAIN_S = 0.1
 _LONGEST_LINE = 256  # bytes: longer than any that a controller says
 _SMOOTHING = 0.1
+#: An answer that takes so much longer than the quickest ones may be of any moment in between, s.
+UNCERTAIN_S = 0.01
+_SLOWER = 1.01  # what the quickest answer is taken to have slowed down by, from answer to answer
 
 
 class Dialogue:
@@ -31,6 +34,7 @@ class Dialogue:
         self._rest = b""
         self._sent = self._received = self._rejected = self._repeated = 0
         self._round_trip_s: float | None = None
+        self._least_s = float("inf")  # the quickest answer of late
         #: The line that waits for its answer, and since when, s.
         self.awaited: str | None = None
         self.awaited_since_s = 0.0
@@ -79,7 +83,8 @@ class Dialogue:
     def hear(self) -> Iterator[tuple[Message, float | None, bool]]:
         """Yield what has come, for a status also when it was asked for, and whether it is fresh.
 
-        A fresh one was asked for after everything that was said.
+        A fresh one was asked for after everything that was said. Where the answer took too long to
+        tell of which moment it is, the time is None.
         """
         *lines, self._rest = (self._rest + self._port.read()).split(b"\n")
         if len(self._rest) > _LONGEST_LINE:
@@ -95,13 +100,18 @@ class Dialogue:
                 continue
             self._received += 1
             self.heard_s = self._clock()
-            asked_s, fresh = None, False
+            asked_s: float | None = None
+            fresh = False
             if isinstance(message, Status):
                 if self.asked_s is None:
                     continue  # that of a question which was repeated
                 asked_s, self.asked_s = self.asked_s, None
                 fresh = self._asked_acts == self._acts
-                self._measure(self.heard_s - asked_s)
+                took_s = self.heard_s - asked_s
+                self._least_s = min(self._least_s * _SLOWER, took_s)
+                self._measure(took_s)
+                if took_s > self._least_s + UNCERTAIN_S * (1.0 + 1e-6):
+                    asked_s = None
             elif isinstance(message, Answer):
                 self.acted()
             yield message, asked_s, fresh

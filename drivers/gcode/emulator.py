@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from math import pi
 
 from rotemina.drivers.gcode.blocks import Blocks
+from rotemina.drivers.gcode.coordinates import check_stage
 from rotemina.drivers.gcode.words import LineError, Target, jog_of, motion_of
 from rotemina.sim.robot.model import Robot
 
@@ -56,6 +57,11 @@ class EmulatedStage:
         Whether it was built to home axes one by one.
     missing_switch : str
         Letters of axes whose switch is never found.
+
+    Raises
+    ------
+    InputError
+        If the robot has an axis that such a controller cannot move.
     """
 
     def __init__(
@@ -66,6 +72,7 @@ class EmulatedStage:
         single_homing: bool = True,
         missing_switch: str = "",
     ) -> None:
+        check_stage(robot, LETTERS)
         axes = list(robot.axes.items())
         scales = [_UNITS[robot.unit(name) or "m"] for name, _ in axes]
         self.letters = LETTERS[: len(axes)]

@@ -16,7 +16,7 @@ from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import ConnectionLostError, DriverError, LimitError, StateError
 from rotemina.drivers.gate import GateError, Permit
 from rotemina.drivers.gcode.coordinates import StageAxis, check_stage
-from rotemina.drivers.gcode.dialogue import HOLD, JOG_CANCEL, RESET, Dialogue
+from rotemina.drivers.gcode.dialogue import HOLD, JOG_CANCEL, RESET, UNCERTAIN_S, Dialogue
 from rotemina.drivers.gcode.opening import Opening
 from rotemina.drivers.gcode.reports import (
     CRITICAL,
@@ -50,8 +50,8 @@ class GcodeStage(Homer, Linked):
     search for switches may take; ``trust_position``, take the controller's count of steps for the
     position when it is opened (otherwise the axes must be homed first).
 
-    The controller has no sensors: readings are its own count of steps. Its time is not known
-    either: a sample is of when it was asked for.
+    The controller has no sensors: readings are its own count of steps. Nor has it a clock: a sample
+    is of when it was asked for, and is left out where the answer was late.
 
     Parameters
     ----------
@@ -69,8 +69,8 @@ class GcodeStage(Homer, Linked):
     """
 
     name = "gcode"
-    service_period_s = 0.01
-    stamp_error_s = 0.005
+    service_period_s = 0.005
+    stamp_error_s = UNCERTAIN_S
     default_settings: ClassVar[Mapping[str, SettingValue]] = MappingProxyType(
         {
             "port": "",
@@ -302,9 +302,10 @@ class GcodeStage(Homer, Linked):
         self, dialogue: Dialogue, message: Message, asked_s: float | None, fresh: bool
     ) -> None:
         if isinstance(message, Status):
-            if message.position is None or asked_s is None:
+            if message.position is None:
                 return
-            self._rows.append((asked_s - self._opened_s, message.position))
+            if asked_s is not None:
+                self._rows.append((asked_s - self._opened_s, message.position))
             if fresh:
                 self._latest = message
                 self._arrive(dialogue)
