@@ -39,7 +39,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         "pseudo-terminals or on sockets of this machine, byte by byte as fast as a real line. Two "
         "ports are a line for each board; one port for more than three axes is a bus that both "
         "share. Lines on standard input inject faults: drop N, double N, corrupt N, garbage N, "
-        "delay T ms (each towards 'board' or 'host'), silence T s, tear T s, reset BOARD, "
+        "delay T ms (each towards 'board' or 'host'), silence T s, space T s, reset BOARD, "
         "brown-out BOARD, freeze AXIS, thaw AXIS, lose AXIS N, joystick X Y Z BUTTONS.",
     )
     add_robot(parser)
