@@ -1,4 +1,4 @@
-"""The two buttons at the machine, without any profile: start and stop a penetration, change mode."""
+"""The two buttons at the machine, without a profile: start and stop a penetration, change mode."""
 
 import pytest
 
