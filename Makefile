@@ -11,8 +11,8 @@ CONSTRAINTS = $(addprefix --constraint ,$(wildcard $(TESTED)))
 
 # The Qt platform that must work: empty for the one of the display in use.
 QT_PLATFORM := offscreen
-# Long tests use a window on a screen of their own: --screen installs that as well.
-SCREEN :=
+# What tests use besides: an assembler, long ones a window on a screen of their own.
+PROGRAMS :=
 
 # A .venv can be used when no installation into it was cut off and its Python still runs.
 USABLE := test ! -e $(VENV)/.unfinished && $(BIN)/python -c 'import pip' 2>/dev/null
@@ -34,11 +34,12 @@ run: QT_PLATFORM :=
 run: system $(VENV)/.run  ## open the program with the built-in simulator
 	@$(BIN)/rotemina
 
+test: PROGRAMS := --assembler
 test: system $(VENV)/.test  ## run the quick tests
 	@$(PYTEST) --numprocesses auto --maxprocesses 4 --dist loadfile -m "not slow"
 
 # pytest fails when it selects nothing, which is right as soon as one slow test is written.
-test-slow: SCREEN := --screen
+test-slow: PROGRAMS := --screen --assembler
 test-slow: system $(VENV)/.slow $(VENV)/src  ## run the long tests
 	@if grep -rqs --include='*.py' '^ *@pytest\.mark\.slow\|^pytestmark.*slow' tests; \
 	then $(PYTEST) --numprocesses auto --maxprocesses 2 --dist loadgroup -m slow; else echo 'There are no slow tests.'; fi
@@ -119,7 +120,7 @@ help:  ## list these targets
 # venv and the libraries of Qt.
 system:
 	@$(PYTHON) -c 'import ctypes' 2>/dev/null || { $(INSTALL_PYTHON); }
-	@$(PYTHON) -I -B app/system_check.py --install $(SCREEN) $(QT_PLATFORM)
+	@$(PYTHON) -I -B app/system_check.py --install $(PROGRAMS) $(QT_PLATFORM)
 
 APT_GET := apt-get install -y --no-install-recommends python3 python3-venv
 define INSTALL_PYTHON

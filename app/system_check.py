@@ -69,6 +69,8 @@ LIBRARIES = {
 FONT = Package("fonts-dejavu-core", "a font")
 # A screen that nobody looks at, and a hand for it: some long tests use the window as it is.
 SCREEN = (Package("xvfb", "Xvfb"), Package("xdotool", "xdotool"))
+# What the hot paths of the boards' firmware are assembled by, to be counted.
+ASSEMBLER = (Package("binutils-m68hc1x", "m68hc11-as"),)
 
 
 def platform_in_use(environment: Mapping[str, str]) -> str:
@@ -122,11 +124,11 @@ def missing_python_parts() -> list[Package]:
     return []
 
 
-def missing_programs() -> list[Package]:
-    """Return packages of the programs with which tests use a window; they can do without."""
+def missing_programs(programs: Sequence[Package]) -> list[Package]:
+    """Return those packages whose program is missing; tests can do without."""
     if not sys.platform.startswith("linux"):
         return []
-    return [package for package in SCREEN if not shutil.which(package.provides)]
+    return [package for package in programs if not shutil.which(package.provides)]
 
 
 def install_command(packages: Sequence[Package]) -> str:
@@ -167,6 +169,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description="Check what RoTeMiNa needs of the system.")
     parser.add_argument("--install", action="store_true", help="install what is missing")
     parser.add_argument("--screen", action="store_true", help="also what tests of the window use")
+    parser.add_argument("--assembler", action="store_true", help="also that of the boards' chip")
     parser.add_argument("platform", nargs="?", default=platform_in_use(os.environ))
     options = parser.parse_args(arguments)
 
@@ -174,7 +177,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _fail(_old_python())
     needed = missing_python_parts() + missing_libraries(options.platform)
     wanted = list(dict.fromkeys(needed + missing_libraries("xcb")))
-    extra = missing_programs() if options.screen else []
+    programs = (*(SCREEN if options.screen else ()), *(ASSEMBLER if options.assembler else ()))
+    extra = missing_programs(programs)
     if options.install and wanted + extra and install(wanted + extra):
         needed = missing_python_parts() + missing_libraries(options.platform)
         wanted = list(dict.fromkeys(needed + missing_libraries("xcb")))

@@ -54,6 +54,8 @@ class Driver(ABC):
     virtual_time: ClassVar[bool] = False
     #: How often the driver wants to be read, s; one that feeds a serial line has no other chance.
     service_period_s: ClassVar[float] = 0.01
+    #: By how much the time of a sample may be wrong where the device has no clock of its own, s.
+    stamp_error_s: ClassVar[float] = 0.0
     default_settings: ClassVar[Mapping[str, SettingValue]] = MappingProxyType({})
 
     def __init__(

@@ -4,19 +4,18 @@ import argparse
 import gc
 import os
 import selectors
-import signal
 import sys
 import threading
 import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
-from types import FrameType
 from typing import Literal
 
 from rotemina.app.cli.board_ports import HostPort, PseudoTerminal, Socket
+from rotemina.app.cli.ending import told_to_end
 from rotemina.app.cli.options import add_robot, robot_of
 from rotemina.drivers.mc68hc11.axes import board_axes
 from rotemina.drivers.mc68hc11.budget import BAUDS
@@ -40,7 +39,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         "pseudo-terminals or on sockets of this machine, byte by byte as fast as a real line. Two "
         "ports are a line for each board; one port for more than three axes is a bus that both "
         "share. Lines on standard input inject faults: drop N, double N, corrupt N, garbage N, "
-        "delay T ms (each towards 'board' or 'host'), silence T s, tear T s, reset BOARD, "
+        "delay T ms (each towards 'board' or 'host'), silence T s, space T s, reset BOARD, "
         "brown-out BOARD, freeze AXIS, thaw AXIS, lose AXIS N, joystick X Y Z BUTTONS.",
     )
     add_robot(parser)
@@ -86,7 +85,7 @@ def run(options: argparse.Namespace) -> int:
         for make in _makers(options, count):
             ports.append(make())
             stack.callback(ports[-1].close)
-        ended = stack.enter_context(_signals())
+        ended = stack.enter_context(told_to_end())
         _boards(options, robot, count).rehearse()
         for port, line in zip(ports, boards.lines, strict=True):
             who = " and ".join(f"board {number}" for number in line.numbers)
@@ -229,22 +228,6 @@ class _Server:
                     inject(self._boards, command)
             except FaultCommandError as error:
                 print(f"rotemina: {error}", file=sys.stderr, flush=True)
-
-
-@contextmanager
-def _signals() -> Iterator[Callable[[], bool]]:
-    """Tell whether somebody wants an end, rather than be interrupted."""
-    received: list[int] = []
-
-    def note(number: int, _: FrameType | None) -> None:
-        received.append(number)
-
-    before = {one: signal.signal(one, note) for one in (signal.SIGINT, signal.SIGTERM)}
-    try:
-        yield lambda: bool(received)
-    finally:
-        for one, handler in before.items():
-            signal.signal(one, handler)
 
 
 def _tell(text: str) -> None:

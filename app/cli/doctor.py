@@ -4,6 +4,7 @@ import argparse
 import json
 import os
 from dataclasses import asdict
+from itertools import chain
 
 _BROKEN = 1
 
@@ -14,19 +15,25 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         "doctor",
         help="check this machine, and say what to do",
         description="Check Python, packages, Qt, permissions of serial ports and joysticks, "
-        "folders, disk and clock. No board is opened. Exit status: 0 the program runs (what is "
-        "limited is told), 1 something is broken.",
+        "folders, disk and clock. No board is opened, but for --port. Exit status: 0 the program "
+        "runs (what is limited is told), 1 something is broken.",
     )
     parser.add_argument("--json", action="store_true", help="print the findings as JSON")
+    parser.add_argument(
+        "--port", action="append", default=[], metavar="DEVICE",
+        help="try whether this serial port makes the rate of the boards' line, 125000 baud; what "
+        "is connected may be reset by that",
+    )  # fmt: skip
     parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
     """Print a line for each finding, advice below it; status 1 if anything is broken."""
-    from rotemina.app.machine_check import State, examine  # takes its time to import
+    from rotemina.app.line_rate import line_rate  # both take their time to import
+    from rotemina.app.machine_check import State, examine
 
     findings = []
-    for found in examine(os.environ):
+    for found in chain(examine(os.environ), map(line_rate, options.port)):
         findings.append(found)
         if not options.json:
             print(f"{found.state:9}{found.name:14}{found.seen}", flush=True)

@@ -26,6 +26,7 @@ from rotemina.app.cli import (
     plugin,
     recording,
     simulate,
+    stage,
     tune,
     window,
 )
@@ -70,8 +71,8 @@ def build_parser() -> argparse.ArgumentParser:
     window.add_options(parser)
     commands = parser.add_subparsers(title="subcommands", metavar="")
     for module in (
-        play, simulate, compare, gap, compensate, convert, excite, effect, driver, board, recording,
-        plate, plugin, calibrate, tune, doctor,
+        play, simulate, compare, gap, compensate, convert, excite, effect, driver, board, stage,
+        recording, plate, plugin, calibrate, tune, doctor,
     ):  # fmt: skip
         module.add_parser(commands)
     return parser

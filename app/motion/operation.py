@@ -12,6 +12,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from rotemina.app.calibration.store import CalibrationStore
+from rotemina.app.motion.front_display import FrontDisplay
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
@@ -39,7 +40,7 @@ from rotemina.drivers.samples import DeviceState
 from rotemina.sim.errors import InputError
 from rotemina.sim.kinematics.chain import JOINTS, Chain, ChainError
 
-STEP_S, LOOK_S = 0.005, 1.0
+STEP_S, LOOK_S, DISPLAY_S = 0.005, 1.0, 0.5
 #: What the pad on the screen can hold. Everything else has buttons of its own there, and a dead-man
 #: of the pad would only keep it from acting.
 PAD_BUTTONS = (Action.CLUTCH, Action.FINE, Action.COARSE, Action.TAKE_OVER)
@@ -97,6 +98,7 @@ class Operation:
         hub = InputHub.installed(own, clock=clock)
         self.devices = InputDevices(hub, tuple(session.robot.axes), folder)
         self.teleoperator = Teleoperator(session, self._kept_scales())
+        self.display = FrontDisplay(session, lambda: self.teleoperator.state.mode)
         self.penetration_log = RunLog(data / "penetrations.jsonl")
         self.penetration = Penetration(session, self.penetration_log)
         self.penetration_parameters = self._kept_parameters()
@@ -109,6 +111,7 @@ class Operation:
         self._tickers = (
             Ticker("operation", STEP_S, lambda: self.step(self.clock()), self._step_failed),
             Ticker("input devices", LOOK_S, self.devices.look),
+            Ticker("display", DISPLAY_S, lambda: self.display.step(self.clock())),
         )
 
     def start(self) -> None:

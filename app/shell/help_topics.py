@@ -40,6 +40,7 @@ PAGES = {
     "rotemina.drivers.errors.LimitError": _LIMITS,
     "rotemina.drivers.errors.ProtocolError": "protocol.md",
     "rotemina.drivers.errors.StateError": "connection.md#state",
+    "rotemina.drivers.gcode": "drivers.md#a-driver-for-other-electronics",
     "rotemina.drivers.inputs": "inputs.md#when-a-joystick-is-missing",
     "rotemina.drivers.inputs.script": "inputs.md#scripts",
     "rotemina.drivers.mc68hc11": "protocol.md",

@@ -89,6 +89,7 @@ def moves_keep_the_speed(bench: Bench) -> None:
         elapsed_s = np.diff(samples.device_time_s)
         way = np.abs(np.diff(samples.command[:, axis.index]))
         # Each command is rounded to a step, and the device's time as its clock is.
+        elapsed_s += subject.driver.stamp_error_s
         excess = way - axis.resolution - most * elapsed_s * (1.0 + RATE_SLACK) - 1e-9 * axis.span
         worst = int(np.argmax(excess))
         bound = float(way[worst] - excess[worst])

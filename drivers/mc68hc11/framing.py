@@ -4,9 +4,8 @@ A body without zeros, by consistent overhead byte stuffing (Cheshire and Baker, 
 Networking 7 (1999) 159-172), ends with a zero. A zero so always ends whatever was under way, and a
 receiver that wakes up in the middle of a frame is right from the next one on.
 
-To a board, a zero where a frame should begin says *stop*: one byte, at any speed of the line, and
-what a cable that is torn off or a shorted line says as well. So only boards put a zero before a
-frame; a host that repeats one lets `RESYNC` go ahead of it.
+To a board, a zero where a frame should begin says *stop*: one byte, at any speed of the line. So
+only boards put a zero before a frame; a host that repeats one lets `RESYNC` go ahead of it.
 """
 
 from binascii import crc_hqx

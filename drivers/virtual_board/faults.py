@@ -6,8 +6,8 @@
 ``corrupt N``             a bit of each of the next N bytes is turned over
 ``delay T ms``            from now on bytes come this much later; ``delay 0 ms`` ends it
 ``garbage N``             N bytes come that nobody sent
-``silence T s``           nothing comes through for so long, both ways
-``tear T s``              the same, and the boards hear a zero: a cable that is torn off
+``silence T s``           nothing comes through for so long, both ways: a torn or shorted line
+``space T s``             the same, and boards hear a break: a line that is held at space
 ``reset B``, ``brown-out B``  board B begins anew; it does not know where its steppers are
 ``freeze AXIS``, ``thaw AXIS``  a sensor says the same until it is thawed
 ``lose AXIS N``           a stepper stays N microsteps behind its command
@@ -117,7 +117,8 @@ def _silence(boards: VirtualBoards, name: str, words: list[str]) -> None:
     lines = _lines(boards, words)
     until_s = boards.now_s + _duration_s(words)
     for line in lines:
-        if name == "tear":
+        if name == "space":
+            # A break is a stop wherever it comes: within a frame too.
             line.disturb(b"\0\0", boards.now_s, towards_host=False)
         for channel in (line.to_board, line.to_host):
             channel.silent_until_s = until_s
@@ -165,7 +166,7 @@ _COMMANDS: dict[str, Callable[[VirtualBoards, str, list[str]], None]] = {
     "garbage": _garbage,
     "delay": _delay,
     "silence": _silence,
-    "tear": _silence,
+    "space": _silence,
     "freeze": _freeze,
     "thaw": _freeze,
     "lose": _lose,

@@ -94,14 +94,14 @@ def faults(axes: tuple[str, ...], steppers: tuple[str, ...], lines: int) -> tupl
             translate("faults", "Cable"),
             translate(
                 "faults",
-                "Nothing comes through, both ways; torn off, the boards hear a zero as well",
+                "Nothing comes through, both ways; held at space, the boards hear a stop first",
             ),
             (
                 Pick(
                     translate("faults", "What"),
                     (
-                        (translate("faults", "silent"), "silence"),
-                        (translate("faults", "torn off"), "tear"),
+                        (translate("faults", "torn or shorted"), "silence"),
+                        (translate("faults", "held at space"), "space"),
                     ),
                 ),
                 Number(translate("faults", "Duration"), 2.0, 0.0, 3600.0, "s", "s", 1),

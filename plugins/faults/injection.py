@@ -250,7 +250,7 @@ class Injection(QWidget):
             translate("faults", "Start boards of this robot"),
         )
         none = None if running else translate("faults", _NOT_RUNNING)
-        allow(self.end, none, translate("faults", "End it: a line that is torn off"))
+        allow(self.end, none, translate("faults", "End it: a line that falls silent"))
         for widget in (self.lines, self.homed):
             widget.setEnabled(not running)
         why = None if ports else translate("faults", _NOT_RUNNING)

@@ -322,5 +322,7 @@ def test_programs_of_tests_are_asked_for_and_nobody_is_held_up_without(monkeypat
     monkeypatch.setattr(system_check, "install", lambda packages: asked.append(packages))
     assert system_check.main(["--install", "--screen", "offscreen"]) == 0
     assert [package.name for package in asked[0]] == ["xvfb", "xdotool"]
+    assert system_check.main(["--install", "--assembler", "offscreen"]) == 0
+    assert [package.name for package in asked[1]] == ["binutils-m68hc1x"]
     assert system_check.main(["--install", "offscreen"]) == 0
-    assert len(asked) == 1
+    assert len(asked) == 2

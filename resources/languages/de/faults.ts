@@ -80,16 +80,16 @@
         <translation>Kabel</translation>
     </message>
     <message>
-        <source>Nothing comes through, both ways; torn off, the boards hear a zero as well</source>
-        <translation>Nichts kommt durch, in beiden Richtungen; abgerissen hören die Steuerkarten auch eine Null</translation>
+        <source>Nothing comes through, both ways; held at space, the boards hear a stop first</source>
+        <translation>Nichts kommt durch, in beiden Richtungen; auf Dauer-Null gehalten hören die Steuerkarten zuerst einen Halt</translation>
     </message>
     <message>
-        <source>silent</source>
-        <translation>stumm</translation>
+        <source>torn or shorted</source>
+        <translation>abgerissen oder kurzgeschlossen</translation>
     </message>
     <message>
-        <source>torn off</source>
-        <translation>abgerissen</translation>
+        <source>held at space</source>
+        <translation>auf Dauer-Null gehalten</translation>
     </message>
     <message>
         <source>Duration</source>
@@ -312,8 +312,8 @@
         <translation>Steuerkarten dieses Roboters starten</translation>
     </message>
     <message>
-        <source>End it: a line that is torn off</source>
-        <translation>Beenden: wie eine abgerissene Leitung</translation>
+        <source>End it: a line that falls silent</source>
+        <translation>Beenden: wie eine Leitung, die verstummt</translation>
     </message>
     <message>
         <source>Clear fault</source>

@@ -147,7 +147,7 @@ def recover(session):
 
 def test_the_worker_outlives_a_line_that_misbehaves(board_process):
     rng = np.random.default_rng(0)
-    faults = ("silence 0.2 s", "silence 1 s", "reset 1", "brown-out 2", "garbage 20", "tear 0.1 s")
+    faults = ("silence 0.2 s", "silence 1 s", "reset 1", "brown-out 2", "garbage 20", "space 0.1 s")
     with board_process("rotemina", "--mishaps", "2") as ((port, second), commands):
         session = MotionSession(MC68HC11(ROBOT, {"port": port, "second_port": second}))
         told = Told(session, [])

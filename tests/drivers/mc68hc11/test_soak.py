@@ -34,7 +34,7 @@ FAULTS = (
     "thaw x",
     "silence 0.2 s",
     "silence 0.8 s",
-    "tear 0.1 s",
+    "space 0.1 s",
     "garbage 20",
 )
 

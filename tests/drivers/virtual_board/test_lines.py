@@ -170,10 +170,10 @@ def test_disturbed_bytes_never_make_a_board_do_what_nobody_said(hosts):
     assert 274_999 <= host.boards.boards[0].drives[0].position <= 275_150
 
 
-def test_a_cable_torn_off_stops_the_boards_and_comes_back(host):
+def test_a_line_held_at_space_stops_the_boards_and_comes_back(host):
     host.say(MoveVelocity(0, 10_000, 5000))
     host.live(0.1)
-    inject(host.boards, "tear 0.5 s")
+    inject(host.boards, "space 0.5 s")
     assert host.ask(Identify(1)) is None
     assert host.boards.boards[0].fault.name == "STOPPED"
     host.live(0.5)
@@ -204,6 +204,7 @@ def test_bytes_dropped_doubled_delayed(host):
         ("drop 3 line 3", "from 1 to 2"),
         ("delay 5", "must be a time as '5 ms'"),
         ("silence 5 h", "must be a time as"),
+        ("space", "must be a time as"),
         ("reset 3", "from 1 to 2"),
         ("freeze q", "one of x, y, z"),
         ("lose zn 4", "is no stepper"),

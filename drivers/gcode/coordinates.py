@@ -1,0 +1,131 @@
+"""The axes of a robot as a GRBL controller counts them: letters, mm or degrees, below zero.
+
+Machine coordinates of GRBL end at 0 and begin at minus the travel (``$130`` and on), whichever end
+the switch is at; the low end of an axis' range lies there.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import floor, pi
+from typing import Self
+
+from rotemina.sim.errors import InputError
+from rotemina.sim.robot.model import Robot, StepperAxis
+
+_UNITS = {"m": 1000.0, "rad": 180.0 / pi}  # to mm, to degrees
+_DIGIT = 1e-3  # a report has three decimals
+_FIRST_STEPS, _FIRST_RATE, _FIRST_ACCELERATION, _FIRST_TRAVEL = 100, 110, 120, 130
+_SLACK = 1e-6  # settings have three decimals; this is their rounding, as a share
+
+
+@dataclass(frozen=True, slots=True)
+class StageAxis:
+    """One axis of a controller.
+
+    Attributes
+    ----------
+    name : str
+        The robot's.
+    letter : str
+    number : int
+        Its place in reports and settings.
+    scale : float
+        Units of the controller (mm, degrees) in one of the robot (m, rad).
+    low, high : float
+        Ends of the range, m or rad.
+    travel, resolution : float
+        What the controller travels, and its smallest step that is told, m or rad.
+    speed, acceleration : float
+        The greatest, m/s and m/s² or rad/s and rad/s².
+    """
+
+    name: str
+    letter: str
+    number: int
+    scale: float
+    low: float
+    high: float
+    travel: float
+    resolution: float
+    speed: float
+    acceleration: float
+
+    @classmethod
+    def of(
+        cls, robot: Robot, name: str, letter: str, number: int, settings: Mapping[int, float]
+    ) -> Self:
+        """Return an axis as the settings of its controller say.
+
+        Raises
+        ------
+        InputError
+            If a setting is missing, or lets the axis do more, or go less far, than its robot file.
+        """
+        axis = robot.axes[name]
+        scale = _UNITS[robot.unit(name) or "m"]
+
+        def value(first: int) -> float:
+            if settings.get(first + number, 0.0) <= 0.0:
+                raise InputError(
+                    f"axis {name}: the controller has no setting ${first + number}; it needs one "
+                    f"for each of the {len(robot.axes)} axes"
+                )
+            return settings[first + number]
+
+        speed, acceleration = value(_FIRST_RATE) / 60.0 / scale, value(_FIRST_ACCELERATION) / scale
+        travel = value(_FIRST_TRAVEL) / scale
+        unit = "mm" if scale == _UNITS["m"] else "deg"
+        for first, bound, least, wanted in (
+            (_FIRST_TRAVEL, travel, True, axis.span),
+            (_FIRST_ACCELERATION, acceleration, False, axis.max_acceleration),
+        ):
+            if wanted is None:
+                continue
+            over = wanted - bound if least else bound - wanted
+            if over > _SLACK * wanted:
+                raise InputError(
+                    f"axis {name}: the controller's ${first + number} = "
+                    f"{settings[first + number]:g} does not agree with the robot file; send it "
+                    f"${first + number}={wanted * scale:.3f} ({unit}), or correct the file"
+                )
+        return cls(
+            name, letter, number, scale, *axis.range, travel,
+            max(_DIGIT, 1.0 / value(_FIRST_STEPS)) / scale,
+            min(speed, axis.max_speed or speed), acceleration,
+        )  # fmt: skip
+
+    def told(self, value: float) -> float:
+        """Return a position, m or rad, in the controller's coordinates, in its own digits."""
+        bounded = min(max(value, self.low), self.high)
+        return round((bounded - self.low - self.travel) * self.scale, 3)
+
+    def value(self, told: float) -> float:
+        """Return a position of a report in m or rad."""
+        return self.low + self.travel + told / self.scale
+
+
+def check_stage(robot: Robot, letters: str) -> None:
+    """Refuse a robot that no controller of so many letters moves.
+
+    Raises
+    ------
+    InputError
+        With the axis, and what to do.
+    """
+    if len(robot.axes) > len(letters):
+        raise InputError(
+            f"robot {robot.name!r} has {len(robot.axes)} axes; the letters {letters!r} name "
+            f"{len(letters)}"
+        )
+    for name, axis in robot.axes.items():
+        if not isinstance(axis, StepperAxis):
+            raise InputError(
+                f"robot {robot.name!r}: axis {name} is moved by a {axis.kind}; a G-code controller "
+                "moves stepping motors: take a robot file that has such axes only, as xyz"
+            )
+
+
+def feed_of(way: Mapping[StageAxis, float], seconds: float) -> float:
+    """Return F for a way, mm or degrees of each axis, in a time: per minute, rounded down."""
+    length = sum(part**2 for part in way.values()) ** 0.5
+    return max(floor(60e3 * length / seconds) / 1e3, _DIGIT)

@@ -1,0 +1,143 @@
+"""How a controller is met: brought to rest, emptied, asked what it is."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from rotemina.drivers.clock import Clock
+from rotemina.drivers.errors import DriverTimeoutError, ProtocolError
+from rotemina.drivers.gcode.dialogue import HOLD, RESET, Dialogue
+from rotemina.drivers.gcode.reports import Answer, Message, Note, Setting, Status, Welcome
+
+_STEP_S = 0.01
+_ASK_S = 0.1
+_ANSWER_S = 6.0  # one that is reset by the opening of its port starts for two seconds
+_DEAF_S = 3.0  # while it homes it answers nothing: a reset ends that
+_REST_S = 10.0
+_RESET_S = 3.0
+_LINE_S = 2.0
+
+
+@dataclass(slots=True)
+class Met:
+    """What a controller says of itself, at rest and with nothing left to do.
+
+    Attributes
+    ----------
+    settings : dict
+        Its ``$$``.
+    options : str
+        Letters of what it was built with, ``[OPT:…]``.
+    status : Status
+    """
+
+    settings: dict[int, float] = field(default_factory=dict)
+    options: str = ""
+    status: Status = field(default_factory=lambda: Status("Idle", 0, None))
+
+
+class Opening:
+    """Meets the controller at the end of a dialogue.
+
+    Parameters
+    ----------
+    dialogue : Dialogue
+    clock, pause : callable
+        The host's time, and how some of it passes.
+    where : str
+        The port, for messages.
+    """
+
+    def __init__(
+        self, dialogue: Dialogue, clock: Clock, pause: Callable[[float], None], where: str
+    ) -> None:
+        self._dialogue = dialogue
+        self._clock = clock
+        self._pause = pause
+        self._where = where
+        self._last_s = float("-inf")
+
+    def meet(self) -> Met:
+        """Stop whatever it does, empty it and ask it; what was under way never goes on.
+
+        Raises
+        ------
+        DriverTimeoutError
+            If it does not answer.
+        ProtocolError
+            If its reports cannot be used.
+        """
+        met = Met()
+        self.empty()
+        for note in self._asked("$I"):
+            if isinstance(note, Note) and note.text.startswith("OPT:"):
+                met.options = note.text.removeprefix("OPT:").split(",")[0]
+        for setting in self._asked("$$"):
+            if isinstance(setting, Setting):
+                met.settings[setting.number] = setting.value
+        met.status = self._status(_LINE_S)
+        if met.status.position is None:
+            raise ProtocolError(
+                f"{self._where}: its reports have no machine position; send it $10=1"
+            )
+        if met.settings.get(13, 0.0):
+            raise ProtocolError(f"{self._where}: it reports inches; send it $13=0")
+        return met
+
+    def empty(self) -> None:
+        """Bring it to rest by a feed hold, then reset it: its queue is empty afterwards.
+
+        Raises
+        ------
+        DriverTimeoutError
+            If it does not answer, or does not come to rest.
+        """
+        self._status(_ANSWER_S, deaf_s=_DEAF_S)
+        self._dialogue.cry(HOLD)
+        self._dialogue.acted()
+        self._rest()
+        self._dialogue.cry(RESET)
+        self._dialogue.forget()
+        self._until(lambda one: isinstance(one, Welcome), _RESET_S, "did not reset")
+
+    def _rest(self) -> None:
+        end_s = self._clock() + _REST_S
+        while self._status(_LINE_S).moving:
+            if self._clock() > end_s:
+                raise DriverTimeoutError(
+                    f"{self._where}: its axes still move {_REST_S:g} s after a feed hold; use the "
+                    "machine's emergency switch"
+                )
+
+    def _status(self, limit_s: float, deaf_s: float = float("inf")) -> Status:
+        """Return a fresh status; after `deaf_s` without an answer it is reset."""
+        began_s, reset = self._clock(), False
+        while self._clock() - began_s < limit_s:
+            self._dialogue.ask(_ASK_S, self._last_s)
+            self._last_s = self._dialogue.asked_s or self._last_s
+            self._pause(_STEP_S)
+            for message, _, fresh in self._dialogue.hear():
+                if isinstance(message, Status) and fresh:
+                    return message
+            if not reset and self._clock() - began_s > deaf_s:
+                self._dialogue.cry(RESET)
+                reset = True
+        raise DriverTimeoutError(
+            f"{self._where}: no answer to '?' in {limit_s:g} s; is it a GRBL controller, is it "
+            "switched on, is the baud rate right?"
+        )
+
+    def _until(self, ends: Callable[[Message], bool], limit_s: float, what: str) -> list[Message]:
+        began_s, heard = self._clock(), list[Message]()
+        while self._clock() - began_s < limit_s:
+            self._pause(_STEP_S)
+            for message, _, _ in self._dialogue.hear():
+                heard.append(message)
+                if ends(message):
+                    return heard
+        raise DriverTimeoutError(f"{self._where}: it {what} within {limit_s:g} s")
+
+    def _asked(self, line: str) -> list[Message]:
+        self._dialogue.say(line)
+        heard = self._until(lambda one: isinstance(one, Answer), _LINE_S, f"did not answer {line}")
+        self._dialogue.awaited = None
+        return heard

@@ -1,0 +1,174 @@
+"""What the firmware's hot paths do, instruction by instruction, beside the same in Python."""
+
+import os
+import shutil
+import sys
+from binascii import crc_hqx
+from copy import deepcopy
+from importlib.resources import as_file, files
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rotemina.drivers.mc68hc11.firmware import cycles
+from rotemina.drivers.mc68hc11.firmware.budget import SOURCES
+
+sys.path.insert(0, str(Path(__file__).parent))  # no test module: the chip
+
+from chip import built
+
+CODE, BYTE, CRC, IN, MARK, NEXT = 0x02, 0x03, 0x04, 0x06, 0x0B, 0x0D
+HEAD, TAIL, LEFT, OLDEST, SILENCE = 0x00, 0x01, 0x16, 0x18, 0x14
+AXES, SIZE = 0x30, 24
+POS, FIRST, SECOND, TOLD, MOST, SPAN, REST, EDGES, GAIN, BASE = 0, 4, 8, 12, 14, 16, 20, 21, 18, 20
+RING, FRAME, FRAME_OUT, QUEUE = 0x80, 0xA0, 0xBE, 0xE0
+OUTPUTS = 0x2020
+
+
+@pytest.fixture(scope="module")
+def firmware(tmp_path_factory):
+    if shutil.which(cycles.ASSEMBLER) is None:
+        absent = f"no {cycles.ASSEMBLER}: `make test` installs {cycles.PACKAGE}"
+        if os.environ.get("CI") == "true":
+            pytest.fail(absent)
+        pytest.skip(absent)
+    with as_file(files("rotemina.drivers.mc68hc11") / "firmware") as folder:
+        return built(folder, SOURCES, tmp_path_factory.mktemp("firmware"))
+
+
+@pytest.fixture
+def chip(firmware):
+    made = deepcopy(firmware)
+    for byte in range(256):
+        made.poke(made.symbols["table"] + 2 * byte, crc_hqx(bytes((byte,)), 0))
+    for steps in range(151):
+        made.memory[made.symbols["shares"] + steps] = steps // 50
+        made.memory[made.symbols["shares"] + 160 + steps] = steps % 50
+    made.poke(SILENCE, 500)
+    made.poke(LEFT, 1000)
+    return made
+
+
+def stuffed(body):
+    """COBS, as `framing` has it."""
+    parts = body.split(b"\0")
+    return b"".join(bytes((len(part) + 1,)) + part for part in parts)
+
+
+@pytest.fixture(params=range(5))
+def body(request):
+    said = np.random.default_rng(request.param).integers(0, 4, 26).astype(np.uint8).tobytes()
+    return said + (crc_hqx(said, 0xFFFF) ^ 0xFFFF).to_bytes(2, "big")
+
+
+def test_a_body_is_taken_apart_and_its_check_agrees(chip, body):
+    wire = stuffed(body)
+    chip.poke(CRC, 0xFFFF)
+    chip.poke(IN, FRAME)
+    chip.memory[CODE] = wire[0]  # the start of a frame is none of the hot path
+    for byte in wire[1:]:
+        chip.memory[RING + chip.memory[HEAD]] = byte
+        chip.memory[HEAD] = chip.memory[HEAD] + 1 & 31
+        chip.call("take_byte")
+    assert chip.memory[TAIL] == chip.memory[HEAD]
+    assert bytes(chip.memory[FRAME : FRAME + len(body)]) == body
+    assert chip.word(CRC) == crc_hqx(body, 0xFFFF) == 0x1D0F
+
+
+def test_a_body_is_stuffed_and_checked(chip, body):
+    chip.poke(CRC, 0xFFFF)
+    chip.poke(MARK, FRAME_OUT)
+    chip.poke(IN, FRAME_OUT + 1)
+    chip.memory[CODE] = 1
+    for byte in body:
+        chip.a = byte
+        chip.call("put_byte")
+    chip.memory[chip.word(MARK)] = chip.memory[CODE]
+    assert bytes(chip.memory[FRAME_OUT : chip.word(IN)]) == stuffed(body)
+    assert chip.word(CRC) == 0x1D0F
+
+
+def test_a_segment_is_queued_and_begun_with_its_signs(chip):
+    first, second = (-70_000, 123_456_789, 5), (-3, 8_388_607, -8_388_608)
+    chip.memory[NEXT] = 7
+    chip.memory[FRAME : FRAME + 6] = bytes((1, 9, 0x12, 7, 0, 20))
+    for axis in range(3):
+        chip.poke(FRAME + 6 + 7 * axis, first[axis], 4)
+        chip.poke(FRAME + 10 + 7 * axis, second[axis], 3)
+    chip.call("take_segment")
+    assert chip.memory[NEXT] == 8
+    chip.poke(OLDEST, QUEUE)
+    chip.call("load_axes")
+    assert chip.word(LEFT) == 20
+    for axis in range(3):
+        at = AXES + SIZE * axis
+        assert signed(chip, at + FIRST, 4) == first[axis]
+        assert signed(chip, at + SECOND, 4) == second[axis]
+    assert chip.word(OLDEST) == QUEUE + 26
+
+
+def signed(chip, at, size):
+    return int.from_bytes(chip.memory[at : at + size], "big", signed=True)
+
+
+def prepared(chip, first, second, most=100):
+    for axis in range(3):
+        at = AXES + SIZE * axis
+        chip.poke(at + FIRST, first[axis], 4)
+        chip.poke(at + SECOND, second[axis], 4)
+        chip.poke(at + MOST, most)
+        chip.poke(at + SPAN, 2 * most)
+
+
+def test_ticks_add_differences_to_the_last_bit(chip):
+    chip.memory[chip.symbols["micro_out"]] = 0x3B  # what moves is looked at below
+    first, second = [3 << 16, 40_000, 1_000_000], [-1500, 77, -9]
+    position = [0, 0, 0]
+    prepared(chip, first, second)
+    for _ in range(200):
+        chip.call("isr_tick")
+        first = [one + two for one, two in zip(first, second, strict=True)]
+        position = [one + two for one, two in zip(position, first, strict=True)]
+        for axis in range(3):
+            at = AXES + SIZE * axis
+            assert signed(chip, at + POS, 4) == (position[axis] + (1 << 31)) % (1 << 32) - (1 << 31)
+            assert chip.word(at + TOLD) == position[axis] >> 16 & 0xFFFF
+    assert chip.word(LEFT) == 800
+    assert int.from_bytes(chip.memory[0x10:0x14], "big") == 200_000
+
+
+@pytest.mark.parametrize(("first", "made"), [(99, True), (101, False), (-99, True), (-102, False)])
+def test_more_steps_than_speed_times_tick_are_not_made(chip, first, made):
+    chip.memory[chip.symbols["micro_out"]] = 0x3B
+    prepared(chip, [first << 16] * 3, [0] * 3)
+    chip.call("isr_tick")
+    assert (chip.word(AXES + TOLD) == first & 0xFFFF) is made
+
+
+def test_edges_come_one_in_50_steps_and_none_is_lost(chip):
+    prepared(chip, [(73 << 16) + 21_000, 10 << 16, 100 << 16], [0] * 3)
+    edges = [0, 0, 0]
+    for _ in range(300):
+        chip.call("isr_tick")
+        for axis in range(3):
+            edges[axis] += chip.memory[AXES + SIZE * axis + EDGES]
+    for axis in range(3):
+        at = AXES + SIZE * axis
+        steps = ((73 << 16) + 21_000, 10 << 16, 100 << 16)[axis] * 300 >> 16
+        assert edges[axis] * 50 + chip.memory[at + REST] == steps
+
+
+@pytest.mark.parametrize(
+    ("steps", "gain", "base"),
+    [(0, 32_768, 5), (65_000, 33_000, 100), (12_345, 65_535, 0), (40_000, 257, 60_000)],
+)
+def test_a_piezo_s_code_is_the_product_to_the_last_bit(chip, steps, gain, base):
+    for axis in range(3):
+        at = AXES + SIZE * axis
+        chip.poke(at + POS, steps << 16, 4)
+        chip.poke(at + GAIN, gain)
+        chip.poke(at + BASE, base)
+    chip.call("nano_out")
+    for axis in range(3):
+        assert chip.word(OUTPUTS + 2 * axis) == (steps * gain >> 15) + base & 0xFFFF
