@@ -3,9 +3,10 @@
 import argparse
 import warnings
 from collections.abc import Iterator
+from concurrent.futures import Future
 from contextlib import contextmanager
-from types import SimpleNamespace
-from typing import Any, NoReturn
+from typing import Any
+from uuid import uuid4
 
 from rotemina.sim.errors import InputError
 
@@ -83,32 +84,38 @@ def _backend() -> Any:
     hears of no work that Dask gave up: whoever waits for the result waits for ever.
     """
     from joblib._dask import DaskDistributedBackend
+    from joblib._utils import _TracebackCapturingWrapper
 
     class Telling(DaskDistributedBackend):  # type: ignore[misc]  # joblib has no types
         def submit(self, func: Any, callback: Any = None) -> Any:
+            told: Any = Future()
+            told.get = told.result  # joblib's name for it
+
+            async def send() -> None:
+                try:
+                    batch, tasks = await self._to_func_args(func)
+                    work = _TracebackCapturingWrapper(batch)
+                    key = f"{batch!r}-{uuid4().hex}"
+                    sent = self.client.submit(work, tasks=tasks, key=key, **self.submit_kwargs)
+                except Exception as error:  # nobody else would hear of it
+                    said = f"{type(error).__name__}: {error}"
+                    told.set_exception(InputError(f"--cluster: work could not be sent: {said}"))
+                    return
+                self._callbacks[sent], self._results[sent] = callback, told
+                self.waiting_futures.add(sent)
+
             def give_up(done: Any) -> None:
                 error = done.exception()
                 if error is not None and callback is not None:
                     callback(error)
 
-            future = super().submit(func, callback)
-            future.add_done_callback(give_up)
-            return future
+            told.add_done_callback(give_up)
+            self.client.loop.add_callback(send)
+            return told
 
         def retrieve_result_callback(self, out: Any) -> Any:
             if isinstance(out, BaseException):
                 raise out
             return super().retrieve_result_callback(out)
 
-        async def _to_func_args(self, func: Any) -> Any:
-            try:
-                return await super()._to_func_args(func)
-            except Exception as error:  # told by a task in place of the one that cannot be sent
-                told = f"--cluster: work could not be sent: {type(error).__name__}: {error}"
-                return await super()._to_func_args(SimpleNamespace(items=[(_fail, (told,), {})]))
-
     return Telling()
-
-
-def _fail(told: str) -> NoReturn:
-    raise InputError(told)

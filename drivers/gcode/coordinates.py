@@ -6,7 +6,7 @@ the switch is at; the low end of an axis' range lies there.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import floor, pi
+from math import floor, pi, sqrt
 from typing import Self
 
 from rotemina.sim.errors import InputError
@@ -127,5 +127,5 @@ def check_stage(robot: Robot, letters: str) -> None:
 
 def feed_of(way: Mapping[StageAxis, float], seconds: float) -> float:
     """Return F for a way, mm or degrees of each axis, in a time: per minute, rounded down."""
-    length = sum(part**2 for part in way.values()) ** 0.5
+    length = sqrt(sum(part * part for part in way.values()))
     return max(floor(60e3 * length / seconds) / 1e3, _DIGIT)

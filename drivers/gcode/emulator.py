@@ -278,9 +278,9 @@ class EmulatedStage:
             for number, value in sorted(self.settings.items()):
                 self._say(f"${number}={value:.3f}" if number >= 100 else f"${number}={value:g}")
         else:
-            number, _, value = text.partition("=")
+            name, _, told = text.partition("=")
             try:
-                self.settings[int(number)] = float(value)
+                self.settings[int(name)] = float(told)
             except ValueError as error:
                 raise LineError(3) from error
             self._blocks.limits(self._each(110), self._each(120))

@@ -112,8 +112,12 @@ class Evidence:
         return cls(robot, axis, tuple(observations))
 
     def __reduce__(self) -> tuple[object, ...]:
-        """Leave the caches out: threads go on filling them while evidence is sent to a cluster."""
-        return Evidence, (self.robot, self.axis, self.observations, self.heartbeat)
+        """Leave out what another process has no use for.
+
+        Threads go on filling the caches while evidence is sent to a cluster, and whoever hears of
+        the heartbeat is here.
+        """
+        return Evidence, (self.robot, self.axis, self.observations)
 
     def with_model(self, robot: Robot) -> "Evidence":
         """Return the same evidence beside another model of the machine."""

@@ -19,14 +19,23 @@ PATIENCE_S = 60.0  # a machine under load may take its time; nothing waits so lo
 
 
 def until(driver, condition):
-    """Serve the driver until a condition holds; return the latest command."""
-    latest, end_s = driver.read(), time.monotonic() + PATIENCE_S
+    """Serve the driver until a condition holds."""
+    end_s = time.monotonic() + PATIENCE_S
+    driver.read()
     while not condition():
         assert time.monotonic() < end_s, driver.status()
         time.sleep(driver.service_period_s)
+        driver.read()
+
+
+def command(driver):
+    """Return where the axes are by the next sample."""
+    samples, end_s = driver.read(), time.monotonic() + PATIENCE_S
+    while not len(samples):
+        assert time.monotonic() < end_s, driver.status()
+        time.sleep(driver.service_period_s)
         samples = driver.read()
-        latest = samples if len(samples) else latest
-    return latest.command[-1] if len(latest) else None
+    return samples.command[-1]
 
 
 def test_a_stage_is_homed_moved_stopped_and_faulty_over_its_port(tmp_path):
@@ -49,12 +58,12 @@ def test_a_stage_is_homed_moved_stopped_and_faulty_over_its_port(tmp_path):
             driver.home(("x", "y"))
             until(driver, lambda: driver.status().position_known)
             driver.move_to({"x": 0.0025})
-            at = until(driver, lambda: driver.status().state is DeviceState.IDLE)
-            assert at == pytest.approx([0.0025, 0.001, 0.001], abs=1e-9)
+            until(driver, lambda: driver.status().state is DeviceState.IDLE)
+            assert command(driver) == pytest.approx([0.0025, 0.001, 0.001], abs=1e-9)
             driver.move_to({"x": 0.004})
             driver.stop()
-            held = until(driver, lambda: not driver.stop_pending)
-            assert held[0] < 0.0035
+            until(driver, lambda: not driver.stop_pending)
+            assert command(driver)[0] < 0.0035
             process.stdin.write("nonsense\nlimit\n")
             process.stdin.flush()
             until(driver, lambda: driver.status().state is DeviceState.FAULT)

@@ -64,12 +64,12 @@ def test_a_diagnosis_goes_on_when_a_worker_is_killed(cluster, tmp_path, monkeypa
     commands = Record.from_signals(time_s, {("thx", Tap.CMD): command}, {"thx": "rad"})
     effect = AxisEffect(axis="thx", id="hysteresis")
     write_record(simulate(robot, [effect], commands, np.random.default_rng(1)), "a.csv")
-    killed = []
+    killed, done = [], []
     distributed = pytest.importorskip("distributed")
 
     def kill():
         with distributed.Client(cluster, set_as_default=False) as client:
-            while not killed:
+            while not killed and not done:
                 busy = [address for address, keys in client.processing().items() if keys]
                 if busy:
                     pids = client.run(os.getpid, workers=busy[:1])
@@ -79,8 +79,12 @@ def test_a_diagnosis_goes_on_when_a_worker_is_killed(cluster, tmp_path, monkeypa
     killer = threading.Thread(target=kill)
     killer.start()
     address = cluster.scheduler_address
-    assert main(["gap", "diagnose", "a.csv", "--json", "far.json", "--cluster", address]) == 0
-    killer.join()
+    try:
+        status = main(["gap", "diagnose", "a.csv", "--json", "far.json", "--cluster", address])
+    finally:
+        done.append(True)
+        killer.join()
+    assert status == 0
     assert killed
     assert main(["gap", "diagnose", "a.csv", "--json", "near.json", "--jobs", "1"]) == 0
     assert Path("far.json").read_bytes() == Path("near.json").read_bytes()
