@@ -75,7 +75,7 @@ def test_what_is_as_slow_as_a_wander_must_close_most_of_it(effect, left, none):
 def test_a_doubted_cause_that_comes_back_in_what_is_left_ends_the_contest(monkeypatch):
     keys = (("creep", None), ("resonance_mismatch", None))
     causes = tuple(AxisEffect(axis="x", id=name) for name, _ in keys)
-    whole = SimpleNamespace(causes=causes, ids=keys)
+    whole = SimpleNamespace(causes=causes, ids=keys, by_tap={})
     doubt = SimpleNamespace(from_axis=None, probability=0.2)
 
     def ranked(_evidence, _selection, best):
@@ -92,7 +92,7 @@ def test_a_doubted_cause_that_comes_back_in_what_is_left_ends_the_contest(monkey
 def test_of_two_that_are_doubted_the_less_likely_one_goes_first(monkeypatch):
     keys = (("static_nonlinearity", None), ("stiffness_nonlinearity", None))
     causes = tuple(AxisEffect(axis="thy", id=name) for name, _ in keys)
-    both = SimpleNamespace(causes=causes, ids=keys)
+    both = SimpleNamespace(causes=causes, ids=keys, by_tap={})
     weights = {keys[0]: 0.05, keys[1]: 0.08}
 
     def ranked(_evidence, _selection, best):
