@@ -72,7 +72,9 @@ def contested(
         ranked = rivals_of(evidence, selection, best)
     unsure = wanders or max(aside.values(), default=0.0) > selection.raw
     # What nothing that was found explains: one that does not stand may still take a part of it.
-    remains = {tap: max(left - 1.0, 0.0) + aside.get(tap, 0.0) for tap, left in best.by_tap.items()}
+    more = [one for one in selection.tried if set(one.ids) >= set(best.ids)]
+    fullest = min([best, *more], key=lambda one: one.score).by_tap
+    remains = {tap: max(left - 1.0, 0.0) + aside.get(tap, 0.0) for tap, left in fullest.items()}
     once: set[Key] = set()  # a re-tuned parameter may come back in what the others leave
     while len(best.causes) > 1 or (best.causes and unsure):
         doubted = {
