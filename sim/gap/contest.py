@@ -71,13 +71,17 @@ def contested(
         best = attributed(evidence, selection.bare, likelier)
         ranked = rivals_of(evidence, selection, best)
     unsure = wanders or max(aside.values(), default=0.0) > selection.raw
+    # What nothing that was found explains: one that does not stand may still take a part of it.
+    more = [one for one in selection.tried if set(one.ids) >= set(best.ids)]
+    fullest = min([best, *more], key=lambda one: one.score).by_tap
+    remains = {tap: max(left - 1.0, 0.0) + aside.get(tap, 0.0) for tap, left in fullest.items()}
     once: set[Key] = set()  # a re-tuned parameter may come back in what the others leave
     while len(best.causes) > 1 or (best.causes and unsure):
         doubted = {
             key: weight
             for key in best.ids
             if key not in once
-            and (weight := _doubt(evidence, selection, best, ranked[key], key, aside)) is not None
+            and (weight := _doubt(evidence, selection, best, ranked[key], key, remains)) is not None
         }
         if wanders:
             bent = (key for key in best.ids if key not in once and _bends_to(evidence, best, key))
@@ -117,13 +121,16 @@ def _doubt(
     best: Explanation,
     ranked: Sequence[Rival],
     key: Key,
-    aside: Mapping[Tap, float],
+    remains: Mapping[Tap, float],
 ) -> float | None:
-    """Return the weight of a cause that does not stand at any tap, None of one that stands."""
+    """Return the weight of a cause that stands at no tap, None of one that stands.
+
+    ``remains`` is the power that is left at each tap above the floor.
+    """
     without = _without(evidence, selection, best, key)
     weight = _weight_of_its_kind(evidence, best, without, ranked, key)
     standing = any(
-        stands(without.by_tap[tap] - left, max(left - 1.0, 0.0) + aside.get(tap, 0.0), weight)
+        stands(without.by_tap[tap] - left, remains[tap], weight)
         for tap, left in best.by_tap.items()
     )
     return None if standing else weight

@@ -75,7 +75,7 @@ def test_what_is_as_slow_as_a_wander_must_close_most_of_it(effect, left, none):
 def test_a_doubted_cause_that_comes_back_in_what_is_left_ends_the_contest(monkeypatch):
     keys = (("creep", None), ("resonance_mismatch", None))
     causes = tuple(AxisEffect(axis="x", id=name) for name, _ in keys)
-    whole = SimpleNamespace(causes=causes, ids=keys)
+    whole = SimpleNamespace(causes=causes, ids=keys, by_tap={}, score=1.0)
     doubt = SimpleNamespace(from_axis=None, probability=0.2)
 
     def ranked(_evidence, _selection, best):
@@ -85,14 +85,14 @@ def test_a_doubted_cause_that_comes_back_in_what_is_left_ends_the_contest(monkey
     monkeypatch.setattr(contest, "rivals_of", ranked)
     monkeypatch.setattr(contest, "_doubt", lambda *_: 0.2)
     monkeypatch.setattr(contest, "_with_only", lambda *_: next(returns))
-    best, _ = contest.contested(None, SimpleNamespace(raw=9.0), whole, {}, wanders=False)
+    best, _ = contest.contested(None, SimpleNamespace(raw=9.0, tried=()), whole, {}, wanders=False)
     assert best is whole  # which has come back once, and would for ever
 
 
 def test_of_two_that_are_doubted_the_less_likely_one_goes_first(monkeypatch):
     keys = (("static_nonlinearity", None), ("stiffness_nonlinearity", None))
     causes = tuple(AxisEffect(axis="thy", id=name) for name, _ in keys)
-    both = SimpleNamespace(causes=causes, ids=keys)
+    both = SimpleNamespace(causes=causes, ids=keys, by_tap={}, score=1.0)
     weights = {keys[0]: 0.05, keys[1]: 0.08}
 
     def ranked(_evidence, _selection, best):
@@ -107,7 +107,7 @@ def test_of_two_that_are_doubted_the_less_likely_one_goes_first(monkeypatch):
     monkeypatch.setattr(contest, "rivals_of", ranked)
     monkeypatch.setattr(contest, "_doubt", lambda *asked: weights[asked[4]])
     monkeypatch.setattr(contest, "_with_only", with_only)
-    best, _ = contest.contested(None, SimpleNamespace(raw=9.0), both, {}, wanders=False)
+    best, _ = contest.contested(None, SimpleNamespace(raw=9.0, tried=()), both, {}, wanders=False)
     assert best.ids == keys[1:]
 
 
