@@ -1,6 +1,6 @@
 """What plots draw: a stretch of the live history, and another run beside it. Free of Qt."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -71,9 +71,8 @@ def latest(window: LiveWindow, span_s: float) -> LiveWindow:
     if len(time_s) == 0:
         return window
     first = int(np.searchsorted(time_s, time_s[-1] - span_s, side="left"))
-    parts = (window.command, window.model, window.measured)
-    command, model, measured = (part[first:] for part in parts)
-    return LiveWindow(window.axes, time_s[first:], command, model, measured, window.connection)
+    names = ("device_time_s", "command", "model", "measured", "nominal", "doubt")
+    return replace(window, **{name: getattr(window, name)[first:] for name in names})
 
 
 def as_record(window: LiveWindow, robot: Robot) -> Record:
