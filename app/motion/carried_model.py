@@ -27,9 +27,7 @@ class CarriedModel:
     offsets : mapping axis -> float
     """
 
-    def __init__(
-        self, robot: Robot, offsets: Mapping[str, float] = MappingProxyType({})
-    ) -> None:
+    def __init__(self, robot: Robot, offsets: Mapping[str, float] = MappingProxyType({})) -> None:
         self._robot, self._offsets = robot, offsets
         self._risen = LiveModel(robot, offsets)
         self._floor = np.array(

@@ -26,10 +26,13 @@ class CommandMemory:
         self._moved_s = float("-inf")
         self._rows = 0
         self._lock = threading.Lock()
+        #: Counts up whenever the memory starts anew: device times are of one of them.
+        self.number = 0
 
     def clear(self) -> None:
         """Forget everything: a new connection has a time of its own."""
         with self._lock:
+            self.number += 1
             self._parts.clear()
             self._latest, self._moved_s, self._rows = None, float("-inf"), 0
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from datetime import datetime
 
+from rotemina.app.motion.command_memory import CommandMemory
 from rotemina.app.motion.heartbeat import Heartbeat
 from rotemina.app.motion.history import LiveHistory
 from rotemina.app.motion.live_models import Answers, PreparedModel
@@ -317,6 +318,11 @@ class DeviceSession:
         """The model that predictions are made with; any thread."""
         return self._worker.models.model
 
+    @property
+    def memory(self) -> CommandMemory:
+        """What the machine was commanded since it was connected; any thread."""
+        return self._worker.models.memory
+
     def use_model(self, model: ModelInUse) -> None:
         """Make predictions with another model from now on; what is sent stays as it is.
 
@@ -333,7 +339,7 @@ class DeviceSession:
         """
         if not self.at_rest:
             raise RefusedError("the machine is still moving; change the model at rest")
-        prepared = PreparedModel.of(model, self._worker.models.memory)
+        prepared = PreparedModel.of(model, self.memory)
         self._ask(lambda _, __: self._worker.use_model(prepared))
 
     def note_contact(self, what: str) -> None:

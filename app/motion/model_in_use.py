@@ -109,9 +109,22 @@ class ModelInUse:
 
     @classmethod
     def corrected_by(
-        cls, diagnosis: "Diagnosis", driver: Driver, noted: Sequence[str] = ()
+        cls,
+        diagnosis: "Diagnosis",
+        driver: Driver,
+        noted: Sequence[str] = (),
+        beyond: Self | None = None,
     ) -> Self:
-        """Return the model with what a diagnosis found.
+        """Return the model of the connected machine with what a diagnosis found.
+
+        Parameters
+        ----------
+        diagnosis : Diagnosis
+        driver : Driver
+        noted : sequence of str
+            Faults and contacts while its records were taken.
+        beyond : ModelInUse, optional
+            The model in use, whose remainder may have been diagnosed: what is in it stays.
 
         Raises
         ------
@@ -120,37 +133,52 @@ class ModelInUse:
         EffectError
             If an effect cannot be used.
         """
-        robot = driver.robot
-        if fingerprint(diagnosis.robot) != fingerprint(robot):
+        machine, examined = Machine.of(driver), fingerprint(diagnosis.robot)
+        before: tuple[AxisEffect, ...] = ()
+        if beyond is not None and beyond.corrected and examined == fingerprint(beyond.robot):
+            before = beyond.effects
+        elif examined != machine.robot:
             raise ModelError(
                 f"the diagnosis is of the robot file {diagnosis.robot.name!r} as it was then; the "
-                f"one in use, {robot.name!r}, is another: choose “the machine's model” as the "
+                f"one in use, {driver.robot.name!r}, is another: choose the model in use as the "
                 "model, and diagnose again"
             )
+        found = cls.found_by(diagnosis, machine)
+        return replace(
+            found,
+            id=_corrected_id(machine, (*before, *found.effects), found.offsets),
+            nominal=driver.robot,
+            effects=(*before, *found.effects),
+            noted=tuple(noted),
+        )
+
+    @classmethod
+    def found_by(cls, diagnosis: "Diagnosis", machine: Machine | None = None) -> Self:
+        """Return the model that a diagnosis leads to, whatever machine it is of.
+
+        Raises
+        ------
+        ModelError
+            If it adds nothing that commands foretell.
+        EffectError
+            If an effect cannot be used.
+        """
+        robot = diagnosis.robot
+        machine = Machine(fingerprint(robot), "") if machine is None else machine
         found = tuple(effect for effect in diagnosis.fitted if effect.enabled)
         used = tuple(effect for effect in found if foreseen(robot, effect))
-        left_out = tuple(effect for effect in found if effect not in used)
+        if not used:
+            raise ModelError(
+                "the diagnosis found nothing that commands foretell: the nominal model is as good"
+            )
         offsets = {
             name: offset.value
             for name, one in diagnosis.axes.items()
             if (offset := one.offsets.get(Tap.MEAS)) is not None
         }
-        if not used:
-            raise ModelError(
-                "the diagnosis found nothing that commands foretell: the nominal model is as good"
-            )
-        machine = Machine.of(driver)
-        said = json.dumps([[_plain(effect) for effect in used], offsets], sort_keys=True)
-        number = _digest(machine.robot + machine.driver + machine.boards + said)[:_DIGITS]
-        return cls(
-            f"corrected-{number}",
-            robot,
-            machine,
-            used,
-            MappingProxyType(offsets),
-            left_out,
-            tuple(noted),
-        )
+        left_out = tuple(effect for effect in found if effect not in used)
+        name = _corrected_id(machine, used, offsets)
+        return cls(name, robot, machine, used, MappingProxyType(offsets), left_out)
 
     @property
     def corrected(self) -> bool:
@@ -188,6 +216,14 @@ def fingerprint(robot: Robot) -> str:
 
 def _digest(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _corrected_id(
+    machine: Machine, effects: Sequence[AxisEffect], offsets: Mapping[str, float]
+) -> str:
+    said = json.dumps([[_plain(one) for one in effects], dict(offsets)], sort_keys=True)
+    number = _digest(machine.robot + machine.driver + machine.boards + said)
+    return f"corrected-{number[:_DIGITS]}"
 
 
 def _plain(effect: AxisEffect) -> list[object]:

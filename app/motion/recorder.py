@@ -32,12 +32,18 @@ class RunAnswers:
         The record's.
     in_use, nominal, doubt : (n, axes)
         As :class:`~rotemina.app.motion.live_models.Answers`.
+    began_s : float
+        Device time of the first row.
+    memory : int
+        Which of the memories of commands that is a time of.
     """
 
     axes: tuple[str, ...]
     in_use: FloatArray
     nominal: FloatArray
     doubt: FloatArray
+    began_s: float
+    memory: int
 
 
 class PlaybackRecorder:
@@ -81,6 +87,7 @@ class PlaybackRecorder:
         self._samples = _Samples(1 + len(self._channels))
         self._answers: _Samples | None = None
         self._answered: RunAnswers | None = None
+        self._memory = 0
         self._rows = 0  # samples up to the latest row that began
         self._row = -1
 
@@ -98,8 +105,10 @@ class PlaybackRecorder:
         """Put something into the record's metadata."""
         self._metadata[name] = text
 
-    def add(self, samples: Samples, answers: Answers | None = None) -> None:
+    def add(self, samples: Samples, answers: Answers | None = None, memory: int = 0) -> None:
         """Take what belongs to the trajectory, and what models say of it.
+
+        ``memory`` is the number of the memory of commands that these samples are in.
 
         Raises
         ------
@@ -120,6 +129,7 @@ class PlaybackRecorder:
         self._samples.append(self._table(samples, first, before))
         if answers is not None:
             self._add_answers(answers, first)
+            self._memory = memory
 
     def finish(self) -> Record | None:
         """Return the record of what was played, once; None if that never began."""
@@ -128,7 +138,8 @@ class PlaybackRecorder:
         told = np.flatnonzero(self._told)
         device_time_s, values = self._samples.drained(self._rows, told)
         if self._answers is not None:
-            self._answered = self._drained_answers(self._answers)
+            began_s = float(device_time_s[0])
+            self._answered = self._drained_answers(self._answers, began_s)
         time_s = np.rint((device_time_s - device_time_s[0]) * _PER_SECOND) / _PER_SECOND
         channels = tuple(self._channels[column] for column in told)
         return Record(time_s, channels, values, self._trajectory.commands.units, self._metadata)
@@ -143,16 +154,16 @@ class PlaybackRecorder:
             self._answers = _Samples(table.shape[1])
         self._answers.append(table)
 
-    def _drained_answers(self, kept: "_Samples") -> RunAnswers:
+    def _drained_answers(self, kept: "_Samples", began_s: float) -> RunAnswers:
         axes = self._trajectory.commands.axes
         count = len(axes)
         columns = np.arange(kept.columns - 1)
         values = np.column_stack(kept.drained(self._rows, columns))
         in_use = np.ascontiguousarray(values[:, :count])
         if kept.columns == count:
-            return RunAnswers(axes, in_use, in_use, np.zeros(in_use.shape))
+            return RunAnswers(axes, in_use, in_use, np.zeros(in_use.shape), began_s, self._memory)
         nominal, doubt = values[:, count : 2 * count], values[:, 2 * count :]
-        return RunAnswers(axes, in_use, nominal, doubt)
+        return RunAnswers(axes, in_use, nominal, doubt, began_s, self._memory)
 
     def _check_rows(self, samples: Samples, began: IntArray) -> None:
         rows = np.concatenate([[self._row], samples.playback_row[began]])

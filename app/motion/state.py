@@ -198,12 +198,6 @@ class ModelChanged:
 
 
 Event = (
-    StateChanged
-    | Stopped
-    | Faulted
-    | Alarmed
-    | CommandRefused
-    | PlaybackFinished
-    | ModelChanged
+    StateChanged | Stopped | Faulted | Alarmed | CommandRefused | PlaybackFinished | ModelChanged
 )
 Callback = Callable[[Event], None]

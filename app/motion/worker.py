@@ -302,7 +302,7 @@ class Worker:
         if len(samples):
             self._tell(samples, answers)
         if self._executor.recorder is not None:
-            self._executor.recorder.add(samples, answers)
+            self._executor.recorder.add(samples, answers, self.models.memory.number)
             if status.state is not DeviceState.PLAYING:
                 self._end_recording(completed=True)
         if faulted:

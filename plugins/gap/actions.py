@@ -5,13 +5,12 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Qt, QUrl, Signal
 from PySide6.QtGui import QDesktopServices
-from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
+from PySide6.QtWidgets import QFileDialog, QWidget
 
 from rotemina.app.files import json_text, write_text
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.gap.answer import Answer
-from rotemina.sim.errors import InputError
 from rotemina.sim.gap.diagnosis import Diagnosis
 from rotemina.sim.gap.document import as_json
 from rotemina.sim.gap.twin import twin_text
@@ -80,13 +79,12 @@ class Actions(QObject):
     # --- writing ----------------------------------------------------------------------------------
 
     def save_twin(self, answer: Answer, source: str | Path | None, path: Path) -> None:
-        """Write a robot file of the corrected model, and offer it to the running simulator."""
+        """Write a robot file of the corrected model."""
         robot, effects = answer.diagnosis.robot, answer.diagnosis.fitted
 
         def done(_: None) -> None:
             self._workbench.notify(Level.GOOD, translate("gap", "Saved {path}").format(path=path))
             self.twin_saved.emit(path)
-            self._offer_live(answer)
 
         self._workbench.work(
             "gap twin",
@@ -126,39 +124,6 @@ class Actions(QObject):
                 Level.GOOD, translate("gap", "Saved {path}").format(path=path)
             ),
         )
-
-    # --- the running simulator --------------------------------------------------------------------
-
-    def _offer_live(self, answer: Answer) -> None:
-        """Ask whether the simulator is to run the corrected model, where there is one."""
-        session = self._workbench.session
-        if session.effects is None or answer.diagnosis.robot.axes != self._workbench.robot.axes:
-            return
-        question = QMessageBox(self._parent.window())
-        question.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        question.setWindowTitle(translate("gap", "Add to twin"))
-        question.setText(translate("gap", "Let the running simulator be the corrected model, too?"))
-        question.setInformativeText(
-            translate(
-                "gap",
-                "The effects that it has now are replaced. Choose No if the simulator plays the "
-                "part of the machine.",
-            )
-        )
-        question.setStandardButtons(QMessageBox.StandardButton.Yes | QMessageBox.StandardButton.No)
-        question.setDefaultButton(QMessageBox.StandardButton.No)
-        yes = QMessageBox.StandardButton.Yes
-        question.finished.connect(lambda said: self._load_live(answer) if said == yes else None)
-        self._workbench.stopped.connect(question.reject)
-        question.setModal(False)  # the window, and its stop button, can still be used
-        question.show()
-
-    def _load_live(self, answer: Answer) -> None:
-        diagnosis = answer.diagnosis
-        try:
-            self._workbench.session.set_effects((*diagnosis.robot.effects, *diagnosis.fitted))
-        except InputError as error:
-            self._workbench.notify(Level.ERROR, str(error), about=error)
 
 
 def write_report(

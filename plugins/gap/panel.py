@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.display import label
+from rotemina.app.motion.model_in_use import ModelError, ModelInUse
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.controls import ElidedLabel, allow
 from rotemina.app.shell.language import marked, translate
@@ -28,7 +29,7 @@ from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.blind_page import BlindPage
 from rotemina.plugins.gap.diagnosing import Diagnosing
 from rotemina.plugins.gap.far import FarView
-from rotemina.plugins.gap.headline import headline
+from rotemina.plugins.gap.headline_view import Headline
 from rotemina.plugins.gap.hint import hint
 from rotemina.plugins.gap.playing import Playing
 from rotemina.plugins.gap.proof import Proof, new_motion, prove
@@ -37,9 +38,10 @@ from rotemina.plugins.gap.records import RecordChoice
 from rotemina.plugins.gap.robots import RobotChoice
 from rotemina.plugins.gap.running import RunningView
 from rotemina.plugins.gap.tips import tip
+from rotemina.plugins.gap.using import Using, against
 from rotemina.plugins.gap.where import WhereView
 from rotemina.plugins.gap.which import WhichView
-from rotemina.plugins.gap.words import VERDICTS, stage_name, summary
+from rotemina.plugins.gap.words import stage_name
 from rotemina.sim.gap.suggestion import suggestion
 
 VIEWS = (
@@ -82,6 +84,7 @@ class GapPanel(Panel):
         self.diagnosing = Diagnosing(self)
         self.playing = Playing(workbench, self)
         self.actions_of = Actions(workbench, self)
+        self.using = Using(workbench, self)
         self.robots, self.records = RobotChoice(workbench), RecordChoice(workbench)
         self.blind: BlindPage | None = None
         self._make_buttons()
@@ -101,6 +104,7 @@ class GapPanel(Panel):
         self.progress.setTextVisible(False)
         self.progress.setMaximumWidth(220)
         self.doing = ElidedLabel()
+        self.use = QPushButton(translate("gap", "Use corrected model"))
         self.twin = QPushButton(translate("gap", "Add to twin …"))
         self.motion = QPushButton(translate("gap", "New motion …"))
         self.report = QPushButton(translate("gap", "Report …"))
@@ -130,7 +134,8 @@ class GapPanel(Panel):
         for number, name in enumerate(VIEWS):
             self.tabs.addTab(translate("gap", name))
             self.tabs.setTabToolTip(number, translate("gap", TIPS[number]))
-        self.verdict = ElidedLabel()
+        self.headline = Headline([self.use])
+        self.verdict = self.headline.sentence
         self.plan = QPushButton(translate("gap", "Play next experiment …"))
         self.plan.setToolTip(
             tip(
@@ -165,7 +170,7 @@ class GapPanel(Panel):
         head = QHBoxLayout()
         head.setSpacing(8)
         head.addWidget(self.tabs)
-        head.addWidget(self.verdict, 1)
+        head.addStretch(1)
         head.addWidget(self.progress)
         head.addWidget(self.doing, 1)
         head.addWidget(self.plan)
@@ -174,6 +179,7 @@ class GapPanel(Panel):
         outer.setContentsMargins(10, 6, 10, 6)
         outer.setSpacing(4)
         outer.addLayout(top)
+        outer.addWidget(self.headline)
         outer.addLayout(head)
         outer.addWidget(self.views, 1)
         self.setMinimumHeight(_HEIGHT)
@@ -181,6 +187,9 @@ class GapPanel(Panel):
     def _connect(self) -> None:
         self.start.clicked.connect(self._start)
         self.stop.clicked.connect(self.end)
+        self.use.clicked.connect(
+            lambda: self.using.ask(self._known, against(self._known, self.proof.proof))
+        )
         self.twin.clicked.connect(lambda: self.actions_of.ask_twin(self._known, self._source))
         self.motion.clicked.connect(self.check)
         self.report.clicked.connect(lambda: self.actions_of.ask_report(self._known))
@@ -259,10 +268,7 @@ class GapPanel(Panel):
         self.where.show_answer(answer)
         self.proof.show_proof(None)
         self._show_axis()
-        self.verdict.show_text(headline(answer))
-        said = summary(answer.diagnosis, answer.records)
-        verdict = translate("gap", VERDICTS[answer.diagnosis.verdict])
-        self.verdict.setToolTip(tip(f"{verdict}.", *said))
+        self.headline.show_answer(answer, None)
         self.doing.show_text("")
         self._show_state()
 
@@ -297,6 +303,7 @@ class GapPanel(Panel):
         found = why or (
             None if answer and answer.diagnosis.fitted else translate("gap", "no effect was found")
         )
+        self._show_use(answer, found)
         allow(
             self.twin,
             found,
@@ -317,12 +324,31 @@ class GapPanel(Panel):
         self.plan.setEnabled(not running)
         done = answer is not None and not running
         self.tabs.setVisible(done)
-        self.verdict.setVisible(done)
+        self.headline.setVisible(done)
         self.doing.setVisible(not done)
         self.hint.setText(readiness(chosen))
         shown = self.tabs.currentIndex() if done else RUNNING if running else HINT
         self.views.setCurrentIndex(shown)
         self.axis.setVisible(shown in (WHICH, FAR))
+
+    def _show_use(self, answer: Answer | None, why_not: str | None) -> None:
+        """Offer the corrected model: by itself where it is better, else after a question."""
+        session = self.workbench.session
+        doubt = against(answer, self.proof.proof) if answer and not why_not else None
+        if why_not is None and not session.at_rest:
+            why_not = translate("gap", "the machine is still moving")
+        said = translate(
+            "gap",
+            "Predictions only. What is sent to the machine does not change; Compensate does that.",
+        )
+        self.use.setText(
+            translate("gap", "Use anyway …") if doubt else translate("gap", "Use corrected model")
+        )
+        if self.use.property("primary") is not (doubt is None):
+            self.use.setProperty("primary", doubt is None)
+            self.use.style().unpolish(self.use)
+            self.use.style().polish(self.use)
+        allow(self.use, why_not, "\n".join(filter(None, (doubt, said))))
 
     def _show_progress(self, doing: str, share: float) -> None:
         self.progress.setValue(round(1000 * share))
@@ -383,14 +409,23 @@ class GapPanel(Panel):
         self.workbench.work(
             "gap proof",
             translate("gap", "Comparing with the twin …"),
-            lambda: prove(answer.diagnosis, run.name, run.record),
+            lambda: self._proved(answer, run),
             lambda proof: self._take_proof(answer, proof),
         )
+
+    def _proved(self, answer: Answer, run: Run) -> Proof:
+        try:
+            model = ModelInUse.found_by(answer.diagnosis)
+        except ModelError:  # nothing that commands foretell
+            return Proof(run.name, ())
+        return prove(answer.diagnosis, model, run, self.workbench.session.memory)
 
     def _take_proof(self, answer: Answer, proof: Proof) -> None:
         if answer is not self.answer or not proof.shrunk:
             return
         self.proof.show_proof(proof)
+        self.headline.show_answer(answer, proof)
+        self._show_state()
         if proof.name == self._check:  # it was asked for here: this is what is awaited
             self._check = None
             with QSignalBlocker(self.tabs):

@@ -333,9 +333,7 @@ def test_a_corrected_model_does_not_loosen_stop_beyond(worn):
     use(worn, corrected(worn.driver))
     told = []
     playback = Playback(worn.session, told.append)
-    playback.play(
-        accepted(ROBOT, swing(), worn.session.setpoint_period_s), bounds={"zn": 1e-6}
-    )
+    playback.play(accepted(ROBOT, swing(), worn.session.setpoint_period_s), bounds={"zn": 1e-6})
     worn.until(DeviceState.PLAYING)
     worn.until_idle()
     assert [excess.axis for excess in told] == ["zn"]
