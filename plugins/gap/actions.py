@@ -1,6 +1,7 @@
 """What comes of an answer: a twin, a report, a document; each is a file that is asked for."""
 
 from collections.abc import Callable, Sequence
+from html import escape
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Qt, QUrl, Signal
@@ -8,6 +9,8 @@ from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QFileDialog, QWidget
 
 from rotemina.app.files import json_text, write_text
+from rotemina.app.motion.run import Run
+from rotemina.app.shell.gap_words import run_lines
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.gap.answer import Answer
@@ -15,6 +18,8 @@ from rotemina.sim.gap.diagnosis import Diagnosis
 from rotemina.sim.gap.document import as_json
 from rotemina.sim.gap.twin import twin_text
 from rotemina.sim.records.record import Record
+
+_BEFORE = '<h2 id="where">'  # of a page: what is told of the run in hand stands there
 
 
 class Actions(QObject):
@@ -95,6 +100,7 @@ class Actions(QObject):
 
     def save_report(self, answer: Answer, path: Path) -> None:
         """Write the report and open it."""
+        run = self._workbench.run
 
         def done(_: None) -> None:
             self._workbench.notify(Level.GOOD, translate("gap", "Saved {path}").format(path=path))
@@ -110,7 +116,7 @@ class Actions(QObject):
         self._workbench.work(
             "gap report",
             translate("gap", "Writing {name} …").format(name=path.name),
-            lambda: write_report(answer.diagnosis, answer.records, path, answer.names),
+            lambda: write_report(answer.diagnosis, answer.records, path, answer.names, run),
             done,
         )
 
@@ -127,9 +133,18 @@ class Actions(QObject):
 
 
 def write_report(
-    diagnosis: Diagnosis, records: Sequence[Record], path: Path, names: Sequence[str]
+    diagnosis: Diagnosis,
+    records: Sequence[Record],
+    path: Path,
+    names: Sequence[str],
+    run: Run | None = None,
 ) -> None:
-    """Write the page of a diagnosis to a file."""
+    """Write the page of a diagnosis to a file, with the gap of the run in hand at its head."""
     from rotemina.sim.gap.report import page  # drawing takes its time to import
 
-    page.write_report(diagnosis, records, path, names)
+    text = page.report_text(diagnosis, records, names)
+    if run is not None:
+        lines = "".join(f"<li>{escape(line)}</li>" for line in run_lines(run))
+        told = f"<p>{escape(run.name)} ({escape(run.model_id)}):</p><ul>{lines}</ul>\n"
+        text = text.replace(_BEFORE, told + _BEFORE, 1)
+    write_text(path, text)

@@ -17,12 +17,14 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.display import label
-from rotemina.app.motion.model_in_use import ModelError, ModelInUse
+from rotemina.app.motion.model_in_use import ModelInUse
+from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.controls import ElidedLabel, allow
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
+from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.gap.actions import Actions
 from rotemina.plugins.gap.advice import check_title, readiness
 from rotemina.plugins.gap.answer import Answer
@@ -38,7 +40,7 @@ from rotemina.plugins.gap.records import RecordChoice
 from rotemina.plugins.gap.robots import RobotChoice
 from rotemina.plugins.gap.running import RunningView
 from rotemina.plugins.gap.tips import tip
-from rotemina.plugins.gap.using import Using, against
+from rotemina.plugins.gap.using import Using, against, candidate
 from rotemina.plugins.gap.where import WhereView
 from rotemina.plugins.gap.which import WhichView
 from rotemina.plugins.gap.words import stage_name
@@ -63,6 +65,7 @@ STEPS = (
     marked("gap", "In the end: use what was found"),
 )
 _HEIGHT = 240
+_NOT_FORETOLD = marked("gap", "commands foretell nothing of what was found")
 _NO_ANSWER = marked("gap", "there is no answer yet; diagnose records first")
 
 
@@ -78,6 +81,9 @@ class GapPanel(Panel):
         super().__init__(workbench)
         self.answer: Answer | None = None
         self._source: str | Path | None = None  # of the robot that the answer is about
+        self._candidate: ModelInUse | None = None  # what the answer leads to
+        self._usable: str | None = ""  # why not; None: it is
+        self._resting = True
         self._goes_on = False  # to diagnose the records that are being read
         self._experiment: str | None = None  # that is asked for, or under way
         self._check: str | None = None
@@ -208,6 +214,7 @@ class GapPanel(Panel):
         self.diagnosing.failed.connect(self._fail)
         self.playing.played.connect(self._use_played)
         self.workbench.run_changed.connect(self._prove)
+        self.workbench.refreshed.connect(self._follow_motion)
         self.workbench.closing.connect(self.diagnosing.close)
         self.workbench.theme_changed.connect(self._use_theme)
 
@@ -261,6 +268,7 @@ class GapPanel(Panel):
     def take_answer(self, answer: Answer) -> None:
         """Show a diagnosis."""
         self.answer, self._source = answer, self.robots.source
+        self._candidate = candidate(answer)
         self.axis.clear()
         for name in answer.diagnosis.axes:
             self.axis.addItem(label(name), name)
@@ -303,7 +311,8 @@ class GapPanel(Panel):
         found = why or (
             None if answer and answer.diagnosis.fitted else translate("gap", "no effect was found")
         )
-        self._show_use(answer, found)
+        self._usable = found or (None if self._candidate else translate("gap", _NOT_FORETOLD))
+        self._show_use()
         allow(
             self.twin,
             found,
@@ -331,11 +340,11 @@ class GapPanel(Panel):
         self.views.setCurrentIndex(shown)
         self.axis.setVisible(shown in (WHICH, FAR))
 
-    def _show_use(self, answer: Answer | None, why_not: str | None) -> None:
+    def _show_use(self) -> None:
         """Offer the corrected model: by itself where it is better, else after a question."""
-        session = self.workbench.session
+        answer, why_not = self.answer, self._usable
         doubt = against(answer, self.proof.proof) if answer and not why_not else None
-        if why_not is None and not session.at_rest:
+        if why_not is None and not self._resting:
             why_not = translate("gap", "the machine is still moving")
         said = translate(
             "gap",
@@ -349,6 +358,13 @@ class GapPanel(Panel):
             self.use.style().unpolish(self.use)
             self.use.style().polish(self.use)
         allow(self.use, why_not, "\n".join(filter(None, (doubt, said))))
+
+    def _follow_motion(self, state: SessionState) -> None:
+        """Offer the switch of the model at rest only."""
+        resting = state.activity is DeviceState.IDLE and not state.queued
+        if resting is not self._resting:
+            self._resting = resting
+            self._show_use()
 
     def _show_progress(self, doing: str, share: float) -> None:
         self.progress.setValue(round(1000 * share))
@@ -403,22 +419,15 @@ class GapPanel(Panel):
 
     def _prove(self, run: Run) -> None:
         """Work out how far the gap has shrunk on what was played or opened since the answer."""
-        answer = self.answer
-        if answer is None or not answer.diagnosis.fitted or run.name == self._experiment:
+        answer, model = self.answer, self._candidate
+        if answer is None or model is None or run.name == self._experiment:
             return
         self.workbench.work(
             "gap proof",
             translate("gap", "Comparing with the twin …"),
-            lambda: self._proved(answer, run),
+            lambda: prove(answer.diagnosis, model, run, self.workbench.session.memory),
             lambda proof: self._take_proof(answer, proof),
         )
-
-    def _proved(self, answer: Answer, run: Run) -> Proof:
-        try:
-            model = ModelInUse.found_by(answer.diagnosis)
-        except ModelError:  # nothing that commands foretell
-            return Proof(run.name, ())
-        return prove(answer.diagnosis, model, run, self.workbench.session.memory)
 
     def _take_proof(self, answer: Answer, proof: Proof) -> None:
         if answer is not self.answer or not proof.shrunk:

@@ -6,12 +6,13 @@ from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QMessageBox, QWidget
 
 from rotemina.app.display import label
-from rotemina.app.motion.model_in_use import NOTED, ModelInUse
+from rotemina.app.motion.model_in_use import CONTACT_LIKE, NOTED, ModelInUse
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.proof import Proof
 from rotemina.plugins.gap.words import all_of, effect_word
+from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Tap
 
 
@@ -62,6 +63,14 @@ class Using(QObject):
         question.show()
 
 
+def candidate(answer: Answer) -> ModelInUse | None:
+    """Return the model that an answer leads to; None where it adds nothing of use."""
+    try:
+        return ModelInUse.found_by(answer.diagnosis)
+    except InputError:
+        return None
+
+
 def against(answer: Answer, proof: Proof | None) -> str | None:
     """Return why a corrected model is not offered by itself; None: it is better wherever it moves.
 
@@ -93,7 +102,7 @@ def noted_in(answer: Answer) -> Iterator[str]:
         if NOTED in record.metadata:
             text = translate("gap", "While {record} was played: {noted}.")
             yield text.format(record=name, noted=record.metadata[NOTED])
-    found = ModelInUse.found_by(answer.diagnosis).contact_like
+    found = [one for one in answer.diagnosis.fitted if one.enabled and one.id in CONTACT_LIKE]
     if found:
         text = translate(
             "gap",
