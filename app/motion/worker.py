@@ -291,7 +291,7 @@ class Worker:
         self._note_standstill(status)
         self._note_rest(status)
         faulted = status.state is DeviceState.FAULT and self.state.fault != self._next.fault
-        self._noted += [one.message for one in found if isinstance(one, Faulted | Alarmed)]
+        self._noted += [one.message for one in found if isinstance(one, Faulted)]
         if faulted:
             self._noted.append(self._next.fault or "")
             self._mailbox.clear()

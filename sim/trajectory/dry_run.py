@@ -106,8 +106,8 @@ def dry_run(
     """Examine a trajectory without moving anything.
 
     ``setpoint_period_s`` is that of the device that shall play it. ``corrected`` is the same robot
-    with what a diagnosis found: its tracking errors are told, and what either of both expects to
-    leave its range is an objection.
+    with what a diagnosis found: its tracking errors are told. What may be played does not depend
+    on it.
 
     Raises
     ------
@@ -121,10 +121,8 @@ def dry_run(
     prediction = predict(robot, commands, setpoint_period_s)
     violations += prediction.violations
     if corrected is not None:
-        nominal, prediction = prediction, predict(corrected, commands, setpoint_period_s)
-        known = {one.axis for one in nominal.violations}
-        violations += tuple(one for one in prediction.violations if one.axis not in known)
-        prediction = replace(prediction, fault=nominal.fault or prediction.fault)
+        told = predict(corrected, commands, setpoint_period_s)
+        prediction = replace(prediction, errors=told.errors)
     figures = {
         name: _figures(robot.axes[name], commands, name, setpoint_period_s, prediction.errors)
         for name in commands.axes
