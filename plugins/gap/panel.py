@@ -429,6 +429,12 @@ class GapPanel(Panel):
             lambda proof: self._take_proof(answer, proof),
         )
 
+    def show_proof(self) -> None:
+        """Show what a new motion says."""
+        with QSignalBlocker(self.tabs):
+            self.tabs.setCurrentIndex(PROOF)
+        self._show_state()
+
     def _take_proof(self, answer: Answer, proof: Proof) -> None:
         if answer is not self.answer or not proof.shrunk:
             return
@@ -437,9 +443,7 @@ class GapPanel(Panel):
         self._show_state()
         if proof.name == self._check:  # it was asked for here: this is what is awaited
             self._check = None
-            with QSignalBlocker(self.tabs):
-                self.tabs.setCurrentIndex(PROOF)
-            self._show_state()
+            self.show_proof()
             self.main_window.bring_up("gap")
 
     # --- the test of the diagnosis itself ---------------------------------------------------------
