@@ -8,8 +8,7 @@ from rotemina.sim.records.record import Tap
 
 LIVE = marked("shell", "Gap, last 10 s")
 RUN = marked("shell", "Gap, this run")
-#: How long back the live gap looks, s.
-LIVE_S = 10.0
+LIVE_S = 10.0  # how long back the live gap looks
 
 
 def live_gap(figure: GapFigure | None, unit: str) -> str:

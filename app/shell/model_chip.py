@@ -1,6 +1,7 @@
 """The chip in the header that says which model predictions are made with."""
 
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QFont, QFontMetrics
 from PySide6.QtWidgets import QMenu, QToolButton
 
 from rotemina.app.display import label
@@ -12,7 +13,7 @@ from rotemina.app.shell.workbench import Workbench
 from rotemina.sim.gap.report.words import effect_title
 
 _MOST_EFFECTS = 2  # that are named
-_ROOM = 34  # of margins and the arrow of a menu
+_ROOM = 44  # of margins and the arrow of a menu
 
 
 class ModelChip(QToolButton):
@@ -46,10 +47,10 @@ class ModelChip(QToolButton):
     def _show(self, model: ModelInUse, unsettled: tuple[str, ...]) -> None:
         self._told = model.id, unsettled
         self.setText(model_name(model) + (" ≈" if unsettled else ""))
-        self.setFixedWidth(self.fontMetrics().horizontalAdvance(self.text()) + _ROOM)
         self.setProperty("corrected", model.corrected)
         self.style().unpolish(self)
         self.style().polish(self)
+        self.setFixedWidth(self._width_of(self.text()))
         lines = [
             translate("shell", "The model that plots, comparison, dry run and 3-D view use."),
             translate(
@@ -68,6 +69,11 @@ class ModelChip(QToolButton):
                 ).format(axes=", ".join(map(label, unsettled)))
             )
         self.setToolTip(plain_tip(*lines, model.id))
+
+    def _width_of(self, text: str) -> int:
+        font = QFont(self.font())
+        font.setBold(True)
+        return QFontMetrics(font).horizontalAdvance(text) + _ROOM
 
 
 def model_name(model: ModelInUse) -> str:

@@ -186,7 +186,8 @@ def play(window: MainWindow, trajectory: Record) -> Run:
             finish(text)
 
     def begin(state: SessionState) -> None:
-        if state.locked is None and bench.plan is not None:
+        planned = bench.plan is not None and bench.plan.trajectory is trajectory
+        if state.locked is None and planned:
             bench.refreshed.disconnect(begin)
             bench.play()
 

@@ -10,6 +10,7 @@ from rotemina.sim.units import drawing_unit, symbol, to_unit
 AFTER_S = 0.5  # after a motion, in which what it stirred up dies away
 NONE = "–"  # in place of a gap where nothing moved
 _ROUNDING_S = 1e-6
+_NOTHING = 1e-3  # of the smallest unit, below which nothing is told in digits
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +83,7 @@ def gap_text(size: float | None, si_unit: str) -> str:
 
 def _three_digits(value: float) -> str:
     """Return a number with three digits that matter, and no exponent."""
-    if value == 0.0:
+    if value < _NOTHING:
         return "0"
     decimals = max(2 - int(np.floor(np.log10(float(f"{value:.2e}")))), 0)
     return f"{value:.{decimals}f}"

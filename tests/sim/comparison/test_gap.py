@@ -50,6 +50,7 @@ def test_what_is_no_number_is_left_out():
         (2.02e-8, "m", "20.2 nm"),
         (3.1e-4, "rad", "310 µrad"),
         (0.0, "m", "0 nm"),
+        (3.47e-18, "m", "0 nm"),
         (None, "m", "–"),
         (float("nan"), "m", "–"),
     ],
