@@ -32,6 +32,7 @@ from rotemina.plugins.gap.blind_page import BlindPage
 from rotemina.plugins.gap.diagnosing import Diagnosing
 from rotemina.plugins.gap.far import FarView
 from rotemina.plugins.gap.headline_view import Headline
+from rotemina.plugins.gap.hidden import Hiding
 from rotemina.plugins.gap.hint import hint
 from rotemina.plugins.gap.playing import Playing
 from rotemina.plugins.gap.proof import Proof, new_motion, prove
@@ -91,6 +92,7 @@ class GapPanel(Panel):
         self.playing = Playing(workbench, self)
         self.actions_of = Actions(workbench, self)
         self.using = Using(workbench, self)
+        self.hiding = Hiding(workbench, self)
         self.robots, self.records = RobotChoice(workbench), RecordChoice(workbench)
         self.blind: BlindPage | None = None
         self._make_buttons()
@@ -123,6 +125,10 @@ class GapPanel(Panel):
         menu = QMenu(self)
         self.save = menu.addAction(translate("gap", "Save JSON …"))
         self.test = menu.addAction(translate("gap", "Blind test …"))
+        menu.addSeparator()
+        self.hide_machine = menu.addAction(translate("gap", "Hidden machine …"))
+        self.reveal = menu.addAction(translate("gap", "Reveal"))
+        menu.aboutToShow.connect(self._offer_hidden)
         self.more.setMenu(menu)
 
     def _make_views(self) -> None:
@@ -201,6 +207,8 @@ class GapPanel(Panel):
         self.report.clicked.connect(lambda: self.actions_of.ask_report(self._known))
         self.save.triggered.connect(lambda: self.actions_of.ask_json(self._known))
         self.test.triggered.connect(self.show_blind_test)
+        self.hide_machine.triggered.connect(lambda: self.hiding.begin())
+        self.reveal.triggered.connect(lambda: self.hiding.reveal(self.answer))
         self.plan.clicked.connect(self.play_experiment)
         self.actions_of.twin_saved.connect(self.robots.load)
         self.robots.changed.connect(self.records.use_robot)
@@ -445,6 +453,12 @@ class GapPanel(Panel):
             self._check = None
             self.show_proof()
             self.main_window.bring_up("gap")
+
+    def _offer_hidden(self) -> None:
+        """Offer a hidden machine in the simulator's place, or to reveal the one that is there."""
+        simulated = self.workbench.session.effects is not None
+        self.hide_machine.setEnabled(simulated and self.hiding.secret is None)
+        self.reveal.setEnabled(self.hiding.secret is not None)
 
     # --- the test of the diagnosis itself ---------------------------------------------------------
 

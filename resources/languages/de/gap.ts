@@ -484,6 +484,14 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Blindtest …</translation>
     </message>
     <message>
+        <source>Hidden machine …</source>
+        <translation>Verborgene Maschine …</translation>
+    </message>
+    <message>
+        <source>Reveal</source>
+        <translation>Aufdecken</translation>
+    </message>
+    <message>
         <source>What is shown</source>
         <translation>Was gezeigt wird</translation>
     </message>
@@ -1431,6 +1439,42 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     <message>
         <source>It has learned {causes}: something may have been leant on. A penetration leaves that out, and looks for a contact by the nominal model as well.</source>
         <translation>Es hat {causes} gelernt: Vielleicht lag etwas an. Eine Penetration lässt das weg und sucht den Kontakt auch mit dem Nominalmodell.</translation>
+    </message>
+    <message>
+        <source>Drawing a machine …</source>
+        <translation>Eine Maschine wird ausgelost …</translation>
+    </message>
+    <message>
+        <source>A hidden machine is connected: play, diagnose, then choose More → Reveal. It has one or two effects, or none.</source>
+        <translation>Eine verborgene Maschine ist verbunden: spielen, diagnostizieren, dann Mehr → Aufdecken wählen. Sie hat einen oder zwei Effekte, oder keinen.</translation>
+    </message>
+    <message>
+        <source>Hidden machine</source>
+        <translation>Verborgene Maschine</translation>
+    </message>
+    <message>
+        <source>Right: all that is there was named, and nothing else.</source>
+        <translation>Richtig: Alles, was da ist, wurde genannt, und sonst nichts.</translation>
+    </message>
+    <message>
+        <source>Not right.</source>
+        <translation>Nicht richtig.</translation>
+    </message>
+    <message>
+        <source>It has: {causes}</source>
+        <translation>Sie hat: {causes}</translation>
+    </message>
+    <message>
+        <source>The diagnosis names: {causes}</source>
+        <translation>Die Diagnose nennt: {causes}</translation>
+    </message>
+    <message>
+        <source>Score: {right} of {played}</source>
+        <translation>Stand: {right} von {played}</translation>
+    </message>
+    <message>
+        <source>nothing</source>
+        <translation>nichts</translation>
     </message>
 </context>
 <context>
