@@ -255,7 +255,7 @@ def test_the_loop_closes_on_a_machine_that_moved_before(on_the_simulator, tmp_pa
     assert first == pytest.approx(nominal)
     hand.press("ctrl+3")
     hand.click("place(panels['gap'].start)")
-    hand.wait("panels['gap'].answer is not None", LONG_S)
+    hand.wait("panels['gap'].answer is not None", 2.0 * LONG_S)  # it stands back
     hand.click("panels['gap'].use.isEnabled() and place(panels['gap'].use)")
     hand.wait("window._bar.model.text().startswith('Corrected: ')", LONG_S)
     hand.wait("bench.run.model_id.startswith('corrected-') and not bench.busy", LONG_S)
