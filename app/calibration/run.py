@@ -4,6 +4,7 @@ import threading
 from dataclasses import dataclass
 from enum import StrEnum
 
+from rotemina.app.motion.live_models import Answers
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.recorder import PlaybackRecorder
 from rotemina.app.motion.session import MotionSession
@@ -11,7 +12,6 @@ from rotemina.app.motion.state import Connection, Event, PlaybackFinished, State
 from rotemina.app.motion.stop_request import PROGRAM
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.samples import Samples
-from rotemina.sim.arrays import FloatArray
 from rotemina.sim.records.record import Record
 from rotemina.sim.trajectory.checked import CheckedTrajectory
 
@@ -111,7 +111,7 @@ class CalibrationRun:
             self.stop()
         self._detach()
 
-    def _on_samples(self, samples: Samples, _model: FloatArray) -> None:
+    def _on_samples(self, samples: Samples, _answers: Answers) -> None:
         with self._lock:
             if self._state.phase is not Phase.MOVING:
                 return

@@ -83,14 +83,22 @@ class DeviationWatch:
         pairs = zip(self._axes, rms.tolist(), self._peak.tolist(), strict=True)
         return {axis: Gap(one, peak) for axis, one, peak in pairs if np.isfinite(one)}
 
-    def add(self, samples: Samples, model: FloatArray) -> Excess | None:
-        """Take samples and the model's answers (n, axes); return what is beyond its bound."""
+    def add(
+        self, samples: Samples, model: FloatArray, nominal: FloatArray | None = None
+    ) -> Excess | None:
+        """Take samples and the models' answers (n, axes); return what is beyond its bound.
+
+        The gap is that of the model in use. The bound holds against the nominal model too: another
+        model never makes it wider.
+        """
         if not len(samples):
             return None
         deviation = np.abs(samples.measured - model)
         self._squares += (deviation**2).sum(axis=0)
         self._peak = np.maximum(self._peak, deviation.max(axis=0))
         self._count += len(samples)
+        if nominal is not None:
+            deviation = np.fmax(deviation, np.abs(samples.measured - nominal))
         beyond = deviation > self._bounds
         if not beyond.any() and np.isnan(self._since_s).all():
             return None

@@ -7,14 +7,17 @@ from collections.abc import Callable
 from dataclasses import replace
 from datetime import datetime
 
+from rotemina.app.motion.command_memory import CommandMemory
 from rotemina.app.motion.heartbeat import Heartbeat
 from rotemina.app.motion.history import LiveHistory
+from rotemina.app.motion.live_models import Answers, PreparedModel
 from rotemina.app.motion.mailbox import (
     Ask,
     Mailbox,
     RefusedError,
     Wish,
 )
+from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.motion.sensor_corrections import SensorCorrections
 from rotemina.app.motion.state import (
     Callback,
@@ -29,7 +32,6 @@ from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.gate import Epoch, Gate, Permit, Purpose
 from rotemina.drivers.samples import DeviceState, Samples
-from rotemina.sim.arrays import FloatArray
 from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
 
 _LOG = logging.getLogger(__name__)
@@ -230,6 +232,39 @@ class DeviceSession:
         """The calibrations that are applied to the axes' readings; any thread."""
         return self._worker.corrections
 
+    @property
+    def model(self) -> ModelInUse:
+        """The model that predictions are made with; any thread."""
+        return self._worker.models.model
+
+    @property
+    def memory(self) -> CommandMemory:
+        """What the machine was commanded since it was connected; any thread."""
+        return self._worker.models.memory
+
+    def use_model(self, model: ModelInUse) -> None:
+        """Make predictions with another model from now on; what is sent stays as it is.
+
+        What it remembers is carried on from what the machine was commanded since it was connected,
+        which takes a second or so: a window asks from another thread. An event tells when it is
+        in use.
+
+        Raises
+        ------
+        RefusedError
+            If the machine is not at rest or not connected.
+        EffectError
+            If an effect of the model cannot be used.
+        """
+        if not self.at_rest:
+            raise RefusedError("the machine is still moving; change the model at rest")
+        prepared = PreparedModel.of(model, self.memory)
+        self._ask(lambda _, __: self._worker.use_model(prepared))
+
+    def note_contact(self, what: str) -> None:
+        """Note a contact: what is learned from the motion under way may come from it."""
+        self._worker.note(what)
+
     def snapshot(self) -> SessionState:
         """Return the present state; any thread."""
         state = self._worker.state
@@ -261,7 +296,7 @@ class DeviceSession:
         return unsubscribe
 
     def tap(self, callback: Tap) -> Callable[[], None]:
-        """Have each portion of samples told to ``callback``, with the model's answers (n, axes).
+        """Have each portion of samples told to ``callback``, with the models' answers.
 
         It is called on the worker's thread, which waits for it: at most every 16 ms, after the
         state is published and before events tell of it. Returns how to end that.
@@ -361,12 +396,12 @@ class DeviceSession:
             except Exception:  # a subscriber's mistake must not stop the machine's worker
                 _LOG.exception("a subscriber failed on %s", type(event).__name__)
 
-    def _tell_samples(self, samples: Samples, model: FloatArray) -> None:
+    def _tell_samples(self, samples: Samples, answers: Answers) -> None:
         with self._lock:
             taps = tuple(self._taps.items())
         for callback, failed in taps:
             try:
-                callback(samples, model)
+                callback(samples, answers)
             except Exception:  # as of a subscriber; said once, not sixty times a second
                 if not failed:
                     _LOG.exception("a tap failed")

@@ -1,12 +1,16 @@
 """The recent past of all axes, written by the session's worker and read by screens."""
 
 import threading
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from rotemina.drivers.samples import Samples
 from rotemina.sim.arrays import FloatArray, read_only
+
+
+def _nothing() -> FloatArray:
+    return np.empty((0, 0))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -20,8 +24,13 @@ class LiveWindow:
     device_time_s : (n,)
         Increasing; not to be compared with times of another ``connection``.
     command, model, measured : (n, axes)
-        What was commanded, what the nominal model answers to it, what the sensors said; m or rad.
+        What was commanded, what the model in use answers to it, what the sensors said; m or rad.
         The model is NaN where it has no finite answer.
+    nominal, doubt : (n, axes)
+        What the nominal model answers, and by how much the model in use may be off, as the
+        machine's past is unknown.
+    gap_since_s : float
+        Device time from which on the model was in use: the gap begins there.
     connection : int
         Counts up whenever the history starts anew, after each connection to the device.
     """
@@ -32,6 +41,14 @@ class LiveWindow:
     model: FloatArray
     measured: FloatArray
     connection: int
+    nominal: FloatArray = field(default_factory=_nothing)
+    doubt: FloatArray = field(default_factory=_nothing)
+    gap_since_s: float = float("-inf")
+
+    def __post_init__(self) -> None:
+        if not self.nominal.shape == self.doubt.shape == self.model.shape:
+            object.__setattr__(self, "nominal", self.model)
+            object.__setattr__(self, "doubt", np.zeros(self.model.shape))
 
     def __len__(self) -> int:
         return len(self.device_time_s)
@@ -47,8 +64,9 @@ class LiveHistory:
         self.axes = axes
         self.capacity = max(1, round(seconds * rate_hz))
         self._time_s = np.empty(self.capacity)
-        # Per sample: command, model, measured.
-        self._values = np.empty((self.capacity, 3, len(axes)))
+        # Per sample: command, model, measured, nominal, doubt.
+        self._values = np.empty((self.capacity, 5, len(axes)))
+        self._gap_since_s = float("-inf")
         self._written = 0
         self._connection = 0
         self._lock = threading.Lock()
@@ -58,13 +76,31 @@ class LiveHistory:
         with self._lock:
             self._written = 0
             self._connection += 1
+            self._gap_since_s = float("-inf")
 
-    def append(self, samples: Samples, model: FloatArray) -> None:
-        """Add samples and the model's answers (n, axes) to them."""
+    def restart_gap(self) -> None:
+        """Let the gap begin behind the latest sample: another model is in use from there on."""
+        with self._lock:
+            if self._written:
+                self._gap_since_s = float(self._time_s[(self._written - 1) % self.capacity])
+
+    def append(
+        self,
+        samples: Samples,
+        model: FloatArray,
+        nominal: FloatArray | None = None,
+        doubt: FloatArray | None = None,
+    ) -> None:
+        """Add samples and the answers (n, axes) to them of the model in use and the nominal one.
+
+        Without ``nominal`` that is the one in use; ``doubt`` is 0 where it is left out.
+        """
         count = min(len(samples), self.capacity)
         if count == 0:
             return
-        values = np.stack([samples.command, model, samples.measured], axis=1)
+        nominal = model if nominal is None else nominal
+        doubt = np.zeros(model.shape) if doubt is None else doubt
+        values = np.stack([samples.command, model, samples.measured, nominal, doubt], axis=1)
         with self._lock:
             slots = (self._written + np.arange(count)) % self.capacity
             self._time_s[slots] = samples.device_time_s[-count:]
@@ -83,11 +119,13 @@ class LiveHistory:
                 first += self._skipped(first, count, seconds, since_s)
             time_s = self._ordered(self._time_s, first)
             values = self._ordered(self._values, first)
-            connection = self._connection
-        command, model, measured = (
-            read_only(np.ascontiguousarray(values[:, part])) for part in range(3)
+            connection, gap_since_s = self._connection, self._gap_since_s
+        command, model, measured, nominal, doubt = (
+            read_only(np.ascontiguousarray(values[:, part])) for part in range(5)
         )
-        return LiveWindow(self.axes, read_only(time_s), command, model, measured, connection)
+        time_s = read_only(time_s)
+        parts = (command, model, measured, connection, nominal, doubt, gap_since_s)
+        return LiveWindow(self.axes, time_s, *parts)
 
     def _skipped(self, first: int, count: int, seconds: float | None, since_s: float | None) -> int:
         """Return how many of the oldest samples are too old."""

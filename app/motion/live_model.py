@@ -1,6 +1,8 @@
-"""The nominal model, kept running on the commands that a device really applied."""
+"""A model, kept running on the commands that a device really applied."""
 
+from collections.abc import Mapping
 from dataclasses import replace
+from types import MappingProxyType
 
 import numpy as np
 
@@ -14,16 +16,48 @@ from rotemina.sim.robot.model import Robot
 # Device times are told apart to this, s: their rounding would make every interval a different one,
 # each with a matrix exponential of its own.
 _ATOM_S = 1e-11
+_FALL = 200  # rows on the way down from the high end of the range
+_FALL_S = 2.0
+_LONG_AGO_S = 1000.0
 
 
 class LiveModel:
-    """What the nominal model would measure, sample by sample, from rest at the first command."""
+    """What a model would measure, sample by sample, from rest at the first command.
 
-    def __init__(self, robot: Robot) -> None:
+    Parameters
+    ----------
+    robot : Robot
+        With its effects.
+    offsets : mapping axis -> float
+        Constants of its readings, m or rad.
+    fallen : bool
+        Whether effects with memory begin as after a fall from the high end of the range rather
+        than a rise from the low one, long ago: whatever happened, the truth lies between the two.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        offsets: Mapping[str, float] = MappingProxyType({}),
+        *,
+        fallen: bool = False,
+    ) -> None:
         self._plant = Plant.of(robot, closed_loop=True)
-        self._offset = np.array([axis.offset for axis in robot.axes.values()])
+        self._offset = np.array([offsets.get(name, 0.0) for name in robot.axes])
+        self._high = np.array([axis.range[1] for axis in robot.axes.values()])
+        self._fallen = fallen
         self._state: PlantState | None = None
         self._time_s = 0.0
+
+    @property
+    def remembers(self) -> bool:
+        """Whether an effect of it has a memory of its own."""
+        return self._plant.assembly.memory > 0
+
+    @property
+    def time_s(self) -> float:
+        """Device time up to which it has followed; −∞ before the first sample."""
+        return self._time_s if self._state is not None else float("-inf")
 
     def prepare(self) -> None:
         """Compute once, which loads what is compiled: no device is to wait for that."""
@@ -42,17 +76,31 @@ class LiveModel:
 
         Where the model leaves what a number can hold they are NaN, and it starts anew.
         """
-        if len(samples) == 0:
-            return np.empty(samples.command.shape)
+        return self.answer(samples.device_time_s, samples.command)
+
+    def answer(self, time_s: FloatArray, command: FloatArray) -> FloatArray:
+        """Do so for commands (n, axes) at device times (n,)."""
+        if len(time_s) == 0:
+            return np.empty(command.shape)
         if self._state is None:
-            self._state = self._plant.at_rest(0.0, samples.command[0])
-            self._time_s = float(samples.device_time_s[0])
-        elapsed_s = np.rint((samples.device_time_s - self._time_s) / _ATOM_S) * _ATOM_S
+            self._state = self._begin(command[0])
+            self._time_s = float(time_s[0])
+        elapsed_s = np.rint((time_s - self._time_s) / _ATOM_S) * _ATOM_S
         try:
-            motion, state = self._plant.advance(self._state, elapsed_s, samples.command)
+            motion, state = self._plant.advance(self._state, elapsed_s, command)
         except PlantError:
             self.restart()
-            return np.full(samples.command.shape, np.nan)
+            return np.full(command.shape, np.nan)
         self._state = replace(state, time_s=state.time_s - state.time_s[-1])
-        self._time_s = float(samples.device_time_s[-1])
-        return np.asarray(motion.position + self._offset)
+        self._time_s = float(time_s[-1])
+        return np.asarray(motion.reading + self._offset)
+
+    def _begin(self, command: FloatArray) -> PlantState:
+        if not self._fallen:
+            return self._plant.at_rest(0.0, command)
+        share = np.linspace(1.0, 0.0, _FALL)[:, None]
+        way = command + share * (self._high - command)
+        time_s = np.append(np.linspace(0.0, _FALL_S, _FALL), _FALL_S + _LONG_AGO_S)
+        state = self._plant.at_rest(0.0, self._high)
+        _, state = self._plant.advance(state, time_s, np.vstack([way, command[None]]))
+        return replace(state, time_s=state.time_s - state.time_s[-1])

@@ -9,6 +9,7 @@ from types import MappingProxyType
 import numpy as np
 
 from rotemina.app.motion.deviation import DeviationWatch, Excess, Gap
+from rotemina.app.motion.live_models import Answers
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.retiming import Piece, check_speed, piece
 from rotemina.app.motion.session import MotionSession
@@ -16,7 +17,6 @@ from rotemina.app.motion.state import Connection, Event, PlaybackFinished, State
 from rotemina.app.motion.stop_request import PROGRAM
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.samples import DeviceState, Samples
-from rotemina.sim.arrays import FloatArray
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.trajectory.checked import CheckedTrajectory
 
@@ -250,14 +250,14 @@ class Playback:
                 self._whole, self._piece, self._watch, self._state = before
             raise
 
-    def _on_samples(self, samples: Samples, model: FloatArray) -> None:
+    def _on_samples(self, samples: Samples, answers: Answers) -> None:
         """Watch the gap of what belongs to the playback; on the session's thread."""
         began = np.flatnonzero(samples.playback_row >= 0)
         with self._lock:
             playing = self._state.phase is PlaybackPhase.PLAYING
             if not playing or self._watch is None or not (len(began) or self._watch.gaps):
                 return
-            excess = self._watch.add(samples, model)
+            excess = self._watch.add(samples, answers.in_use, answers.nominal)
             if excess is None or self._state.excess is not None:
                 return
             self._state = replace(self._state, excess=excess)

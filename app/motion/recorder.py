@@ -1,11 +1,12 @@
 """Cutting the record of a playback out of the samples that a device delivers."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 import numpy as np
 
+from rotemina.app.motion.live_models import Answers
 from rotemina.drivers.samples import Samples
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.records.record import Channel, Record, RecordError, Tap
@@ -19,6 +20,30 @@ _SHORT = 32  # rows of a trajectory whose times its record names
 # Device times are told apart to this many parts of a second: the rounding of a late device time
 # must not make every interval a different one.
 _PER_SECOND = 1e9
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RunAnswers:
+    """What models said of each row of a record while it was played: what came before is in them.
+
+    Attributes
+    ----------
+    axes : tuple of str
+        The record's.
+    in_use, nominal, doubt : (n, axes)
+        As :class:`~rotemina.app.motion.live_models.Answers`.
+    began_s : float
+        Device time of the first row.
+    memory : int
+        Which of the memories of commands that is a time of.
+    """
+
+    axes: tuple[str, ...]
+    in_use: FloatArray
+    nominal: FloatArray
+    doubt: FloatArray
+    began_s: float
+    memory: int
 
 
 class PlaybackRecorder:
@@ -60,6 +85,9 @@ class PlaybackRecorder:
         self._channels = tuple(_channels(trajectory.robot, trajectory.commands.axes, laser=laser))
         self._told = np.ones(len(self._channels), dtype=np.bool_)
         self._samples = _Samples(1 + len(self._channels))
+        self._answers: _Samples | None = None
+        self._answered: RunAnswers | None = None
+        self._memory = 0
         self._rows = 0  # samples up to the latest row that began
         self._row = -1
 
@@ -68,8 +96,19 @@ class PlaybackRecorder:
         """Whether the last row of the trajectory was sampled."""
         return self._row == len(self._trajectory.commands.time_s) - 1
 
-    def add(self, samples: Samples) -> None:
-        """Take what belongs to the trajectory.
+    @property
+    def answers(self) -> RunAnswers | None:
+        """What the models said of each row of the record; None before its end, and without them."""
+        return self._answered
+
+    def say(self, name: str, text: str) -> None:
+        """Put something into the record's metadata."""
+        self._metadata[name] = text
+
+    def add(self, samples: Samples, answers: Answers | None = None, memory: int = 0) -> None:
+        """Take what belongs to the trajectory, and what models say of it.
+
+        ``memory`` is the number of the memory of commands that these samples are in.
 
         Raises
         ------
@@ -88,6 +127,9 @@ class PlaybackRecorder:
             self._rows = len(self._samples) + int(began[-1]) + 1 - first
             self._row = int(samples.playback_row[began[-1]])
         self._samples.append(self._table(samples, first, before))
+        if answers is not None:
+            self._add_answers(answers, first)
+            self._memory = memory
 
     def finish(self) -> Record | None:
         """Return the record of what was played, once; None if that never began."""
@@ -95,9 +137,33 @@ class PlaybackRecorder:
             return None
         told = np.flatnonzero(self._told)
         device_time_s, values = self._samples.drained(self._rows, told)
+        if self._answers is not None:
+            began_s = float(device_time_s[0])
+            self._answered = self._drained_answers(self._answers, began_s)
         time_s = np.rint((device_time_s - device_time_s[0]) * _PER_SECOND) / _PER_SECOND
         channels = tuple(self._channels[column] for column in told)
         return Record(time_s, channels, values, self._trajectory.commands.units, self._metadata)
+
+    def _add_answers(self, answers: Answers, first: int) -> None:
+        order, axes = tuple(self._trajectory.robot.axes), self._trajectory.commands.axes
+        own = [order.index(axis) for axis in axes]
+        alike = answers.in_use is answers.nominal
+        parts = (answers.in_use,) if alike else (answers.in_use, answers.nominal, answers.doubt)
+        table = np.concatenate([part[first:, own] for part in parts], axis=1)
+        if self._answers is None:
+            self._answers = _Samples(table.shape[1])
+        self._answers.append(table)
+
+    def _drained_answers(self, kept: "_Samples", began_s: float) -> RunAnswers:
+        axes = self._trajectory.commands.axes
+        count = len(axes)
+        columns = np.arange(kept.columns - 1)
+        values = np.column_stack(kept.drained(self._rows, columns))
+        in_use = np.ascontiguousarray(values[:, :count])
+        if kept.columns == count:
+            return RunAnswers(axes, in_use, in_use, np.zeros(in_use.shape), began_s, self._memory)
+        nominal, doubt = values[:, count : 2 * count], values[:, 2 * count :]
+        return RunAnswers(axes, in_use, nominal, doubt, began_s, self._memory)
 
     def _check_rows(self, samples: Samples, began: IntArray) -> None:
         rows = np.concatenate([[self._row], samples.playback_row[began]])
@@ -143,7 +209,7 @@ class _Samples:
     """Times and values of samples, in blocks."""
 
     def __init__(self, columns: int) -> None:
-        self._columns = columns
+        self.columns = columns
         self._block = max(1, _BLOCK_BYTES // (8 * columns))
         self._blocks: list[FloatArray] = []
         self._rows = 0
@@ -155,7 +221,7 @@ class _Samples:
         while len(table):
             used = self._rows % self._block
             if used == 0:
-                self._blocks.append(np.empty((self._block, self._columns)))
+                self._blocks.append(np.empty((self._block, self.columns)))
             part = table[: self._block - used]
             self._blocks[-1][used : used + len(part)] = part
             self._rows += len(part)

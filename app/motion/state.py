@@ -5,6 +5,8 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from types import MappingProxyType
 
+from rotemina.app.motion.model_in_use import ModelInUse
+from rotemina.app.motion.recorder import RunAnswers
 from rotemina.app.motion.stop_latency import Latency
 from rotemina.app.motion.stop_request import StopRequest
 from rotemina.drivers.link import LinkQuality
@@ -43,9 +45,13 @@ class SessionState:
     connection : Connection
     activity : DeviceState
         What the device does, ``closed`` while there is none.
-    measured, command, model : mapping axis -> float
-        Latest reading, command applied and answer of the nominal model, m or rad; empty before
-        the first sample. Values of a lost device stay, with their age.
+    measured, command, model, nominal : mapping axis -> float
+        Latest reading, command applied and answers of the model in use and of the nominal one, m
+        or rad; empty before the first sample. Values of a lost device stay, with their age.
+    model_id : str
+        Of the model in use.
+    unsettled : tuple of str
+        Axes of whose past that model knows too little: its answer may be off by what it remembers.
     device_time_s : float or None
         Device time of the latest sample.
     sample_host_time_s : float or None
@@ -92,6 +98,9 @@ class SessionState:
     measured: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
     command: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
     model: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
+    nominal: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
+    model_id: str = ""
+    unsettled: tuple[str, ...] = ()
     device_time_s: float | None = None
     sample_host_time_s: float | None = None
     age_s: float | None = None
@@ -168,11 +177,27 @@ class CommandRefused:
 
 @dataclass(frozen=True, slots=True)
 class PlaybackFinished:
-    """A playback ended; ``record`` is what was played, None if that never began."""
+    """A playback ended; ``record`` is what was played, None if that never began.
+
+    ``model`` is the one that was in use, and ``answers`` what it and the nominal one said of each
+    row of the record.
+    """
 
     record: Record | None
     completed: bool
+    model: ModelInUse | None = None
+    answers: RunAnswers | None = None
 
 
-Event = StateChanged | Stopped | Faulted | Alarmed | CommandRefused | PlaybackFinished
+@dataclass(frozen=True, slots=True)
+class ModelChanged:
+    """Another model is in use; ``why`` says so where nobody asked for it."""
+
+    model: ModelInUse
+    why: str = ""
+
+
+Event = (
+    StateChanged | Stopped | Faulted | Alarmed | CommandRefused | PlaybackFinished | ModelChanged
+)
 Callback = Callable[[Event], None]

@@ -12,7 +12,7 @@ from types import MappingProxyType
 
 from rotemina.app.motion.executor import Executor
 from rotemina.app.motion.history import LiveHistory
-from rotemina.app.motion.live_model import LiveModel
+from rotemina.app.motion.live_models import Answers, LiveModels, PreparedModel
 from rotemina.app.motion.lock_reasons import NOT_CONNECTED, lock_reason
 from rotemina.app.motion.mailbox import (
     ClearFault,
@@ -21,9 +21,11 @@ from rotemina.app.motion.mailbox import (
     Mailbox,
     Move,
     Play,
+    RefusedError,
     RunProfile,
     SetVoltage,
 )
+from rotemina.app.motion.model_in_use import NOTED, Machine, ModelInUse
 from rotemina.app.motion.ownership import Ownership
 from rotemina.app.motion.position_trust import LOST, PositionTrust
 from rotemina.app.motion.reading_deviation import ReadingDeviation
@@ -34,6 +36,7 @@ from rotemina.app.motion.state import (
     Connection,
     Event,
     Faulted,
+    ModelChanged,
     PlaybackFinished,
     SessionState,
     StateChanged,
@@ -51,8 +54,8 @@ from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 
-#: Called with samples and the nominal model's answers (n, axes) to them, m or rad.
-Tap = Callable[[Samples, FloatArray], None]
+#: Called with samples and what the models say of them.
+Tap = Callable[[Samples, Answers], None]
 
 
 class Worker:
@@ -87,7 +90,7 @@ class Worker:
         self._clock = clock
         self._emit = emit
         self._tell = tell
-        self._model = LiveModel(driver.robot)
+        self.models = LiveModels(driver)
         self._trust = PositionTrust(driver.robot)
         #: What the tip's bounds are judged on beside commands.
         self.deviation = ReadingDeviation(driver.robot)
@@ -97,6 +100,7 @@ class Worker:
         self._worked_up_s = float("-inf")
         self._received_s = float("-inf")
         self._stirred = False  # since the state was published
+        self._noted: list[str] = []  # faults and contacts since the latest playback began
         # Set by other threads, each in one assignment.
         self._stop_asked_s: float | None = None
         self._stop_unconfirmed_s: float | None = None
@@ -139,6 +143,42 @@ class Worker:
                 self._trust.doubt(LOST, self._lost_axes())
             self._fail(_described(error))
         self._publish()
+
+    def note(self, what: str) -> None:
+        """Note a contact: what is learned from this motion may come from it; any thread."""
+        self._noted.append(what)
+
+    def use_model(self, prepared: PreparedModel) -> None:
+        """Answer by another model from now on; on the worker's thread.
+
+        Raises
+        ------
+        RefusedError
+            If the machine moves, or is another than the model's.
+        """
+        if self.driver.status().state is not DeviceState.IDLE or self._executor.recorder:
+            raise RefusedError("the machine is still moving; change the model at rest")
+        why = prepared.model.machine.differs(Machine.of(self.driver))
+        if why is not None:
+            raise RefusedError(f"the model is not of this machine: {why}; diagnose this one")
+        self.models.use(prepared)
+        self._note_model()
+
+    def _check_machine(self) -> None:
+        """Go back to the nominal model where the machine is another than the model's."""
+        model, machine = self.models.model, Machine.of(self.driver)
+        why = model.machine.differs(machine)
+        if why is not None:
+            nominal = ModelInUse.nominal_of(self.driver)
+            self.models.use(PreparedModel(nominal, ()))
+            self._note_model(why if model.corrected else "")
+
+    def _note_model(self, why: str = "") -> None:
+        """Begin the gap anew, and tell which model it is of."""
+        self._history.restart_gap()
+        self._next = replace(self._next, model_id=self.models.model.id)
+        self._publish()
+        self._emit(ModelChanged(self.models.model, why))
 
     def confirm_position(self) -> None:
         """Trust the device's position again after a lost connection; on the worker's thread."""
@@ -193,24 +233,28 @@ class Worker:
         self._executor.forget()
         self._unread.clear()
         self.corrections.restart()
-        self._model.prepare()
+        self.models.prepare()
         self.driver.open()
         self._gate.reconnected()
         self._worked_up_s = float("-inf")
         self._history.clear()
-        self._model.restart()
+        self.models.begin_anew()
+        self._check_machine()
         self._trust.restart()
         self.deviation.restart()
         self._stirred = False
-        self._next = replace(self._next, connection=Connection.CONNECTED)
+        model_id = self.models.model.id
+        self._next = replace(self._next, connection=Connection.CONNECTED, model_id=model_id)
 
     def _execute(self) -> None:
         while (posted := self._mailbox.take()) is not None:
             self._stirred |= isinstance(posted.command, _STIRRING)
+            if isinstance(posted.command, Play):
+                self._noted.clear()
             try:
                 self._executor.do(posted.command, posted.permit)
                 if isinstance(posted.command, ClearFault) and posted.permit.valid:
-                    self._model.restart()
+                    self.models.restart()
                     self._next = replace(self._next, fault=None)
             except (InputError, StateError) as error:
                 self._emit(CommandRefused(str(error)))
@@ -239,23 +283,25 @@ class Worker:
 
     def _work_up(self, samples: Samples, status: DeviceStatus) -> None:
         found = self._supervised(samples, status)
-        model = self._model.follow(samples)
-        self.deviation.follow(samples, model)
-        self._history.append(samples, model)
-        self._next = self._updated(samples, model, status)
+        answers = self.models.follow(samples)
+        self.deviation.follow(samples, answers.nominal)
+        self._history.append(samples, answers.in_use, answers.nominal, answers.doubt)
+        self._next = self._updated(samples, answers, status)
         self._note_standstill(status)
         self._note_rest(status)
         faulted = status.state is DeviceState.FAULT and self.state.fault != self._next.fault
+        self._noted += [one.message for one in found if isinstance(one, Faulted)]
         if faulted:
+            self._noted.append(self._next.fault or "")
             self._mailbox.clear()
             self._executor.forget()
         # Published before events tell of it: a subscriber may answer with the next command.
         self._publish()
         self._stirred = False
         if len(samples):
-            self._tell(samples, model)
+            self._tell(samples, answers)
         if self._executor.recorder is not None:
-            self._executor.recorder.add(samples)
+            self._executor.recorder.add(samples, answers, self.models.memory.number)
             if status.state is not DeviceState.PLAYING:
                 self._end_recording(completed=True)
         if faulted:
@@ -287,7 +333,7 @@ class Worker:
             self._executor.rested()
             self.ownership.release(lambda: len(self._mailbox) > 0)
 
-    def _updated(self, samples: Samples, model: FloatArray, status: DeviceStatus) -> SessionState:
+    def _updated(self, samples: Samples, answers: Answers, status: DeviceStatus) -> SessionState:
         fault = self._next.fault
         if status.state is DeviceState.FAULT:
             fault = status.fault or "the device reports a fault"
@@ -303,6 +349,7 @@ class Worker:
             silent_s=status.silent_s,
             link=self._link(),
             differences=self._differences(),
+            model_id=self.models.model.id,
         )
         if len(samples):
             axes = self.driver.axes
@@ -310,7 +357,9 @@ class Worker:
                 state,
                 measured=_by_axis(axes, samples.measured),
                 command=_by_axis(axes, samples.command),
-                model=_by_axis(axes, model),
+                model=_by_axis(axes, answers.in_use),
+                nominal=_by_axis(axes, answers.nominal),
+                unsettled=self.models.unsettled,
                 device_time_s=float(samples.device_time_s[-1]),
                 sample_host_time_s=self._received_s,
             )
@@ -358,11 +407,16 @@ class Worker:
         recorder, self._executor.recorder = self._executor.recorder, None
         if recorder is None:
             return
+        recorder.say("model", self.models.model.id)
+        if self._noted:
+            recorder.say(NOTED, "; ".join(dict.fromkeys(self._noted)))
         record = recorder.finish()
-        self._emit(PlaybackFinished(record, completed and recorder.complete and record is not None))
+        whole = completed and recorder.complete and record is not None
+        self._emit(PlaybackFinished(record, whole, self.models.model, recorder.answers))
 
     def _fail(self, message: str) -> None:
         """Lock motion; only an explicit reconnection ends this."""
+        self._noted.append(message)
         self._gate.reconnected()
         self._mailbox.clear()
         self._executor.forget()

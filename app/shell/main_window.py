@@ -45,6 +45,7 @@ from rotemina.app.shell.status import StatusText
 from rotemina.app.shell.support_page import SupportPage
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.drivers.samples import DeviceState
+from rotemina.sim.records.record import Record
 
 LEAST_HEIGHT = 300  # px of the central panels: notices must not make the window grow
 FILES = marked("shell", "Records and trajectories (*.csv *.txt *.dat *.gz);;All files (*)")
@@ -68,6 +69,7 @@ class MainWindow(QMainWindow):
         self.docks: dict[str, QDockWidget] = {}
         self._menus: dict[str, QMenu] = {}
         self._leaving = False
+        self._seen: dict[str, Record] = {}  # what panels were brought up for
         self._support: SupportPage | None = None
         self.help_page = HelpPage(self)
         workbench.theme_changed.connect(lambda _: self.help_page.restyle())
@@ -99,8 +101,10 @@ class MainWindow(QMainWindow):
         self.notices.asked.connect(self.help_page.open_page)
         self.log_page.asked.connect(self.help_page.open_page)
         workbench.refreshed.connect(self._refresh)
-        workbench.plan_changed.connect(lambda _: self.bring_up("trajectory"))
-        workbench.run_changed.connect(lambda _: self.bring_up("comparison"))
+        workbench.plan_changed.connect(
+            lambda plan: self._bring_up_new("trajectory", plan.trajectory)
+        )
+        workbench.run_changed.connect(lambda run: self._bring_up_new("comparison", run.record))
         workbench.ports_offered.connect(lambda ports: ports and self.bring_up("connection"))
         self.panels.failed = self._leave_out
         for name, reason in broken.items():
@@ -283,6 +287,12 @@ class MainWindow(QMainWindow):
             self.docks[name].raise_()
         elif self.central_tabs is not None:
             self.central_tabs.setCurrentWidget(panel)
+
+    def _bring_up_new(self, name: str, what: Record) -> None:
+        """Show a panel that has got something; not where only the model beside it has changed."""
+        if self._seen.get(name) is not what:
+            self._seen[name] = what
+            self.bring_up(name)
 
     # --- help -------------------------------------------------------------------------------------
 

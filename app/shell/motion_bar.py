@@ -11,8 +11,10 @@ from rotemina.app.motion.state import Connection, SessionState
 from rotemina.app.shell.controls import ElidedLabel, plain_tip
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.model_chip import ModelChip
 from rotemina.app.shell.phase import PhaseLabel, doing
 from rotemina.app.shell.requests import Requests
+from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.clock import Clock
 
 RELEASE_AFTER_S = 1.0  # a second press in alarm must not release what the first one latched
@@ -115,7 +117,7 @@ class EmergencyButton(QPushButton):
 class MotionBar(QToolBar):
     """Phase and stops; it can neither be moved nor hidden."""
 
-    def __init__(self, requests: Requests) -> None:
+    def __init__(self, requests: Workbench) -> None:
         super().__init__(translate("shell", "Motion"))
         self.setObjectName("motion")
         self.setMovable(False)
@@ -142,7 +144,8 @@ class MotionBar(QToolBar):
         self.stop.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         # On pressing, not on release: a stop must not wait for the finger to lift.
         self.stop.pressed.connect(requests.stop)
-        for widget in (title, self.phase, self.doing):
+        self.model = ModelChip(requests)
+        for widget in (title, self.phase, self.doing, self.model):
             self.addWidget(widget)
         self._offer = self.addWidget(self.reconnect)
         self._offer.setVisible(False)
@@ -154,6 +157,7 @@ class MotionBar(QToolBar):
         self.phase.show_state(state)
         self.doing.show_text(doing(state))
         self.emergency.refresh(state)
+        self.model.refresh(state)
         self._offer.setVisible(state.connection is Connection.FAILED)
 
 

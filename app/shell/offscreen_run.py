@@ -1,15 +1,19 @@
-"""The window's main job without a display: play, compare, and leave picture and report."""
+"""The window's main job without a display: play, compare, correct; leave picture and report."""
 
 import signal
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import NamedTuple
 
-from PySide6.QtCore import QEventLoop, QTimer
+from PySide6.QtCore import QEventLoop, QTimer, SignalInstance
 
 from rotemina.app.files import json_text, write_text
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import SessionState
 from rotemina.app.settings import Settings
 from rotemina.app.shell import language
+from rotemina.app.shell.gap_words import run_lines
+from rotemina.app.shell.layouts import DIAGNOSE
 from rotemina.app.shell.main_window import MainWindow
 from rotemina.app.shell.window_run import make_window
 from rotemina.app.shell.workbench import Level, Run
@@ -18,11 +22,16 @@ from rotemina.sim.comparison.table import table
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.writing import write_record
+from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.trajectory.demonstration import demonstration, wear
 from rotemina.sim.trajectory.example import example_for
 
 TIME_LIMIT_MS = 120_000
+DIAGNOSIS_LIMIT_MS = 600_000  # on a busy computer; 15 s are usual
 SIZE = (1280, 800)
 _INTERRUPTED = "interrupted"
+_TOO_LONG = "no end within the time that is usual by far"
+_OTHER_PACE = 0.83  # of a motion that no record holds
 
 
 class OffscreenError(InputError):
@@ -30,12 +39,15 @@ class OffscreenError(InputError):
 
 
 def run(session: MotionSession, output: Path) -> int:
-    """Play the example trajectory in a window that nobody sees, and write what it shows.
+    """Play in a window that nobody sees, and write what it shows.
+
+    On the simulated RoTeMiNa the whole story is told with a worn machine: play, compare, diagnose,
+    correct the model, play again. Any other machine plays the example and is compared.
 
     Raises
     ------
     InputError
-        If the folder cannot be written or the trajectory cannot be played.
+        If the folder cannot be written or something cannot be played or diagnosed.
     """
     try:
         output.mkdir(parents=True, exist_ok=True)
@@ -45,18 +57,112 @@ def run(session: MotionSession, output: Path) -> int:
     if not settings.get(language.SETTING, ""):
         settings.set(language.SETTING, language.ENGLISH)  # as what it prints and writes
     window = make_window(session, settings, output / "played")
+    worn = wear(session.robot) if session.effects is not None else ()
     try:
         window.resize(*SIZE)
         window.show()
         window.workbench.start()
-        finished = play(window, example_for(session.robot))
+        if worn and window.panels.make("gap") is not None:
+            told = tell_the_story(window, worn)
+        else:
+            told = Story((play(window, example_for(session.robot)),))
         picture = output / "window.png"
         if not window.grab().save(str(picture)):
             raise OffscreenError(f"{picture}: the picture cannot be written")
-        _report(finished, output)
+        _report(told, output)
     finally:
         window.workbench.close()
     return 0
+
+
+class Story(NamedTuple):
+    """What was played, the last one last, and what was said of it in between."""
+
+    runs: tuple[Run, ...]
+    found: str = ""
+
+
+def tell_the_story(window: MainWindow, effects: tuple[AxisEffect, ...]) -> Story:
+    """Let the simulated machine be worn; play, diagnose, use the corrected model, play again.
+
+    Raises
+    ------
+    OffscreenError
+        With the notice that the window shows, if anything goes wrong.
+    """
+    bench, panel = window.workbench, window.panels["gap"]
+    _wait(window, bench.refreshed, lambda: bench.session.snapshot().locked is None)
+    bench.session.set_effects(effects)
+    _say("playing on a worn machine …")
+    before = play(window, demonstration(bench.robot))
+    window.bring_up("gap")
+    _say("diagnosing …")
+    panel.diagnose()
+    _wait(window, bench.refreshed, lambda: panel.answer is not None, DIAGNOSIS_LIMIT_MS)
+    _wait(window, bench.refreshed, panel.use.isEnabled)
+    _say("using the corrected model …")
+    panel.use.click()
+    _wait(window, bench.refreshed, lambda: bench.session.model.corrected)
+    _say("playing another motion …")
+    after = play(window, demonstration(bench.robot, _OTHER_PACE))
+    _wait(window, bench.refreshed, lambda: panel.proof.proof is not None)
+    window.arrangement.arrange(DIAGNOSE)
+    window.bring_up("gap")
+    panel.show_proof()
+    _rest(200)  # the panels draw what they have just been given
+    return Story((before, after), panel.verdict.text())
+
+
+def _wait(
+    window: MainWindow,
+    tick: SignalInstance,
+    done: Callable[[], bool],
+    limit_ms: int = TIME_LIMIT_MS,
+) -> None:
+    """Let the window live until something is so.
+
+    Raises
+    ------
+    OffscreenError
+        With the notice that it shows, or that it takes too long.
+    """
+    loop = QEventLoop()
+    outcome: list[str] = []
+
+    def finish(text: str) -> None:
+        outcome.append(text)
+        loop.quit()
+
+    def noticed(level: Level, text: str) -> None:
+        if level is Level.ERROR:
+            finish(text)
+
+    def look(_: object) -> None:
+        if done():
+            finish("")
+
+    before = signal.signal(signal.SIGINT, lambda *_: finish(_INTERRUPTED))
+    window.workbench.noticed.connect(noticed)
+    tick.connect(look)
+    QTimer.singleShot(limit_ms, loop, lambda: finish(_TOO_LONG))
+    loop.exec()
+    tick.disconnect(look)
+    window.workbench.noticed.disconnect(noticed)
+    signal.signal(signal.SIGINT, before)
+    if outcome[0] == _INTERRUPTED:
+        raise KeyboardInterrupt
+    if outcome[0]:
+        raise OffscreenError(outcome[0])
+
+
+def _say(what: str) -> None:
+    print(what, flush=True)
+
+
+def _rest(ms: int) -> None:
+    loop = QEventLoop()
+    QTimer.singleShot(ms, loop, loop.quit)
+    loop.exec()
 
 
 def play(window: MainWindow, trajectory: Record) -> Run:
@@ -80,7 +186,8 @@ def play(window: MainWindow, trajectory: Record) -> Run:
             finish(text)
 
     def begin(state: SessionState) -> None:
-        if state.locked is None and bench.plan is not None:
+        planned = bench.plan is not None and bench.plan.trajectory is trajectory
+        if state.locked is None and planned:
             bench.refreshed.disconnect(begin)
             bench.play()
 
@@ -89,7 +196,7 @@ def play(window: MainWindow, trajectory: Record) -> Run:
     bench.noticed.connect(noticed)
     bench.run_changed.connect(finish)
     bench.refreshed.connect(begin)
-    QTimer.singleShot(TIME_LIMIT_MS, loop, lambda: finish("no end within two minutes"))
+    QTimer.singleShot(TIME_LIMIT_MS, loop, lambda: finish(_TOO_LONG))
     loop.exec()
     bench.noticed.disconnect(noticed)
     bench.run_changed.disconnect(finish)
@@ -103,13 +210,22 @@ def play(window: MainWindow, trajectory: Record) -> Run:
     return outcome[0]
 
 
-def _report(run: Run, output: Path) -> None:
+def _report(told: Story, output: Path) -> None:
+    run = told.runs[-1]
     comparison = run.comparison
     write_record(run.record, output / "record.csv")
     save_figure(comparison, output / "comparison.svg")
     write_text(output / "comparison.json", json_text(comparison.as_json()))
-    text = f"{run.name}: {run.record.duration_s:.3f} s, {len(run.record.time_s)} samples\n\n"
-    write_text(output / "report.txt", text + table(comparison) + "\n")
-    print(table(comparison))
+    text = "\n\n".join([*_lines(told), table(comparison)])
+    write_text(output / "report.txt", text + "\n")
+    print(text)
     names = ("window.png", "comparison.svg", "report.txt", "comparison.json", "record.csv")
     print(f"\nIn {output.resolve()}: {', '.join(names)}")
+
+
+def _lines(told: Story) -> Iterator[str]:
+    for number, run in enumerate(told.runs):
+        length = f"{run.record.duration_s:.3f} s, {len(run.record.time_s)} samples"
+        yield "\n".join([f"{run.name}: {length}, model {run.model_id}", *run_lines(run)])
+        if number == 0 and told.found:
+            yield told.found

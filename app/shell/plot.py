@@ -1,6 +1,7 @@
 """A plot in the window's colours, cheap enough to be redrawn at every frame."""
 
 import pyqtgraph as pg
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QWidget
 
@@ -25,6 +26,7 @@ class SignalPlot(pg.PlotWidget):
         super().__init__(parent)
         self._curves: dict[str, pg.PlotCurveItem] = {}
         self._pens: dict[str, tuple[str, int]] = {}
+        self._styles: dict[str, Qt.PenStyle] = {}
         self._scale: tuple[float, float] | None = None
         self._stale = False
         self.setMenuEnabled(False)
@@ -42,11 +44,14 @@ class SignalPlot(pg.PlotWidget):
         item.showGrid(x=True, y=True, alpha=0.18)
         self.set_theme(theme)
 
-    def add_curve(self, name: str, role: str, width: int = 1) -> None:
+    def add_curve(
+        self, name: str, role: str, width: int = 1, style: Qt.PenStyle = Qt.PenStyle.SolidLine
+    ) -> None:
         """Add a curve in the theme's colour ``role``, ``width`` pixels wide."""
         curve = pg.PlotCurveItem(skipFiniteCheck=True)
         self._curves[name] = curve
         self._pens[name] = (role, width)
+        self._styles[name] = style
         self.addItem(curve)
         self._colour_curve(name)
 
@@ -109,4 +114,5 @@ class SignalPlot(pg.PlotWidget):
     def _colour_curve(self, name: str) -> None:
         role, width = self._pens[name]
         role = "quiet" if self._stale else role
-        self._curves[name].setPen(pg.mkPen(QColor(getattr(self._theme, role)), width=width))
+        colour = QColor(getattr(self._theme, role))
+        self._curves[name].setPen(pg.mkPen(colour, width=width, style=self._styles[name]))

@@ -60,7 +60,7 @@ def start(
         return window_run.run(MotionSession(_driver(kind, described, given, settings)), settings)
     from rotemina.app.shell import offscreen_run
 
-    print(f"No window ({reason}): playing the example trajectory offscreen instead.")
+    print(f"No window ({reason}): doing the main job offscreen instead.")
     return offscreen_run.run(MotionSession(kind(described, given)), output)
 
 

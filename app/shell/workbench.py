@@ -12,16 +12,19 @@ from PySide6.QtCore import QTimer, Signal
 
 from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.motion.deviation import Excess
+from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.motion.operation import Operation
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.playback import Playback, PlaybackPhase
 from rotemina.app.motion.recording.replay import Replay
+from rotemina.app.motion.run import Run, compared, compared_again
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import (
     Alarmed,
     CommandRefused,
     Event,
     Faulted,
+    ModelChanged,
     PlaybackFinished,
     Stopped,
 )
@@ -35,7 +38,6 @@ from rotemina.app.shell.replaying import Replaying, opened, remark
 from rotemina.app.shell.requests import Requests
 from rotemina.app.shell.theme import Theme
 from rotemina.drivers.gate import Permit
-from rotemina.sim.comparison.comparison import Comparison, compare
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.writing import write_record
@@ -59,25 +61,12 @@ class Level(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """A trajectory with its dry run: what would happen if it were played."""
+    """A trajectory with its dry run: what the model in use expects if it were played."""
 
     name: str
     trajectory: Record
     dry_run: DryRun
-
-
-@dataclass(frozen=True, slots=True)
-class Run:
-    """A real record beside the model's answer to its commands."""
-
-    name: str
-    comparison: Comparison
-    completed: bool = True
-
-    @property
-    def record(self) -> Record:
-        """The real record."""
-        return self.comparison.record
+    model_id: str = ""
 
 
 class Workbench(Requests):
@@ -102,6 +91,7 @@ class Workbench(Requests):
     refreshed(SessionState) : the machine's, once a frame, at most 30 a second.
     shown(SessionState) : likewise, of what is shown; the same unless that is a replay.
     plan_changed(Plan) : a trajectory was loaded and its dry run is done.
+    model_changed(ModelInUse) : predictions are made with another model from now on.
     run_changed(Run) : a record was opened or a playback ended, and model and real are compared.
     busy_changed(str) : what is being worked on in the background, or "".
     noticed(Level, Explained) : something to tell the operator, a text with its page of the help.
@@ -113,6 +103,7 @@ class Workbench(Requests):
     refreshed = Signal(object)
     shown = Signal(object)
     plan_changed = Signal(object)
+    model_changed = Signal(object)
     run_changed = Signal(object)
     busy_changed = Signal(str)
     noticed = Signal(object, object)
@@ -208,6 +199,20 @@ class Workbench(Requests):
         self.theme = theme
         self.theme_changed.emit(theme)
 
+    # --- the model --------------------------------------------------------------------------------
+
+    def use_model(self, make: Callable[[], ModelInUse]) -> None:
+        """Make predictions with another model; a refusal becomes a notice."""
+
+        def work() -> None:
+            self.session.use_model(make())
+
+        self.work("model", translate("shell", "Carrying the past on …"), work, lambda _: None)
+
+    def use_nominal_model(self) -> None:
+        """Go back to the model of the robot file."""
+        self.use_model(lambda: ModelInUse.nominal_of(self.session.driver))
+
     # --- motion -----------------------------------------------------------------------------------
 
     def play(self, permit: Permit | None = None) -> None:
@@ -275,12 +280,21 @@ class Workbench(Requests):
             self._set_plan,
         )
 
+    def plan_again(self, plan: Plan) -> None:
+        """Try the trajectory in hand once more, on another model or device."""
+        self.work(
+            "plan",
+            translate("shell", "Dry run …"),
+            lambda: self._tried(plan.name, plan.trajectory),
+            self._renew_plan,
+        )
+
     def open_record(self, path: Path, columns: str | None = None) -> None:
         """Read a record as "real" and compare it with the model."""
 
         def work() -> Run:
             record = read_record(path, columns=columns, robot=self.robot)
-            return Run(path.name, compare(self.robot, record))
+            return compared(self.session.model, path.name, record)
 
         self.work(
             "run",
@@ -402,7 +416,14 @@ class Workbench(Requests):
 
     def _tried(self, name: str, trajectory: Record) -> Plan:
         period_s = self.session.setpoint_period_s
-        return Plan(name, trajectory, dry_run(self.robot, trajectory, setpoint_period_s=period_s))
+        model = self.session.model
+        tried = dry_run(
+            self.robot,
+            trajectory,
+            setpoint_period_s=period_s,
+            corrected=model.robot if model.corrected else None,
+        )
+        return Plan(name, trajectory, tried, model.id)
 
     def _set_plan(self, plan: Plan) -> None:
         if self.playback.state.phase is PlaybackPhase.PAUSED:
@@ -412,6 +433,11 @@ class Workbench(Requests):
         if not plan.dry_run.allowed:
             text = f"{plan.name}: {plan.dry_run.objections[0]}"
             self.notify(Level.WARNING, text, about="trajectory.md")
+
+    def _renew_plan(self, plan: Plan) -> None:
+        """Take the same trajectory in hand with another dry run; what is paused stays so."""
+        self.plan = plan
+        self.plan_changed.emit(plan)
 
     def _set_run(self, run: Run) -> None:
         self.run = run
@@ -427,7 +453,9 @@ class Workbench(Requests):
             logger.info("%s", event.request)
             self.stopped.emit()
         elif isinstance(event, PlaybackFinished):
-            self._compare_played(event.record, event.completed)
+            self._compare_played(event)
+        elif isinstance(event, ModelChanged):
+            self._take_model(event)
 
     def _tell_excess(self, excess: Excess) -> None:
         self.notify(
@@ -466,7 +494,26 @@ class Workbench(Requests):
             done,
         )
 
-    def _compare_played(self, record: Record | None, completed: bool) -> None:
+    def _take_model(self, event: ModelChanged) -> None:
+        """Show everything by another model."""
+        logger.info("model in use: %s", event.model.id)
+        if event.why:
+            text = translate("shell", "The nominal model is in use again: {why}.")
+            self.notify(Level.WARNING, text.format(why=spoken(event.why)), about="model.md")
+        self.model_changed.emit(event.model)
+        plan, run = self.plan, self.run
+        if plan is not None:
+            self.plan_again(plan)
+        if run is not None:
+            self.work(
+                "run",
+                translate("shell", "Comparing model and real …"),
+                lambda: compared_again(event.model, run, self.session.memory),
+                self._set_run,
+            )
+
+    def _compare_played(self, event: PlaybackFinished) -> None:
+        record, completed = event.record, event.completed
         name = self.plan.name if self.plan else "playback"
         if record is None:
             text = translate("shell", "{name}: stopped before its first row was played.").format(
@@ -487,6 +534,12 @@ class Workbench(Requests):
         self.work(
             "played run",
             translate("shell", "Comparing model and real …"),
-            lambda: Run(name, compare(self.robot, record), completed),
+            lambda: compared(
+                event.model or self.session.model,
+                name,
+                record,
+                completed=completed,
+                answers=event.answers,
+            ),
             self._set_run,
         )

@@ -19,11 +19,13 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.display import label
 from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.gap_words import RUN, size
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.plot import SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Run, Workbench
 from rotemina.sim.comparison.comparison import TapComparison
+from rotemina.sim.comparison.gap import GapFigure, gap_text
 from rotemina.sim.comparison.table import HEAD, cells
 from rotemina.sim.records.record import Tap
 from rotemina.sim.units import drawing_unit, symbol, to_unit
@@ -35,7 +37,9 @@ EMPTY = marked(
 )
 COLUMNS = (
     marked("comparison", "tap"),
-    marked("comparison", "rms"),
+    RUN,
+    marked("comparison", "without offset"),
+    marked("comparison", "nominal"),
     marked("comparison", "noise floor"),
     marked("comparison", "rel. error"),
     marked("comparison", "delay"),
@@ -87,7 +91,7 @@ class ComparisonPanel(Panel):
         split.addWidget(self.table)
         split.addWidget(_titled(self.signals_title, self.signals))
         split.addWidget(_titled(self.gap_title, self.gap))
-        split.setSizes([480, 260, 260])
+        split.setSizes([620, 220, 220])
         outer = QVBoxLayout(self)
         outer.setContentsMargins(10, 8, 10, 8)
         outer.addLayout(buttons)
@@ -100,11 +104,12 @@ class ComparisonPanel(Panel):
             translate("comparison", "{name}: {duration:.3f} s, {n} samples{state}").format(
                 name=run.name, duration=record.duration_s, n=len(record.time_s), state=state
             )
+            + (f"  ·  {run.model_id}" if run.model_id else "")
         )
         self.save.setEnabled(True)
         self.table.setRowCount(len(run.comparison.taps))
         for row, tap in enumerate(run.comparison.taps):
-            for column, text in enumerate(_row(tap)):
+            for column, text in enumerate(_row(tap, run.gaps[tap.axis, Tap(tap.tap)])):
                 item = QTableWidgetItem(text)
                 if column:
                     item.setTextAlignment(RIGHT)
@@ -130,7 +135,10 @@ class ComparisonPanel(Panel):
         self.gap.show_signal("gap", time_s, to_unit(real - model, gap_unit))
         self.signals.set_time(0.0, max(record.duration_s, 1e-9))
         theme = self.workbench.theme
-        told_real, told_model = translate("comparison", "real"), translate("comparison", "model")
+        told_real, told_model = (
+            translate("comparison", "real"),
+            translate("comparison", "model in use"),
+        )
         self.signals_title.setText(
             f"{escape(label(tap.axis))} {tap.tap} [{symbol(unit)}]: "
             f'<span style="color:{theme.real}">{told_real}</span>, '
@@ -166,7 +174,9 @@ def _titled(title: QLabel, plot: SignalPlot) -> QWidget:
 
 def _table() -> QTableWidget:
     table = QTableWidget(0, len(COLUMNS))
-    table.setHorizontalHeaderLabels([translate("comparison", name) for name in COLUMNS])
+    table.setHorizontalHeaderLabels(
+        [translate("shell" if name is RUN else "comparison", name) for name in COLUMNS]
+    )
     table.verticalHeader().hide()
     table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
     table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
@@ -176,6 +186,12 @@ def _table() -> QTableWidget:
     return table
 
 
-def _row(tap: TapComparison) -> list[str]:
+def _row(tap: TapComparison, figure: GapFigure | None) -> list[str]:
     named = dict(zip(HEAD, cells(tap), strict=True))
-    return [f"{label(tap.axis)} {tap.tap}", *(named[column] for column in COLUMNS[1:])]
+    beside = (figure.without_offset, figure.nominal) if figure is not None else (None, None)
+    return [
+        f"{label(tap.axis)} {tap.tap}",
+        size(figure, tap.unit),
+        *(gap_text(one, tap.unit) for one in beside),
+        *(named[column] for column in COLUMNS[-3:]),
+    ]

@@ -35,6 +35,7 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.robot.writing import write_robot
+from rotemina.sim.trajectory.demonstration import wear
 
 REAL_MACHINE = marked(
     "effects",
@@ -68,6 +69,7 @@ class EffectsPanel(Panel):
         self.left_out = QLabel()
         self._lay_out()
         self._offer_effects()
+        self._offer_machines()
         self.live = LiveEffects(workbench.session, self)
         self._connect()
         self._adopt(workbench.session.effects)
@@ -78,6 +80,13 @@ class EffectsPanel(Panel):
         self.add = QPushButton(translate("effects", "Add effect"))
         self.add.setToolTip(
             translate("effects", "Choose an axis, an effect that it may have, and its formulation")
+        )
+        self.machine = QPushButton(translate("effects", "Simulated machine"))
+        self.machine.setToolTip(
+            translate(
+                "effects",
+                "Let the simulator be as the robot file says, or worn, to demonstrate with",
+            )
         )
         self.up = _button(
             "▲", translate("effects", "Let the signal meet this effect earlier within its stage")
@@ -111,7 +120,15 @@ class EffectsPanel(Panel):
     def _lay_out(self) -> None:
         buttons = QHBoxLayout()
         buttons.setSpacing(6)
-        for widget in (self.add, self.up, self.down, self.remove, self.undo, self.all_off):
+        for widget in (
+            self.machine,
+            self.add,
+            self.up,
+            self.down,
+            self.remove,
+            self.undo,
+            self.all_off,
+        ):
             buttons.addWidget(widget)
         buttons.addWidget(self.status, 1)
         for widget in (self.left_out, self.load, self.save):
@@ -139,6 +156,18 @@ class EffectsPanel(Panel):
         self.left_out.setToolTip(
             tip(translate("effects", "Effects that cannot be loaded:"), *broken.values())
         )
+
+    def _offer_machines(self) -> None:
+        robot = self.workbench.robot
+        menu = QMenu(self.machine)
+        menu.addAction(
+            translate("effects", "As the robot file says"), lambda: self.use_effects(robot.effects)
+        )
+        worn = menu.addAction(
+            translate("effects", "Worn, to demonstrate with"), lambda: self.use_effects(wear(robot))
+        )
+        worn.setEnabled(bool(wear(robot)))
+        self.machine.setMenu(menu)
 
     def _connect(self) -> None:
         self.up.clicked.connect(lambda: self._move(-1))
@@ -219,6 +248,11 @@ class EffectsPanel(Panel):
             self._show()
             return
         self._use(chain, tuned)
+
+    def use_effects(self, effects: tuple[AxisEffect, ...]) -> None:
+        """Let the simulated machine have these effects and no others."""
+        self.place = 0 if effects else -1
+        self._use(Chain.of(self.workbench.robot, effects))
 
     # --- files ------------------------------------------------------------------------------------
 

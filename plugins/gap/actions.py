@@ -1,21 +1,25 @@
 """What comes of an answer: a twin, a report, a document; each is a file that is asked for."""
 
 from collections.abc import Callable, Sequence
+from html import escape
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Qt, QUrl, Signal
 from PySide6.QtGui import QDesktopServices
-from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
+from PySide6.QtWidgets import QFileDialog, QWidget
 
 from rotemina.app.files import json_text, write_text
+from rotemina.app.motion.run import Run
+from rotemina.app.shell.gap_words import run_lines
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.gap.answer import Answer
-from rotemina.sim.errors import InputError
 from rotemina.sim.gap.diagnosis import Diagnosis
 from rotemina.sim.gap.document import as_json
 from rotemina.sim.gap.twin import twin_text
 from rotemina.sim.records.record import Record
+
+_BEFORE = '<h2 id="where">'  # of a page: what is told of the run in hand stands there
 
 
 class Actions(QObject):
@@ -80,13 +84,12 @@ class Actions(QObject):
     # --- writing ----------------------------------------------------------------------------------
 
     def save_twin(self, answer: Answer, source: str | Path | None, path: Path) -> None:
-        """Write a robot file of the corrected model, and offer it to the running simulator."""
+        """Write a robot file of the corrected model."""
         robot, effects = answer.diagnosis.robot, answer.diagnosis.fitted
 
         def done(_: None) -> None:
             self._workbench.notify(Level.GOOD, translate("gap", "Saved {path}").format(path=path))
             self.twin_saved.emit(path)
-            self._offer_live(answer)
 
         self._workbench.work(
             "gap twin",
@@ -97,6 +100,7 @@ class Actions(QObject):
 
     def save_report(self, answer: Answer, path: Path) -> None:
         """Write the report and open it."""
+        run = self._workbench.run
 
         def done(_: None) -> None:
             self._workbench.notify(Level.GOOD, translate("gap", "Saved {path}").format(path=path))
@@ -112,7 +116,7 @@ class Actions(QObject):
         self._workbench.work(
             "gap report",
             translate("gap", "Writing {name} …").format(name=path.name),
-            lambda: write_report(answer.diagnosis, answer.records, path, answer.names),
+            lambda: write_report(answer.diagnosis, answer.records, path, answer.names, run),
             done,
         )
 
@@ -127,44 +131,20 @@ class Actions(QObject):
             ),
         )
 
-    # --- the running simulator --------------------------------------------------------------------
-
-    def _offer_live(self, answer: Answer) -> None:
-        """Ask whether the simulator is to run the corrected model, where there is one."""
-        session = self._workbench.session
-        if session.effects is None or answer.diagnosis.robot.axes != self._workbench.robot.axes:
-            return
-        question = QMessageBox(self._parent.window())
-        question.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        question.setWindowTitle(translate("gap", "Add to twin"))
-        question.setText(translate("gap", "Let the running simulator be the corrected model, too?"))
-        question.setInformativeText(
-            translate(
-                "gap",
-                "The effects that it has now are replaced. Choose No if the simulator plays the "
-                "part of the machine.",
-            )
-        )
-        question.setStandardButtons(QMessageBox.StandardButton.Yes | QMessageBox.StandardButton.No)
-        question.setDefaultButton(QMessageBox.StandardButton.No)
-        yes = QMessageBox.StandardButton.Yes
-        question.finished.connect(lambda said: self._load_live(answer) if said == yes else None)
-        self._workbench.stopped.connect(question.reject)
-        question.setModal(False)  # the window, and its stop button, can still be used
-        question.show()
-
-    def _load_live(self, answer: Answer) -> None:
-        diagnosis = answer.diagnosis
-        try:
-            self._workbench.session.set_effects((*diagnosis.robot.effects, *diagnosis.fitted))
-        except InputError as error:
-            self._workbench.notify(Level.ERROR, str(error), about=error)
-
 
 def write_report(
-    diagnosis: Diagnosis, records: Sequence[Record], path: Path, names: Sequence[str]
+    diagnosis: Diagnosis,
+    records: Sequence[Record],
+    path: Path,
+    names: Sequence[str],
+    run: Run | None = None,
 ) -> None:
-    """Write the page of a diagnosis to a file."""
+    """Write the page of a diagnosis to a file, with the gap of the run in hand at its head."""
     from rotemina.sim.gap.report import page  # drawing takes its time to import
 
-    page.write_report(diagnosis, records, path, names)
+    text = page.report_text(diagnosis, records, names)
+    if run is not None:
+        lines = "".join(f"<li>{escape(line)}</li>" for line in run_lines(run))
+        told = f"<p>{escape(run.name)} ({escape(run.model_id)}):</p><ul>{lines}</ul>\n"
+        text = text.replace(_BEFORE, told + _BEFORE, 1)
+    write_text(path, text)

@@ -39,7 +39,9 @@ _MEANS = {
     ),
     Verdict.EXPLAINED: (
         marked("gap", "The model lacks what is named below; with it in, it follows the machine."),
-        marked("gap", "Press “Add to twin …”, then “New motion …” to see the gap shrink."),
+        marked(
+            "gap", "Press “Use corrected model”; then “New motion …” shows how far the gap shrinks."
+        ),
     ),
     Verdict.PARTLY: (
         marked(
@@ -49,8 +51,8 @@ _MEANS = {
         ),
         marked(
             "gap",
-            "Press “Add to twin …”: the model follows the machine better with it. Look under Where "
-            "what the rest depends on.",
+            "Press “Use corrected model”: it follows the machine better. Look under Where what the "
+            "rest depends on.",
         ),
     ),
     Verdict.UNKNOWN: (

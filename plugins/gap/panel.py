@@ -17,18 +17,22 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.display import label
+from rotemina.app.motion.model_in_use import ModelInUse
+from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.controls import ElidedLabel, allow
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
+from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.gap.actions import Actions
 from rotemina.plugins.gap.advice import check_title, readiness
 from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.blind_page import BlindPage
 from rotemina.plugins.gap.diagnosing import Diagnosing
 from rotemina.plugins.gap.far import FarView
-from rotemina.plugins.gap.headline import headline
+from rotemina.plugins.gap.headline_view import Headline
+from rotemina.plugins.gap.hidden import Hiding
 from rotemina.plugins.gap.hint import hint
 from rotemina.plugins.gap.playing import Playing
 from rotemina.plugins.gap.proof import Proof, new_motion, prove
@@ -37,9 +41,10 @@ from rotemina.plugins.gap.records import RecordChoice
 from rotemina.plugins.gap.robots import RobotChoice
 from rotemina.plugins.gap.running import RunningView
 from rotemina.plugins.gap.tips import tip
+from rotemina.plugins.gap.using import Using, against, candidate
 from rotemina.plugins.gap.where import WhereView
 from rotemina.plugins.gap.which import WhichView
-from rotemina.plugins.gap.words import VERDICTS, stage_name, summary
+from rotemina.plugins.gap.words import stage_name
 from rotemina.sim.gap.suggestion import suggestion
 
 VIEWS = (
@@ -61,6 +66,7 @@ STEPS = (
     marked("gap", "In the end: use what was found"),
 )
 _HEIGHT = 240
+_NOT_FORETOLD = marked("gap", "commands foretell nothing of what was found")
 _NO_ANSWER = marked("gap", "there is no answer yet; diagnose records first")
 
 
@@ -76,12 +82,17 @@ class GapPanel(Panel):
         super().__init__(workbench)
         self.answer: Answer | None = None
         self._source: str | Path | None = None  # of the robot that the answer is about
+        self._candidate: ModelInUse | None = None  # what the answer leads to
+        self._usable: str | None = ""  # why not; None: it is
+        self._resting = True
         self._goes_on = False  # to diagnose the records that are being read
         self._experiment: str | None = None  # that is asked for, or under way
         self._check: str | None = None
         self.diagnosing = Diagnosing(self)
         self.playing = Playing(workbench, self)
         self.actions_of = Actions(workbench, self)
+        self.using = Using(workbench, self)
+        self.hiding = Hiding(workbench, self)
         self.robots, self.records = RobotChoice(workbench), RecordChoice(workbench)
         self.blind: BlindPage | None = None
         self._make_buttons()
@@ -101,6 +112,7 @@ class GapPanel(Panel):
         self.progress.setTextVisible(False)
         self.progress.setMaximumWidth(220)
         self.doing = ElidedLabel()
+        self.use = QPushButton(translate("gap", "Use corrected model"))
         self.twin = QPushButton(translate("gap", "Add to twin …"))
         self.motion = QPushButton(translate("gap", "New motion …"))
         self.report = QPushButton(translate("gap", "Report …"))
@@ -113,6 +125,10 @@ class GapPanel(Panel):
         menu = QMenu(self)
         self.save = menu.addAction(translate("gap", "Save JSON …"))
         self.test = menu.addAction(translate("gap", "Blind test …"))
+        menu.addSeparator()
+        self.hide_machine = menu.addAction(translate("gap", "Hidden machine …"))
+        self.reveal = menu.addAction(translate("gap", "Reveal"))
+        menu.aboutToShow.connect(self._offer_hidden)
         self.more.setMenu(menu)
 
     def _make_views(self) -> None:
@@ -130,7 +146,8 @@ class GapPanel(Panel):
         for number, name in enumerate(VIEWS):
             self.tabs.addTab(translate("gap", name))
             self.tabs.setTabToolTip(number, translate("gap", TIPS[number]))
-        self.verdict = ElidedLabel()
+        self.headline = Headline([self.use])
+        self.verdict = self.headline.sentence
         self.plan = QPushButton(translate("gap", "Play next experiment …"))
         self.plan.setToolTip(
             tip(
@@ -165,7 +182,7 @@ class GapPanel(Panel):
         head = QHBoxLayout()
         head.setSpacing(8)
         head.addWidget(self.tabs)
-        head.addWidget(self.verdict, 1)
+        head.addStretch(1)
         head.addWidget(self.progress)
         head.addWidget(self.doing, 1)
         head.addWidget(self.plan)
@@ -174,6 +191,7 @@ class GapPanel(Panel):
         outer.setContentsMargins(10, 6, 10, 6)
         outer.setSpacing(4)
         outer.addLayout(top)
+        outer.addWidget(self.headline)
         outer.addLayout(head)
         outer.addWidget(self.views, 1)
         self.setMinimumHeight(_HEIGHT)
@@ -181,11 +199,16 @@ class GapPanel(Panel):
     def _connect(self) -> None:
         self.start.clicked.connect(self._start)
         self.stop.clicked.connect(self.end)
+        self.use.clicked.connect(
+            lambda: self.using.ask(self._known, against(self._known, self.proof.proof))
+        )
         self.twin.clicked.connect(lambda: self.actions_of.ask_twin(self._known, self._source))
         self.motion.clicked.connect(self.check)
         self.report.clicked.connect(lambda: self.actions_of.ask_report(self._known))
         self.save.triggered.connect(lambda: self.actions_of.ask_json(self._known))
         self.test.triggered.connect(self.show_blind_test)
+        self.hide_machine.triggered.connect(lambda: self.hiding.begin())
+        self.reveal.triggered.connect(lambda: self.hiding.reveal(self.answer))
         self.plan.clicked.connect(self.play_experiment)
         self.actions_of.twin_saved.connect(self.robots.load)
         self.robots.changed.connect(self.records.use_robot)
@@ -199,6 +222,7 @@ class GapPanel(Panel):
         self.diagnosing.failed.connect(self._fail)
         self.playing.played.connect(self._use_played)
         self.workbench.run_changed.connect(self._prove)
+        self.workbench.refreshed.connect(self._follow_motion)
         self.workbench.closing.connect(self.diagnosing.close)
         self.workbench.theme_changed.connect(self._use_theme)
 
@@ -252,6 +276,7 @@ class GapPanel(Panel):
     def take_answer(self, answer: Answer) -> None:
         """Show a diagnosis."""
         self.answer, self._source = answer, self.robots.source
+        self._candidate = candidate(answer)
         self.axis.clear()
         for name in answer.diagnosis.axes:
             self.axis.addItem(label(name), name)
@@ -259,10 +284,7 @@ class GapPanel(Panel):
         self.where.show_answer(answer)
         self.proof.show_proof(None)
         self._show_axis()
-        self.verdict.show_text(headline(answer))
-        said = summary(answer.diagnosis, answer.records)
-        verdict = translate("gap", VERDICTS[answer.diagnosis.verdict])
-        self.verdict.setToolTip(tip(f"{verdict}.", *said))
+        self.headline.show_answer(answer, None)
         self.doing.show_text("")
         self._show_state()
 
@@ -297,6 +319,8 @@ class GapPanel(Panel):
         found = why or (
             None if answer and answer.diagnosis.fitted else translate("gap", "no effect was found")
         )
+        self._usable = found or (None if self._candidate else translate("gap", _NOT_FORETOLD))
+        self._show_use()
         allow(
             self.twin,
             found,
@@ -317,12 +341,38 @@ class GapPanel(Panel):
         self.plan.setEnabled(not running)
         done = answer is not None and not running
         self.tabs.setVisible(done)
-        self.verdict.setVisible(done)
+        self.headline.setVisible(done)
         self.doing.setVisible(not done)
         self.hint.setText(readiness(chosen))
         shown = self.tabs.currentIndex() if done else RUNNING if running else HINT
         self.views.setCurrentIndex(shown)
         self.axis.setVisible(shown in (WHICH, FAR))
+
+    def _show_use(self) -> None:
+        """Offer the corrected model: by itself where it is better, else after a question."""
+        answer, why_not = self.answer, self._usable
+        doubt = against(answer, self.proof.proof) if answer and not why_not else None
+        if why_not is None and not self._resting:
+            why_not = translate("gap", "the machine is still moving")
+        said = translate(
+            "gap",
+            "Predictions only. What is sent to the machine does not change; Compensate does that.",
+        )
+        self.use.setText(
+            translate("gap", "Use anyway …") if doubt else translate("gap", "Use corrected model")
+        )
+        if self.use.property("primary") is not (doubt is None):
+            self.use.setProperty("primary", doubt is None)
+            self.use.style().unpolish(self.use)
+            self.use.style().polish(self.use)
+        allow(self.use, why_not, "\n".join(filter(None, (doubt, said))))
+
+    def _follow_motion(self, state: SessionState) -> None:
+        """Offer the switch of the model at rest only."""
+        resting = state.activity is DeviceState.IDLE and not state.queued
+        if resting is not self._resting:
+            self._resting = resting
+            self._show_use()
 
     def _show_progress(self, doing: str, share: float) -> None:
         self.progress.setValue(round(1000 * share))
@@ -377,26 +427,38 @@ class GapPanel(Panel):
 
     def _prove(self, run: Run) -> None:
         """Work out how far the gap has shrunk on what was played or opened since the answer."""
-        answer = self.answer
-        if answer is None or not answer.diagnosis.fitted or run.name == self._experiment:
+        answer, model = self.answer, self._candidate
+        if answer is None or model is None or run.name == self._experiment:
             return
         self.workbench.work(
             "gap proof",
             translate("gap", "Comparing with the twin …"),
-            lambda: prove(answer.diagnosis, run.name, run.record),
+            lambda: prove(answer.diagnosis, model, run, self.workbench.session.memory),
             lambda proof: self._take_proof(answer, proof),
         )
+
+    def show_proof(self) -> None:
+        """Show what a new motion says."""
+        with QSignalBlocker(self.tabs):
+            self.tabs.setCurrentIndex(PROOF)
+        self._show_state()
 
     def _take_proof(self, answer: Answer, proof: Proof) -> None:
         if answer is not self.answer or not proof.shrunk:
             return
         self.proof.show_proof(proof)
+        self.headline.show_answer(answer, proof)
+        self._show_state()
         if proof.name == self._check:  # it was asked for here: this is what is awaited
             self._check = None
-            with QSignalBlocker(self.tabs):
-                self.tabs.setCurrentIndex(PROOF)
-            self._show_state()
+            self.show_proof()
             self.main_window.bring_up("gap")
+
+    def _offer_hidden(self) -> None:
+        """Offer a hidden machine in the simulator's place, or to reveal the one that is there."""
+        simulated = self.workbench.session.effects is not None
+        self.hide_machine.setEnabled(simulated and self.hiding.secret is None)
+        self.reveal.setEnabled(self.hiding.secret is not None)
 
     # --- the test of the diagnosis itself ---------------------------------------------------------
 

@@ -5,13 +5,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from rotemina.app.motion.command_memory import CommandMemory
+from rotemina.app.motion.model_in_use import ModelInUse
+from rotemina.app.motion.run import Run, compared_again
+from rotemina.sim.comparison.gap import GapFigure, moving
 from rotemina.sim.excitation.generator import Kind, excite
 from rotemina.sim.excitation.levels import Staircase
 from rotemina.sim.excitation.swings import DecayingTriangle
 from rotemina.sim.excitation.tones import Multisine
 from rotemina.sim.gap.blocks import block_numbers, drawn_means, summed
 from rotemina.sim.gap.diagnosis import Diagnosis
-from rotemina.sim.gap.report.traces import Trace, traces
+from rotemina.sim.gap.report.traces import Trace
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
@@ -24,16 +28,31 @@ _SEED = 20_261  # of its phases: no other motion has it by chance
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Shrunk:
-    """The gap of one axis at one tap on a new record: as the model was, and with the causes in.
+    """The gap of one axis on a new record: by the nominal model, and with the causes in.
 
-    ``times`` is rms before over rms after, with its 95 % interval from blocks of the record.
+    ``figure`` is the gap, as everywhere. ``times`` is how many times smaller it is than that of
+    the nominal model, with its 95 % interval from blocks of the record.
     """
 
     trace: Trace
-    before: float
-    after: float
+    figure: GapFigure
     times: float
     interval: tuple[float, float]
+
+    @property
+    def before(self) -> float:
+        """The gap of the nominal model, SI."""
+        return self.figure.nominal
+
+    @property
+    def after(self) -> float:
+        """The gap with the causes in, SI."""
+        return self.figure.rms
+
+    @property
+    def worse(self) -> bool:
+        """Whether it is larger than that of the nominal model."""
+        return self.trace.changed and self.times < 1.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,28 +63,52 @@ class Proof:
     shrunk: tuple[Shrunk, ...]
 
 
-def prove(diagnosis: Diagnosis, name: str, record: Record) -> Proof:
-    """Work out the gap of a new record before and after, for axes that were diagnosed.
+def prove(diagnosis: Diagnosis, model: ModelInUse, run: Run, memory: CommandMemory) -> Proof:
+    """Work out the gap of a new record before and after, for axes that were diagnosed and moved.
+
+    What the machine was commanded before is known to the model, as far as it is in the memory.
 
     Raises
     ------
-    PlantError, EffectError
+    InputError
         If the record does not fit the robot, or the corrected model cannot be simulated.
     """
-    known = [axis for axis in diagnosis.axes if axis in record.axes]
-    found = [_shrunk(trace) for axis in known for trace in traces(diagnosis, axis, [record])]
-    return Proof(name, tuple(sorted(found, key=lambda one: -one.times)))
+    again = compared_again(model, run, memory)
+    found = [
+        _shrunk(again, axis, figure, diagnosis.robot)
+        for (axis, tap), figure in again.gaps.items()
+        if tap is Tap.MEAS and figure is not None and axis in diagnosis.axes
+    ]
+    return Proof(run.name, tuple(sorted(found, key=lambda one: -one.times)))
 
 
-def _shrunk(trace: Trace) -> Shrunk:
+def _shrunk(run: Run, axis: str, figure: GapFigure, robot: Robot) -> Shrunk:
+    record, response = run.record, run.comparison.response
+    corrected = response.signal(axis, Tap.MEAS)
+    floor = next(
+        one.noise_floor for one in run.comparison.taps if (one.axis, one.tap) == (axis, "meas")
+    )
+    trace = Trace(
+        0,
+        record,
+        axis,
+        Tap.MEAS,
+        record.signal(axis, Tap.MEAS),
+        run.nominal.get(axis, corrected),
+        corrected,
+        floor or 0.0,
+        robot.axes[axis],
+    )
+    counted = moving(
+        record.time_s, np.column_stack([record.signal(a, Tap.CMD) for a in record.axes])
+    )
     squares = np.stack([trace.before**2, trace.after**2], axis=1)
-    blocks = summed(block_numbers(trace.record.time_s, trace.command), squares)
+    blocks = summed(block_numbers(record.time_s[counted], trace.command[counted]), squares[counted])
     drawn = drawn_means(blocks, np.random.default_rng(0))
-    before, after = np.sqrt(squares.mean(axis=0))
     ratios = np.sqrt(drawn[:, 0] / np.maximum(drawn[:, 1], 1e-300))
     low, high = np.percentile(ratios, [2.5, 97.5])
-    times = float(before / max(after, 1e-300))
-    return Shrunk(trace, float(before), float(after), times, (float(low), float(high)))
+    times = float(figure.nominal / max(figure.rms, 1e-300))
+    return Shrunk(trace, figure, times, (float(low), float(high)))
 
 
 def leading(proof: Proof, axes: Sequence[str]) -> Shrunk | None:

@@ -1,23 +1,26 @@
 """How far the gap shrinks on a new motion: figures with intervals, and the gap over time."""
 
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QLabel, QSplitter, QStackedWidget, QVBoxLayout, QWidget
 
 from rotemina.app.display import label
+from rotemina.app.shell.gap_words import RUN
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.gap.advice import NO_PROOF
+from rotemina.plugins.gap.headline import change
 from rotemina.plugins.gap.hint import hint
 from rotemina.plugins.gap.proof import Proof, Shrunk
 from rotemina.plugins.gap.table import Table
 from rotemina.plugins.gap.trace_view import TraceView
-from rotemina.sim.gap.report.quantities import amount
+from rotemina.sim.comparison.gap import gap_text
 
 HEAD = (
     marked("gap", "axis, tap"),
-    marked("gap", "as it was"),
-    marked("gap", "with the twin"),
-    marked("gap", "smaller"),
+    marked("gap", "nominal"),
+    marked("gap", "with what was found"),
+    marked("gap", "change"),
     "95 %",
     marked("gap", "floor"),
 )
@@ -29,13 +32,14 @@ class ProofView(QStackedWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self.proof: Proof | None = None
+        self._theme = theme
         self.title = QLabel()
         self.title.setTextFormat(Qt.TextFormat.PlainText)
         self.title.setToolTip(
             translate(
                 "gap",
-                "Rms of what was measured less what the model says, its mean taken out; "
-                "intervals by drawing blocks of the record anew",
+                "Rms of what was measured less what the model says, its offset included, over "
+                "what moves and 0.5 s after; intervals by drawing blocks of the record anew",
             )
         )
         self.table = Table(translate("gap", "How far the gap shrinks on the new motion"), HEAD)
@@ -59,9 +63,11 @@ class ProofView(QStackedWidget):
         self.proof = proof
         self.setCurrentIndex(0 if proof is None else 1)
         shrunk = () if proof is None else proof.shrunk
-        text = translate("gap", "Gap on {record}, rms")
-        self.title.setText("" if proof is None else text.format(record=proof.name))
-        self.table.show_rows([_row(one) for one in shrunk])
+        self.title.setText("" if proof is None else f"{proof.name}: {translate('shell', RUN)}")
+        worse = QColor(self._theme.danger_text)
+        self.table.show_rows(
+            [_row(one) for one in shrunk], [worse if one.worse else None for one in shrunk]
+        )
         self.traces.show_traces(
             [(f"{label(one.trace.axis)} {one.trace.tap}", one.trace) for one in shrunk]
         )
@@ -70,6 +76,8 @@ class ProofView(QStackedWidget):
 
     def set_theme(self, theme: Theme) -> None:
         """Change all colours."""
+        self._theme = theme
+        self.show_proof(self.proof)
         self.traces.set_theme(theme)
 
     def _choose(self, row: int) -> None:
@@ -82,9 +90,9 @@ def _row(one: Shrunk) -> tuple[str, ...]:
     low, high = one.interval
     return (
         f"{label(trace.axis)} {trace.tap}",
-        amount(one.before, trace.unit),
-        amount(one.after, trace.unit),
-        f"{one.times:.3g} ×",
-        f"{low:.3g} … {high:.3g} ×",
-        amount(trace.floor, trace.unit),
+        gap_text(one.before, trace.unit),
+        gap_text(one.after, trace.unit),
+        change(one.times),
+        f"{low:.3g} … {high:.3g}",
+        gap_text(trace.floor, trace.unit),
     )

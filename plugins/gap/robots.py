@@ -1,16 +1,18 @@
 """The model that is to be diagnosed: the one in use, a shipped one, or a file's."""
 
 from pathlib import Path
+from typing import Any
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QComboBox, QFileDialog
 
+from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.sim.robot.file import load_robot, shipped_robots
 from rotemina.sim.robot.model import Robot
 
-_FILE = object()
+_FILE, _BEYOND = object(), object()
 
 
 class RobotChoice(QComboBox):
@@ -31,16 +33,19 @@ class RobotChoice(QComboBox):
         self._place = 0
         self.setAccessibleName(translate("gap", "Model"))
         self.setToolTip(
-            translate("gap", "The model whose gap is looked for; at first the one in use")
+            translate("gap", "The model whose gap is looked for; at first the nominal one")
         )
         self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.setMinimumContentsLength(11)
         self.setMinimumWidth(80)  # where the window is narrow, a name is cut rather than the row
-        self.addItem(translate("gap", "{robot} (in use)").format(robot=workbench.robot.name), None)
+        nominal = translate("gap", "{robot}, nominal").format(robot=workbench.robot.name)
+        self.addItem(nominal, None)
+        self.addItem(translate("gap", "What remains beyond the model in use"), _BEYOND)
         for name in shipped_robots():
             self.addItem(name, name)
         self.addItem(translate("gap", "Robot file …"), _FILE)
         self.activated.connect(self._choose)
+        workbench.model_changed.connect(self._follow_model)
 
     def load(self, source: str | Path | None) -> None:
         """Take a robot in hand: the one in use, a shipped one by name, or one of a file."""
@@ -59,16 +64,28 @@ class RobotChoice(QComboBox):
         self.setCurrentIndex(self._place)  # until it is there
         if source is _FILE:
             self._ask()
+        elif source is _BEYOND:
+            self._take(source, self._workbench.session.model.robot)
         else:
             self.load(source)
 
-    def _take(self, source: str | Path | None, robot: Robot) -> None:
+    def _take(self, source: Any, robot: Robot) -> None:
         if isinstance(source, Path) and self.findData(source) < 0:
             self.insertItem(self.count() - 1, source.name, source)
         self._place = self.findData(source)
         self.setCurrentIndex(self._place)
-        self.source, self.robot = source, robot
+        self.source = None if source is _BEYOND else source
+        self.robot = robot
         self.changed.emit(robot)
+
+    def _follow_model(self, model: ModelInUse) -> None:
+        """Go on with the model in use where that is what is looked beyond."""
+        if self.itemData(self._place) is not _BEYOND:
+            return
+        if model.corrected:
+            self._take(_BEYOND, model.robot)
+        else:
+            self.load(None)
 
     def _ask(self) -> None:
         settings = self._workbench.settings

@@ -1,6 +1,7 @@
 """The live plot of one axis, with the size of its gap, or what its cursors read, in words."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -10,6 +11,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 from rotemina.app.display import axis_scale, label
 from rotemina.app.motion.history import LiveWindow
 from rotemina.app.shell.controls import ElidedLabel, plain_tip
+from rotemina.app.shell.gap_words import live_gap, run_gap, small_print
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
@@ -18,9 +20,11 @@ from rotemina.plugins.plots.cursor_text import Reading, Shown, loop_text, neares
 from rotemina.plugins.plots.signals import OtherRun
 from rotemina.plugins.plots.view_plot import ViewPlot, logarithm
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.comparison.gap import GapFigure
+from rotemina.sim.records.record import Tap
 from rotemina.sim.units import symbol, to_unit
 
-CURVES = ("command", "model", "other", "measured")
+CURVES = ("command", "model", "nominal", "above", "below", "other", "measured")
 _NOTHING = np.empty(0)
 _LEAST_DECADES = 2.0  # of a spectrum: fewer have no round numbers to stand beside
 
@@ -28,7 +32,8 @@ _LEAST_DECADES = 2.0  # of a spectrum: fewer have no round numbers to stand besi
 class Picture(NamedTuple):
     """What one frame draws.
 
-    ``other`` is the run beside the present one, its time ``shift_s`` earlier or later.
+    ``other`` is the run beside the present one, its time ``shift_s`` earlier or later. ``live`` are
+    the gaps of the last 10 s by axis, ``run`` those of the run in hand.
     """
 
     window: LiveWindow
@@ -36,6 +41,8 @@ class Picture(NamedTuple):
     shown: Shown
     other: OtherRun | None = None
     shift_s: float = 0.0
+    live: Mapping[str, GapFigure | None] = MappingProxyType({})
+    run: Mapping[tuple[str, Tap], GapFigure | None] = MappingProxyType({})
 
 
 class AxisPlot(QWidget):
@@ -52,6 +59,7 @@ class AxisPlot(QWidget):
         super().__init__()
         name = tuple(workbench.robot.axes)[column]
         axis = workbench.robot.axes[name]
+        self._name, self._si_unit = name, axis.unit or "m"
         self._column, self._times = column, times
         self._scale = axis_scale(axis)
         self._gap_unit = "urad" if axis.unit == "rad" else "um"
@@ -69,6 +77,10 @@ class AxisPlot(QWidget):
         self.plot = ViewPlot(workbench.theme, moved)
         self.plot.add_curve("command", "command")
         self.plot.add_curve("model", "model", width=3)  # seen on both sides of the measured line
+        dotted = Qt.PenStyle.DotLine
+        self.plot.add_curve("nominal", "model", style=dotted)
+        for bound in ("above", "below"):
+            self.plot.add_curve(bound, "model", style=Qt.PenStyle.DashDotLine)
         self.plot.add_curve("other", "good")
         self.plot.add_curve("measured", "real")
         # Notices and the banner of a replay need room, too; the lowest has the times below it.
@@ -101,19 +113,23 @@ class AxisPlot(QWidget):
             for name in CURVES:
                 self.plot.clear_signal(name)
             return
-        gap = (window.measured - window.model)[:, self._column]
-        self.figures.show_text(
-            translate("plots", "gap rms {value:.3g} {unit}").format(
-                value=to_unit(np.sqrt(np.mean(gap**2)), self._gap_unit),
-                unit=symbol(self._gap_unit),
-            )
-        )
+        self._show_gap(picture)
         {
             Shown.POSITION: self._draw_position,
             Shown.GAP: self._draw_gap,
             Shown.LOOP: self._draw_loop,
             Shown.SPECTRUM: self._draw_spectrum,
         }[shown](picture)
+
+    def _show_gap(self, picture: Picture) -> None:
+        """Write the gap of the last 10 s, and of the run in hand where this axis was in it."""
+        live, unit = picture.live.get(self._name), self._si_unit
+        lines = [(live_gap(live, unit), small_print(live, unit))]
+        run = picture.run.get((self._name, Tap.MEAS))
+        if run is not None:
+            lines.append((run_gap(run, unit), small_print(run, unit)))
+        self.figures.show_text("  ·  ".join(text for text, _ in lines))
+        self.figures.setToolTip(plain_tip(*(f"{text} ({small})" for text, small in lines)))
 
     def read_cursors(self) -> None:
         """Write what the cursors read in place of the gap."""
@@ -159,6 +175,9 @@ class AxisPlot(QWidget):
         window = picture.window
         since = window.device_time_s - window.device_time_s[-1]
         gap = window.measured[:, self._column] - window.model[:, self._column]
+        later = window.device_time_s > window.gap_since_s  # another model said what it says
+        if later.any():
+            since, gap = since[later], gap[later]
         values = to_unit(gap, self._gap_unit)
         self.plot.show_signal("measured", since, values)
         self._read = (since, values)
@@ -173,6 +192,10 @@ class AxisPlot(QWidget):
             "command": self._shown(window.command),
             "model": self._shown(window.model),
         }
+        signals |= self._beside_the_model(window)
+        for name in ("nominal", "above", "below"):
+            if name not in signals:
+                self.plot.clear_signal(name)
         for name, values in signals.items():
             self.plot.show_signal(name, since, values)
         self._read = (since, signals["measured"])
@@ -184,6 +207,17 @@ class AxisPlot(QWidget):
             if len(seen):
                 signals["other"] = seen
         self._follow(self._scale.unit, *signals.values())
+
+    def _beside_the_model(self, window: LiveWindow) -> dict[str, FloatArray]:
+        """Return the nominal model, where another is in use, and by how much that may be off."""
+        found = {}
+        column = self._column
+        if (window.nominal[:, column] != window.model[:, column]).any():
+            found["nominal"] = self._shown(window.nominal)
+        if window.doubt[:, column].any():
+            found["above"] = self._shown(window.model + window.doubt)
+            found["below"] = self._shown(window.model - window.doubt)
+        return found
 
     def _draw_loop(self, picture: Picture) -> None:
         window = picture.window

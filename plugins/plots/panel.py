@@ -1,7 +1,7 @@
 """Plots of every axis: over time, loops, spectra; cursors, another run beside, and export."""
 
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from html import escape
 from pathlib import Path
@@ -24,6 +24,7 @@ from rotemina.app.motion.history import LiveWindow
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S, Area, Panel
 from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.gap_words import LIVE_S
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
@@ -31,16 +32,18 @@ from rotemina.drivers.clock import Clock
 from rotemina.plugins.plots.axis_plot import AxisPlot, Picture
 from rotemina.plugins.plots.cursor_text import Shown, across_text
 from rotemina.plugins.plots.exporting import save_picture
-from rotemina.plugins.plots.signals import OtherRun, alignment, as_record, latest
+from rotemina.plugins.plots.signals import OtherRun, alignment, as_record, gaps_of, latest
 from rotemina.plugins.plots.view_plot import ViewPlot
+from rotemina.sim.comparison.gap import GapFigure
 from rotemina.sim.records.writing import write_record
 
 SPANS_S = (2, 5, 10, 30, 60)
 _PARTS = 3  # of the plots that are drawn at a time
+FIGURES_S = 0.25  # nor are figures
 SPECTRUM_S = 0.25  # a spectrum is computed no oftener
 LEGEND = (
     (marked("plots", "command"), "command"),
-    (marked("plots", "model"), "model"),
+    (marked("plots", "model in use"), "model"),
     (marked("plots", "measured"), "real"),
 )
 VIEWS = {
@@ -64,6 +67,8 @@ class PlotsPanel(Panel):
         super().__init__(workbench)
         self._clock, self._drawn_s = clock, float("-inf")
         self._held: LiveWindow | None = None
+        self._told_s = float("-inf")
+        self._gaps: Mapping[str, GapFigure | None] = {}
         self._picture: Picture | None = None
         self.other: OtherRun | None = None
         self._shift_s = 0.0
@@ -97,6 +102,8 @@ class PlotsPanel(Panel):
         workbench.replaying.changed.connect(self._begin_anew)
         workbench.theme_changed.connect(self._use_theme)
         workbench.run_changed.connect(self._take_run)
+        workbench.run_changed.connect(lambda _: self._tell_run())
+        workbench.model_changed.connect(self._use_model)
 
     def refresh(self) -> None:
         """Draw the newest samples, unless paused or out of sight; recording goes on."""
@@ -284,8 +291,25 @@ class PlotsPanel(Panel):
     def _take(self, window: LiveWindow) -> Picture:
         self._drawn_s = self._clock()
         span_s = float(self.span.currentData())
-        self._picture = Picture(window, span_s, self._shown(), self.other, self._shift_s)
+        run = self.workbench.run
+        self._picture = Picture(
+            window,
+            span_s,
+            self._shown(),
+            self.other,
+            self._shift_s,
+            self._live_gaps(),
+            run.gaps if run is not None else {},
+        )
         return self._picture
+
+    def _live_gaps(self) -> Mapping[str, GapFigure | None]:
+        """Return the gaps of the last 10 s, worked out no oftener than they can be read."""
+        now_s = self._clock()
+        if self._held is None and now_s - self._told_s >= FIGURES_S:
+            self._told_s = now_s
+            self._gaps = gaps_of(self.workbench.source.history.tail(LIVE_S))
+        return self._gaps
 
     def _draw(self, window: LiveWindow) -> None:
         picture = self._take(window)
@@ -308,6 +332,17 @@ class PlotsPanel(Panel):
     def _hold(self, held: bool) -> None:
         self._held = self.workbench.source.history.tail() if held else None
         self._draw_again()
+
+    def _tell_run(self) -> None:
+        """Show the figures of another run in hand, also where the picture stands still."""
+        if self.pause.isChecked() or not self.isVisible():
+            return
+        self._draw_again()
+
+    def _use_model(self, _: object) -> None:
+        """Begin the gap anew, and name the nominal model where another is in use."""
+        self._told_s = float("-inf")
+        self._use_theme(self.workbench.theme)
 
     def _begin_anew(self) -> None:
         """Draw what is shown now: no picture of the machine stays in a replay, nor the reverse."""
@@ -390,6 +425,8 @@ class PlotsPanel(Panel):
 
     def _use_theme(self, theme: Theme) -> None:
         own = ((translate("plots", name), role) for name, role in LEGEND)
+        if self.workbench.session.model.corrected:
+            own = (*own, (translate("plots", "nominal (dotted)"), "model"))
         other = () if self.other is None else ((self.other.name, "good"),)
         self._legend.setText(
             "&nbsp;&nbsp;".join(

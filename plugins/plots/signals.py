@@ -1,12 +1,13 @@
 """What plots draw: a stretch of the live history, and another run beside it. Free of Qt."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from rotemina.app.motion.history import LiveWindow
 from rotemina.app.shell.language import translate
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.comparison.gap import GapFigure, gap_figure, moving
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Channel, Record, Tap
 from rotemina.sim.robot.model import Robot
@@ -71,9 +72,20 @@ def latest(window: LiveWindow, span_s: float) -> LiveWindow:
     if len(time_s) == 0:
         return window
     first = int(np.searchsorted(time_s, time_s[-1] - span_s, side="left"))
-    parts = (window.command, window.model, window.measured)
-    command, model, measured = (part[first:] for part in parts)
-    return LiveWindow(window.axes, time_s[first:], command, model, measured, window.connection)
+    names = ("device_time_s", "command", "model", "measured", "nominal", "doubt")
+    return replace(window, **{name: getattr(window, name)[first:] for name in names})
+
+
+def gaps_of(window: LiveWindow) -> dict[str, GapFigure | None]:
+    """Return the gap of each axis in a window, from where the model in use is the one that is."""
+    counted = moving(window.device_time_s, window.command)
+    counted &= window.device_time_s > window.gap_since_s
+    return {
+        axis: gap_figure(
+            counted, window.measured[:, column], window.model[:, column], window.nominal[:, column]
+        )
+        for column, axis in enumerate(window.axes)
+    }
 
 
 def as_record(window: LiveWindow, robot: Robot) -> Record:

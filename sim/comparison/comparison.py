@@ -57,7 +57,13 @@ class Comparison:
         return {"format": FORMAT, "taps": [_plain(tap) for tap in self.taps]}
 
 
-def compare(robot: Robot, record: Record, *, fit: Collection[str] = ()) -> Comparison:
+def compare(
+    robot: Robot,
+    record: Record,
+    *,
+    fit: Collection[str] = (),
+    response: Response | None = None,
+) -> Comparison:
     """Simulate the nominal model over a record's commands and compare every measured tap.
 
     Parameters
@@ -67,6 +73,8 @@ def compare(robot: Robot, record: Record, *, fit: Collection[str] = ()) -> Compa
         Needs ``cmd`` and at least one of ``u``, ``ref``, ``meas`` for some axis.
     fit : collection of {"gain", "offset"}
         What to re-fit by least squares for ``rms_refitted``; left out in closed loop.
+    response : Response, optional
+        What the model answers, where that is known already.
 
     Raises
     ------
@@ -78,7 +86,7 @@ def compare(robot: Robot, record: Record, *, fit: Collection[str] = ()) -> Compa
             raise InputError(
                 f"--fit: {name!r} cannot be re-fitted; choose from {', '.join(FITTABLE)}"
             )
-    response = nominal_response(robot, record)
+    response = nominal_response(robot, record) if response is None else response
     pairs = [
         (axis, tap)
         for axis in record.axes

@@ -1,7 +1,7 @@
 """A dry run: what a trajectory asks of a machine, and how well the model expects it to follow."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -97,11 +97,17 @@ class DryRun:
 
 
 def dry_run(
-    robot: Robot, trajectory: Record, *, setpoint_period_s: float = SETPOINT_PERIOD_S
+    robot: Robot,
+    trajectory: Record,
+    *,
+    setpoint_period_s: float = SETPOINT_PERIOD_S,
+    corrected: Robot | None = None,
 ) -> DryRun:
     """Examine a trajectory without moving anything.
 
-    ``setpoint_period_s`` is that of the device that shall play it.
+    ``setpoint_period_s`` is that of the device that shall play it. ``corrected`` is the same robot
+    with what a diagnosis found: its tracking errors are told. What may be played does not depend
+    on it.
 
     Raises
     ------
@@ -114,6 +120,9 @@ def dry_run(
     violations = find_violations(robot, commands, setpoint_period_s=setpoint_period_s)
     prediction = predict(robot, commands, setpoint_period_s)
     violations += prediction.violations
+    if corrected is not None:
+        told = predict(corrected, commands, setpoint_period_s)
+        prediction = replace(prediction, errors=told.errors)
     figures = {
         name: _figures(robot.axes[name], commands, name, setpoint_period_s, prediction.errors)
         for name in commands.axes

@@ -28,7 +28,8 @@ class Attempt:
     phases: list[tuple[str, float]] = field(default_factory=list)
     resting: AxisSamples = NONE
     noise: Noise | None = None
-    detector: ContactDetector | None = None
+    rest_offset: float = 0.0  # reading − command, at rest before the approach
+    detectors: tuple[ContactDetector, ...] = ()  # of the nominal model, and of the one in use
     contact: Contact | None = None
     thrust_from: float = 0.0
     contact_height: float | None = None
@@ -56,25 +57,25 @@ class Attempt:
         return self.side * (self.residual - self.noise.level)
 
     def load(self) -> float:
-        """Return how far the axis is from where it should be, m: since the contact, or the start.
+        """Return how far the axis is from where it was sent, m: since the contact, or the start.
 
-        In a thrust that is told by the command: a model lags behind samples that a device sends
-        more seldom while it captures.
+        That is told by command and reading alone: no model has a say in it.
         """
         if self.contact_offset is not None:
             return abs(self.offset - self.contact_offset)
-        if self.noise is None or self.residual is None:
-            return 0.0
-        return abs(self.residual - self.noise.level)
+        return 0.0 if self.noise is None else abs(self.offset - self.rest_offset)
 
-    def ended(self, robot: Robot, driver: str, verdict: Verdict, reason: str) -> PenetrationRun:
-        """Return the log's entry."""
+    def ended(
+        self, robot: Robot, driver: str, verdict: Verdict, reason: str, model: str = ""
+    ) -> PenetrationRun:
+        """Return the log's entry; ``model`` is the id of the one in use."""
         contact, noise, plan = self.contact, self.noise, self.plan
         peak, final = self._deviations()
         return PenetrationRun(
             started=self.started,
             robot=robot.name,
             driver=driver,
+            model=model,
             parameters=as_table(self.parameters),
             verdict=verdict,
             reason=reason,
@@ -86,7 +87,7 @@ class Attempt:
             contact_delay_s=contact.delay_s if contact else None,
             contact_from_start=contact.from_start if contact else None,
             noise_rms=noise.rms if noise else None,
-            threshold=self.detector.threshold if self.detector else None,
+            threshold=self.detectors[0].threshold if self.detectors else None,
             planned_average_speed=plan.average_speed,
             planned_peak_speed=plan.peak_speed,
             fit_error=plan.fit_error,

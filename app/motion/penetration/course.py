@@ -14,7 +14,7 @@ import numpy as np
 
 from rotemina.app.motion.penetration.arming import LEASE_S
 from rotemina.app.motion.penetration.attempt import Attempt
-from rotemina.app.motion.penetration.detector import ContactDetector, noise_at_rest
+from rotemina.app.motion.penetration.detector import Contact, ContactDetector, noise_at_rest
 from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.app.motion.penetration.feed import AxisFeed, AxisSamples, joined
 from rotemina.app.motion.penetration.run_log import PenetrationRun, Verdict
@@ -111,16 +111,15 @@ class Course:
     ) -> None:
         p = attempt.parameters
         velocity = p.sign * p.approach_speed
-        if attempt.detector is None:
+        if not attempt.detectors:
             self._listen(attempt, samples)
             if not self._knows_noise(attempt):
                 self._await(now_s, _LISTEN_S, "the device sends too few samples")
                 return
         elif len(samples):
-            contact = attempt.detector.feed(
-                samples.time_s, samples.command, samples.measured, samples.residual
-            )
+            contact = self._contact(attempt, samples)
             if contact is not None:
+                self._session.note_contact("a penetration's tip was in contact")
                 attempt.contact = contact
                 attempt.contact_height = state.tip[2] if state.tip is not None else None
                 self._halt()
@@ -240,23 +239,40 @@ class Course:
             latest = kept.since(float(kept.time_s[-1]) - _LISTEN_S)
             attempt.resting = latest if len(latest) <= 1000 else latest.since(latest.time_s[-1000])
 
+    def _contact(self, attempt: Attempt, samples: AxisSamples) -> Contact | None:
+        """Return what any of the detectors is sure of: no model makes them less watchful."""
+        residuals = (samples.nominal, samples.residual)
+        found = [
+            detector.feed(samples.time_s, samples.command, samples.measured, residual)
+            for detector, residual in zip(attempt.detectors, residuals, strict=False)
+        ]
+        return min(filter(None, found), key=lambda one: one.detected_s, default=None)
+
     def _knows_noise(self, attempt: Attempt) -> bool:
         resting, p = attempt.resting, attempt.parameters
         if not len(resting) or resting.time_s[-1] - resting.time_s[0] < _REST_S:
             return False
         sensor = self._session.robot.axes[p.axis].sensor
         floor = sensor.resolution / np.sqrt(12.0) if sensor is not None else 0.0
+        residuals = [resting.nominal]
+        if self._session.model.corrected:
+            residuals.append(resting.residual)
         try:
-            attempt.noise = noise_at_rest(resting.time_s, resting.residual, float(floor))
+            noises = [noise_at_rest(resting.time_s, one, float(floor)) for one in residuals]
         except PenetrationError:
             return False
-        attempt.detector = ContactDetector(
-            attempt.noise,
-            attempt.start,
-            p.sign,
-            drift=p.drift,
-            drift_length=p.drift_length,
-            false_alarms_per_hour=p.false_alarms_per_hour,
+        attempt.noise = noises[-1]
+        attempt.rest_offset = float(np.mean(resting.measured - resting.command))
+        attempt.detectors = tuple(
+            ContactDetector(
+                noise,
+                attempt.start,
+                p.sign,
+                drift=p.drift,
+                drift_length=p.drift_length,
+                false_alarms_per_hour=p.false_alarms_per_hour,
+            )
+            for noise in noises
         )
         return True
 
@@ -358,7 +374,8 @@ class Course:
         (verdict, reason), attempt, session = self._outcome, self._attempt, self._session
         assert attempt is not None, "under way"
         self._begin(phase, now_s)
-        run = attempt.ended(session.robot, session.driver.name, verdict, reason)
+        model = session.model.id
+        run = attempt.ended(session.robot, session.driver.name, verdict, reason, model)
         self._unwritten.append(run)
         self._status = replace(
             self._status, phase=phase, reason=reason, armed_left_s=None, run=run, problem=""

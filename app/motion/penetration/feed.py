@@ -1,50 +1,53 @@
 """The samples of one axis, from the session's worker to whoever steps a penetration."""
 
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
+from rotemina.app.motion.live_models import Answers
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.samples import Samples
-from rotemina.sim.arrays import FloatArray
+from rotemina.sim.arrays import BoolArray, FloatArray
 
 _MOST_PORTIONS = 2000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AxisSamples:
-    """Samples of one axis, (n,) each: device time, command, reading and reading − model."""
+    """Samples of one axis, (n,) each: device time, command, reading, and reading − model.
+
+    ``residual`` is of the model in use, without what may have been a contact when it was learned;
+    ``nominal`` of the nominal model.
+    """
 
     time_s: FloatArray
     command: FloatArray
     measured: FloatArray
     residual: FloatArray
+    nominal: FloatArray
 
     def __len__(self) -> int:
         return len(self.time_s)
 
     def since(self, time_s: float) -> "AxisSamples":
         """Return those that are later."""
-        kept = self.time_s > time_s
-        return AxisSamples(
-            self.time_s[kept], self.command[kept], self.measured[kept], self.residual[kept]
-        )
+        return self.part(self.time_s > time_s)
+
+    def part(self, kept: BoolArray) -> "AxisSamples":
+        """Return some of them."""
+        return AxisSamples(*(getattr(self, name)[kept] for name in _NAMES))
 
 
-NONE = AxisSamples(*(np.empty(0) for _ in range(4)))
+_NAMES = tuple(one.name for one in fields(AxisSamples))
+NONE = AxisSamples(*(np.empty(0) for _ in _NAMES))
 
 
 def joined(parts: list[AxisSamples]) -> AxisSamples:
     """Return consecutive samples as one."""
     if not parts:
         return NONE
-    return AxisSamples(
-        np.concatenate([part.time_s for part in parts]),
-        np.concatenate([part.command for part in parts]),
-        np.concatenate([part.measured for part in parts]),
-        np.concatenate([part.residual for part in parts]),
-    )
+    return AxisSamples(*(np.concatenate([getattr(p, name) for p in parts]) for name in _NAMES))
 
 
 class AxisFeed:
@@ -55,7 +58,7 @@ class AxisFeed:
         self._portions: deque[AxisSamples] = deque(maxlen=_MOST_PORTIONS)
         self.end = session.tap(self._take)
 
-    def _take(self, samples: Samples, model: FloatArray) -> None:
+    def _take(self, samples: Samples, answers: Answers) -> None:
         column = self._column
         measured = samples.measured[:, column]
         self._portions.append(
@@ -63,7 +66,8 @@ class AxisFeed:
                 samples.device_time_s,
                 samples.command[:, column],
                 measured,
-                measured - model[:, column],
+                measured - answers.cautious[:, column],
+                measured - answers.nominal[:, column],
             )
         )
 
@@ -73,8 +77,5 @@ class AxisFeed:
         while self._portions:
             parts.append(self._portions.popleft())
         found = joined(parts)
-        sound = np.isfinite(found.residual)
-        if sound.all():
-            return found
-        columns = (found.time_s, found.command, found.measured, found.residual)
-        return AxisSamples(*(column[sound] for column in columns))
+        sound = np.isfinite(found.residual) & np.isfinite(found.nominal)
+        return found if sound.all() else found.part(sound)

@@ -104,8 +104,7 @@ class PenetrationParameters:
     depth_tolerance : float
         Share of the depth by which the one that was reached may differ.
     overload : float
-        Greatest change of ``meas − model`` on the way, in the thrust of ``meas − command``: more
-        ends it.
+        Greatest change of ``meas − command``: more ends it.
     armed_s : float
         After which it disarms by itself.
 

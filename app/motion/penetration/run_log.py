@@ -35,6 +35,8 @@ class PenetrationRun:
     started : str
         When it was started, ISO 8601 with the zone.
     robot, driver : str
+    model : str
+        Id of the model in use.
     parameters : dict
         All of :class:`rotemina.app.motion.penetration.parameters.PenetrationParameters`.
     verdict : Verdict
@@ -61,6 +63,7 @@ class PenetrationRun:
     verdict: Verdict
     reason: str
     phases: tuple[tuple[str, float], ...]
+    model: str = ""
     start: float | None = None
     contact: float | None = None
     contact_measured: float | None = None
@@ -158,7 +161,7 @@ class RunLog:
 def _require_kinds(run: PenetrationRun) -> None:
     """Raise a TypeError unless the run's texts are texts and its figures are figures."""
     kinds: dict[str, tuple[type, ...]] = {
-        **dict.fromkeys(("started", "robot", "driver", "reason"), (str,)),
+        **dict.fromkeys(("started", "robot", "driver", "model", "reason"), (str,)),
         **{"parameters": (dict,), "verdict": (Verdict,), "phases": (tuple,)},
         "thrust": (ThrustMeasured, NoneType),
     }

@@ -159,8 +159,9 @@ def _recorded_state(details: str) -> dict[str, Any]:
     found: dict[str, Any] = json.loads(details)
     found["connection"] = Connection(found["connection"])
     found["activity"] = DeviceState(found["activity"])
-    for name in ("unhomed", "differences"):
-        found[name] = tuple(found[name])
+    for name in ("unhomed", "differences", "unsettled"):
+        if name in found:
+            found[name] = tuple(found[name])
     return found
 
 

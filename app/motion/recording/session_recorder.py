@@ -10,6 +10,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from rotemina.app.motion.device_session import DeviceSession
+from rotemina.app.motion.live_models import Answers
 from rotemina.app.motion.recording.segments import Opener, new_file
 from rotemina.app.motion.recording.tables import units_of
 from rotemina.app.motion.recording.writer import RecorderNotice, RecordingWriter
@@ -19,6 +20,7 @@ from rotemina.app.motion.state import (
     Connection,
     Event,
     Faulted,
+    ModelChanged,
     PlaybackFinished,
     SessionState,
     StateChanged,
@@ -27,7 +29,6 @@ from rotemina.app.motion.teleoperation.intent import Intent
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.inputs.device import InputDevice, InputReading
 from rotemina.drivers.samples import DeviceState, Samples
-from rotemina.sim.arrays import FloatArray
 from rotemina.sim.robot.writing import robot_text
 
 
@@ -142,13 +143,14 @@ class SessionRecorder:
         """Record what somebody remarks."""
         self.writer.event("note", text)
 
-    def _on_samples(self, samples: Samples, model: FloatArray) -> None:
+    def _on_samples(self, samples: Samples, answers: Answers) -> None:
         """Take a portion; on the session's thread."""
         state = self._session.snapshot()
         self._note_stop(state)
         self._note_calibrations()
         received_s = state.sample_host_time_s
-        self.writer.add(samples, model, self._clock() if received_s is None else received_s)
+        host_s = self._clock() if received_s is None else received_s
+        self.writer.add(samples, answers.in_use, host_s)
 
     def _on_event(self, event: Event) -> None:
         if isinstance(event, StateChanged):
@@ -163,6 +165,8 @@ class SessionRecorder:
             rows = 0 if event.record is None else len(event.record.time_s)
             text = "completed" if event.completed else "ended early"
             self.writer.event("playback_end", text, {"completed": event.completed, "rows": rows})
+        elif isinstance(event, ModelChanged):
+            self.writer.event("model", event.model.id, {"why": event.why})
 
     def _note_state(self, state: SessionState) -> None:
         before, self._seen = self._seen, state
@@ -222,6 +226,7 @@ def _metadata(session: DeviceSession, settings: Mapping[str, object], began: str
         "robot_sha256": hashlib.sha256(robot_file.encode()).hexdigest(),
         "driver": session.driver.name,
         "driver_settings": json.dumps(dict(session.driver.settings), default=str),
+        "model": session.model.id,
         "calibrations": json.dumps(session.corrections.names, sort_keys=True),
         "settings": settings_json,
         "settings_sha256": hashlib.sha256(settings_json.encode()).hexdigest(),
@@ -242,4 +247,6 @@ def _told(state: SessionState) -> dict[str, object]:
         "stopping": state.stopping,
         "latched": state.latched,
         "differences": list(state.differences),
+        "model_id": state.model_id,
+        "unsettled": list(state.unsettled),
     }

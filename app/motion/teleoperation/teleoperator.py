@@ -398,9 +398,9 @@ class Teleoperator:
         if self._law is not LawKind.IMPEDANCE:
             return {}
         deviations = {
-            axis: state.measured[axis] - state.model[axis]
+            axis: state.measured[axis] - state.nominal[axis]  # whatever model is in use
             for axis in frame.axes
-            if axis in state.measured and isfinite(state.model.get(axis, nan))
+            if axis in state.measured and isfinite(state.nominal.get(axis, nan))
         }
         self._reactions = frame.velocities(deviations)
         return self._reactions

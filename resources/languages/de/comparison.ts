@@ -12,8 +12,12 @@
         <translation>Abgriff</translation>
     </message>
     <message>
-        <source>rms</source>
-        <translation>rms</translation>
+        <source>without offset</source>
+        <translation>ohne Versatz</translation>
+    </message>
+    <message>
+        <source>nominal</source>
+        <translation>nominal</translation>
     </message>
     <message>
         <source>noise floor</source>
@@ -56,8 +60,8 @@
         <translation>Maschine</translation>
     </message>
     <message>
-        <source>model</source>
-        <translation>Modell</translation>
+        <source>model in use</source>
+        <translation>Modell im Einsatz</translation>
     </message>
     <message>
         <source>real − model [{symbol}]</source>

@@ -64,6 +64,14 @@
         <translation>Eine Achse, einen möglichen Effekt und seinen Ansatz wählen</translation>
     </message>
     <message>
+        <source>Simulated machine</source>
+        <translation>Simulierte Maschine</translation>
+    </message>
+    <message>
+        <source>Let the simulator be as the robot file says, or worn, to demonstrate with</source>
+        <translation>Den Simulator so sein lassen, wie die Roboterdatei sagt, oder verschlissen, zur Vorführung</translation>
+    </message>
+    <message>
         <source>Let the signal meet this effect earlier within its stage</source>
         <translation>Diesen Effekt innerhalb seiner Stufe früher wirken lassen</translation>
     </message>
@@ -118,6 +126,14 @@
     <message>
         <source>Effects that cannot be loaded:</source>
         <translation>Effekte, die sich nicht laden lassen:</translation>
+    </message>
+    <message>
+        <source>As the robot file says</source>
+        <translation>Wie die Roboterdatei sagt</translation>
+    </message>
+    <message>
+        <source>Worn, to demonstrate with</source>
+        <translation>Verschlissen, zur Vorführung</translation>
     </message>
     <message>
         <source>{path}: the robot file has no effects; these stay</source>

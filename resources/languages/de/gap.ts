@@ -40,14 +40,6 @@
         <translation>{path}: nichts hier öffnet es; in einem Browser öffnen</translation>
     </message>
     <message>
-        <source>Let the running simulator be the corrected model, too?</source>
-        <translation>Soll auch der laufende Simulator das korrigierte Modell sein?</translation>
-    </message>
-    <message>
-        <source>The effects that it has now are replaced. Choose No if the simulator plays the part of the machine.</source>
-        <translation>Seine jetzigen Effekte werden ersetzt. Nein wählen, wenn der Simulator die Rolle der Maschine spielt.</translation>
-    </message>
-    <message>
         <source>1  Choose records of the real machine: files, or play a trajectory, whose record is taken.
 2  Diagnose: the program looks where the model departs from them, and why.
 3  Use the answer: add what was found to the model, check it on a new motion, keep the report.</source>
@@ -86,16 +78,16 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>Dem Modell fehlt das unten Genannte; damit folgt es der Maschine.</translation>
     </message>
     <message>
-        <source>Press “Add to twin …”, then “New motion …” to see the gap shrink.</source>
-        <translation>„Zwilling …“ drücken, dann „Neue Bewegung …“, um die Lücke schrumpfen zu sehen.</translation>
+        <source>Press “Use corrected model”; then “New motion …” shows how far the gap shrinks.</source>
+        <translation>Drücken Sie „Korrigiertes Modell verwenden“; dann zeigt „Neue Bewegung …“, wie weit die Abweichung schrumpft.</translation>
+    </message>
+    <message>
+        <source>Press “Use corrected model”: it follows the machine better. Look under Where what the rest depends on.</source>
+        <translation>Drücken Sie „Korrigiertes Modell verwenden“: Es folgt der Maschine besser. Sehen Sie unter Wo nach, wovon der Rest abhängt.</translation>
     </message>
     <message>
         <source>What is named below is there; something else, which no effect of the catalogue accounts for, is left beside it.</source>
         <translation>Was unten genannt ist, ist da; daneben bleibt etwas, das kein Effekt des Katalogs erklärt.</translation>
-    </message>
-    <message>
-        <source>Press “Add to twin …”: the model follows the machine better with it. Look under Where what the rest depends on.</source>
-        <translation>Mit „Zum Zwilling hinzufügen …“ folgt das Modell der Maschine besser. Unter „Wo“ steht, wovon der Rest abhängt.</translation>
     </message>
     <message>
         <source>The gap is real, but no effect of the catalogue accounts for it. Nothing is guessed.</source>
@@ -384,6 +376,26 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Anregung ungenügend.</translation>
     </message>
     <message>
+        <source>{times:.3g} × smaller</source>
+        <translation>{times:.3g} × kleiner</translation>
+    </message>
+    <message>
+        <source>{times:.3g} × larger</source>
+        <translation>{times:.3g} × größer</translation>
+    </message>
+    <message>
+        <source>It is off by a constant: the axis has a past that the records do not share. Swing it once through its range, and play the motion again.</source>
+        <translation>Es liegt um eine Konstante daneben: Die Achse hat eine Vorgeschichte, die die Aufzeichnungen nicht teilen. Fahren Sie einmal ihren ganzen Bereich ab und spielen Sie die Bewegung noch einmal.</translation>
+    </message>
+    <message>
+        <source>The motion goes where no record has been: choose this record too, and diagnose them together.</source>
+        <translation>Die Bewegung führt dorthin, wo keine Aufzeichnung war: Wählen Sie auch diese Aufzeichnung und diagnostizieren Sie alle zusammen.</translation>
+    </message>
+    <message>
+        <source>The motion does what no record did: choose this record too, and diagnose them together.</source>
+        <translation>Die Bewegung tut, was keine Aufzeichnung tat: Wählen Sie auch diese Aufzeichnung und diagnostizieren Sie alle zusammen.</translation>
+    </message>
+    <message>
         <source>Where</source>
         <translation>Wo</translation>
     </message>
@@ -428,12 +440,20 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Am Ende: das Gefundene nutzen</translation>
     </message>
     <message>
+        <source>commands foretell nothing of what was found</source>
+        <translation>Befehle sagen nichts von dem voraus, was gefunden wurde</translation>
+    </message>
+    <message>
         <source>there is no answer yet; diagnose records first</source>
         <translation>es gibt noch keine Antwort; zuerst Aufzeichnungen diagnostizieren</translation>
     </message>
     <message>
         <source>Diagnose</source>
         <translation>Diagnose</translation>
+    </message>
+    <message>
+        <source>Use corrected model</source>
+        <translation>Korrigiertes Modell verwenden</translation>
     </message>
     <message>
         <source>Add to twin …</source>
@@ -462,6 +482,14 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     <message>
         <source>Blind test …</source>
         <translation>Blindtest …</translation>
+    </message>
+    <message>
+        <source>Hidden machine …</source>
+        <translation>Verborgene Maschine …</translation>
+    </message>
+    <message>
+        <source>Reveal</source>
+        <translation>Aufdecken</translation>
     </message>
     <message>
         <source>What is shown</source>
@@ -536,6 +564,18 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Den Bericht schreiben, eine Seite mit allen Kennwerten, und öffnen</translation>
     </message>
     <message>
+        <source>the machine is still moving</source>
+        <translation>die Maschine bewegt sich noch</translation>
+    </message>
+    <message>
+        <source>Predictions only. What is sent to the machine does not change; Compensate does that.</source>
+        <translation>Nur Vorhersagen. Was an die Maschine geht, ändert sich nicht; das tut „Kompensieren“.</translation>
+    </message>
+    <message>
+        <source>Use anyway …</source>
+        <translation>Trotzdem verwenden …</translation>
+    </message>
+    <message>
         <source>{share:.0f} % done</source>
         <translation>{share:.0f} % fertig</translation>
     </message>
@@ -553,6 +593,7 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     </message>
     <message>
         <source>Play this motion on the machine now?</source>
+        <extracomment>Name of the motion whose dry run is waited for; who stops meanwhile wants it no more.</extracomment>
         <translation>Diese Bewegung jetzt auf der Maschine abspielen?</translation>
     </message>
     <message>
@@ -576,28 +617,24 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Achse, Abgriff</translation>
     </message>
     <message>
-        <source>as it was</source>
-        <translation>vorher</translation>
+        <source>nominal</source>
+        <translation>nominal</translation>
     </message>
     <message>
-        <source>with the twin</source>
-        <translation>mit Zwilling</translation>
+        <source>with what was found</source>
+        <translation>mit dem Gefundenen</translation>
     </message>
     <message>
-        <source>smaller</source>
-        <translation>kleiner</translation>
+        <source>change</source>
+        <translation>Änderung</translation>
     </message>
     <message>
-        <source>Rms of what was measured less what the model says, its mean taken out; intervals by drawing blocks of the record anew</source>
-        <translation>Effektivwert von Messung minus Modell, ohne Mittelwert; Intervalle durch neues Ziehen von Blöcken der Aufzeichnung</translation>
+        <source>Rms of what was measured less what the model says, its offset included, over what moves and 0.5 s after; intervals by drawing blocks of the record anew</source>
+        <translation>Effektivwert der Messung minus Modell, mit Versatz, über alles, was sich bewegt, und 0,5 s danach; Intervalle durch neues Ziehen von Blöcken der Aufzeichnung</translation>
     </message>
     <message>
         <source>How far the gap shrinks on the new motion</source>
         <translation>Wie weit die Lücke bei der neuen Bewegung schrumpft</translation>
-    </message>
-    <message>
-        <source>Gap on {record}, rms</source>
-        <translation>Lücke bei {record}, rms</translation>
     </message>
     <message>
         <source>{axis}: 1 candidate tried</source>
@@ -676,12 +713,16 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Modell</translation>
     </message>
     <message>
-        <source>The model whose gap is looked for; at first the one in use</source>
-        <translation>Das Modell, dessen Lücke gesucht wird; zuerst das verwendete</translation>
+        <source>The model whose gap is looked for; at first the nominal one</source>
+        <translation>Das Modell, dessen Abweichung gesucht wird; zunächst das nominale</translation>
     </message>
     <message>
-        <source>{robot} (in use)</source>
-        <translation>{robot} (aktiv)</translation>
+        <source>{robot}, nominal</source>
+        <translation>{robot}, nominal</translation>
+    </message>
+    <message>
+        <source>What remains beyond the model in use</source>
+        <translation>Was über das Modell im Einsatz hinaus bleibt</translation>
     </message>
     <message>
         <source>Robot file …</source>
@@ -1366,6 +1407,74 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     <message>
         <source>the process of the diagnosis has ended (status {status}) before it answered; is there memory enough? Diagnose again, with fewer or shorter records</source>
         <translation>der Prozess der Diagnose endete (Status {status}), bevor er antwortete; reicht der Speicher? Noch einmal diagnostizieren, mit weniger oder kürzeren Aufzeichnungen</translation>
+    </message>
+    <message>
+        <source>Worse on {motion}: {axes}.   </source>
+        <translation>Schlechter bei {motion}: {axes}.   </translation>
+    </message>
+    <message>
+        <source>Make predictions with this model all the same?</source>
+        <translation>Trotzdem mit diesem Modell vorhersagen?</translation>
+    </message>
+    <message>
+        <source>Predictions only. What is sent to the machine does not change, and no bound of it becomes wider.</source>
+        <translation>Nur Vorhersagen. Was an die Maschine geht, ändert sich nicht, und keine ihrer Grenzen wird weiter.</translation>
+    </message>
+    <message>
+        <source>Use anyway</source>
+        <translation>Trotzdem verwenden</translation>
+    </message>
+    <message>
+        <source>data that no fit saw</source>
+        <translation>Daten, die keine Anpassung gesehen hat</translation>
+    </message>
+    <message>
+        <source>On {motion}, the corrected model is worse than the nominal one: {axes}.</source>
+        <translation>Bei {motion} ist das korrigierte Modell schlechter als das nominale: {axes}.</translation>
+    </message>
+    <message>
+        <source>While {record} was played: {noted}.</source>
+        <translation>Während {record} gespielt wurde: {noted}.</translation>
+    </message>
+    <message>
+        <source>It has learned {causes}: something may have been leant on. A penetration leaves that out, and looks for a contact by the nominal model as well.</source>
+        <translation>Es hat {causes} gelernt: Vielleicht lag etwas an. Eine Penetration lässt das weg und sucht den Kontakt auch mit dem Nominalmodell.</translation>
+    </message>
+    <message>
+        <source>Drawing a machine …</source>
+        <translation>Eine Maschine wird ausgelost …</translation>
+    </message>
+    <message>
+        <source>A hidden machine is connected: play, diagnose, then choose More → Reveal. It has one or two effects, or none.</source>
+        <translation>Eine verborgene Maschine ist verbunden: spielen, diagnostizieren, dann Mehr → Aufdecken wählen. Sie hat einen oder zwei Effekte, oder keinen.</translation>
+    </message>
+    <message>
+        <source>Hidden machine</source>
+        <translation>Verborgene Maschine</translation>
+    </message>
+    <message>
+        <source>Right: all that is there was named, and nothing else.</source>
+        <translation>Richtig: Alles, was da ist, wurde genannt, und sonst nichts.</translation>
+    </message>
+    <message>
+        <source>Not right.</source>
+        <translation>Nicht richtig.</translation>
+    </message>
+    <message>
+        <source>It has: {causes}</source>
+        <translation>Sie hat: {causes}</translation>
+    </message>
+    <message>
+        <source>The diagnosis names: {causes}</source>
+        <translation>Die Diagnose nennt: {causes}</translation>
+    </message>
+    <message>
+        <source>Score: {right} of {played}</source>
+        <translation>Stand: {right} von {played}</translation>
+    </message>
+    <message>
+        <source>nothing</source>
+        <translation>nichts</translation>
     </message>
 </context>
 <context>

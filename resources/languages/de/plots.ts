@@ -11,10 +11,6 @@
 <context>
     <name>plots</name>
     <message>
-        <source>gap rms {value:.3g} {unit}</source>
-        <translation>Lücke rms {value:.3g} {unit}</translation>
-    </message>
-    <message>
         <source>frequency [Hz]</source>
         <translation>Frequenz [Hz]</translation>
     </message>
@@ -43,8 +39,8 @@
         <translation>Sollwert</translation>
     </message>
     <message>
-        <source>model</source>
-        <translation>Modell</translation>
+        <source>model in use</source>
+        <translation>Modell im Einsatz</translation>
     </message>
     <message>
         <source>measured</source>
@@ -165,6 +161,10 @@
     <message>
         <source>There is no run in hand: open or play one.</source>
         <translation>Es gibt keinen letzten Lauf: einen öffnen oder abspielen.</translation>
+    </message>
+    <message>
+        <source>nominal (dotted)</source>
+        <translation>nominal (gepunktet)</translation>
     </message>
     <message>
         <source>plots: no samples are shown, so there is no run to keep</source>

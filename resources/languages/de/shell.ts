@@ -1052,6 +1052,10 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Zeit der Wiedergabe</translation>
     </message>
     <message>
+        <source>Carrying the past on …</source>
+        <translation>Die Vorgeschichte wird übernommen …</translation>
+    </message>
+    <message>
         <source>There is no trajectory to play: load one first.</source>
         <translation>Es gibt keine Trajektorie zum Abspielen: erst eine laden.</translation>
     </message>
@@ -1090,6 +1094,10 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     <message>
         <source>Keeping {name} …</source>
         <translation>{name} wird aufbewahrt …</translation>
+    </message>
+    <message>
+        <source>The nominal model is in use again: {why}.</source>
+        <translation>Das Nominalmodell ist wieder im Einsatz: {why}.</translation>
     </message>
     <message>
         <source>{name}: stopped before its first row was played.</source>
@@ -1138,6 +1146,50 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     <message>
         <source>The preferences begin anew, and none is kept: {fault}. Move that file away.</source>
         <translation>Die Einstellungen beginnen neu, und keine wird behalten: {fault}. Verschieben Sie diese Datei.</translation>
+    </message>
+    <message>
+        <source>Gap, last 10 s</source>
+        <translation>Abweichung, letzte 10 s</translation>
+    </message>
+    <message>
+        <source>Gap, this run</source>
+        <translation>Abweichung, dieser Lauf</translation>
+    </message>
+    <message>
+        <source>nothing moved</source>
+        <translation>nichts hat sich bewegt</translation>
+    </message>
+    <message>
+        <source>without offset {without} · nominal {nominal}</source>
+        <translation>ohne Versatz {without} · nominal {nominal}</translation>
+    </message>
+    <message>
+        <source>Model in use</source>
+        <translation>Modell im Einsatz</translation>
+    </message>
+    <message>
+        <source>Back to nominal</source>
+        <translation>Zurück zum Nominalmodell</translation>
+    </message>
+    <message>
+        <source>The model that plots, comparison, dry run and 3-D view use.</source>
+        <translation>Das Modell, das Kurven, Vergleich, Probelauf und 3-D-Ansicht verwenden.</translation>
+    </message>
+    <message>
+        <source>Predictions only: what is sent to the machine does not change; Compensate does that.</source>
+        <translation>Nur Vorhersagen: Was an die Maschine geht, ändert sich nicht; das tut „Kompensieren“.</translation>
+    </message>
+    <message>
+        <source>≈ What {axes} did before is not known: until it has swung through its range, the model may be off by the band in the plots.</source>
+        <translation>≈ Was {axes} zuvor getan hat, ist nicht bekannt: Bis der ganze Bereich einmal durchfahren ist, kann das Modell um das Band in den Kurven danebenliegen.</translation>
+    </message>
+    <message>
+        <source>Nominal model</source>
+        <translation>Nominalmodell</translation>
+    </message>
+    <message>
+        <source>Corrected: {effects}</source>
+        <translation>Korrigiert: {effects}</translation>
     </message>
 </context>
 </TS>

@@ -146,6 +146,7 @@ def test_a_playback_gives_its_record(stepped):
         "trajectory_rows": "501",
         "trajectory_duration_s": "0.5",
         "trajectory_digest": check(stepped.session.robot, trajectory, 1e-3).digest,
+        "model": stepped.session.model.id,
     }
     assert stepped.session.snapshot().progress == 1.0
 
@@ -205,7 +206,8 @@ def test_stop_on_the_way_to_the_first_row_gives_no_record(stepped):
     stepped.step(0.01, 3)
     stepped.session.stop()
     stepped.until_idle()
-    assert stepped.told(PlaybackFinished) == [PlaybackFinished(None, completed=False)]
+    (finished,) = stepped.told(PlaybackFinished)
+    assert (finished.record, finished.completed, finished.answers) == (None, False, None)
 
 
 def test_stop_drops_what_is_queued_and_is_measured(stepped):

@@ -275,7 +275,8 @@ def test_quitting_during_a_playback_stops_first_and_then_asks(qtbot, window, tmp
 
 def test_a_record_whose_comparison_fails_is_kept_all_the_same(qtbot, window, tmp_path, monkeypatch):
     monkeypatch.setattr(
-        "rotemina.app.shell.workbench.compare", lambda *_: (_ for _ in ()).throw(InputError("no"))
+        "rotemina.app.shell.workbench.compared",
+        lambda *_, **__: (_ for _ in ()).throw(InputError("no")),
     )
     load(qtbot, window, short_trajectory(tmp_path / "move.csv"))
     window.workbench.play()

@@ -48,6 +48,15 @@ def button(title, text):
     return None
 
 
+def item(menu, text):
+    """Return where an item of an open menu is on the screen, or None."""
+    for action in menu.actions():
+        if menu.isVisible() and action.text() == text:
+            at = menu.mapToGlobal(menu.actionGeometry(action).center())
+            return at.x(), at.y()
+    return None
+
+
 def show_event(window, event):
     """Begin to answer when the window is first shown."""
     _shown(window, event)

@@ -448,7 +448,7 @@ def test_what_is_played_after_an_answer_shows_how_far_its_gap_has_shrunk(window,
     first = answered.proof.table.texts()[0]
     assert first[0].startswith("θx")
     assert answered.proof.proof.shrunk[0].times > 5.0
-    assert first[3].endswith("×")
+    assert first[3].endswith("× smaller")
     assert answered.tabs.currentIndex() == WHERE  # it was not asked for here
 
 
@@ -500,24 +500,16 @@ def test_a_place_that_cannot_be_written_becomes_a_notice(qtbot, window, answered
     qtbot.waitUntil(lambda: "it is a folder" in newest(window), timeout=LONG_MS)
 
 
-def test_the_twin_is_a_robot_file_that_the_simulator_takes_if_it_is_asked_to(
+def test_the_twin_is_a_robot_file_and_the_simulated_machine_stays_what_it_is(
     qtbot, window, answered, diagnosis, tmp_path
 ):
-    session = window.workbench.session
-    for button, wanted in (
-        (QMessageBox.StandardButton.No, ()),
-        (QMessageBox.StandardButton.Yes, diagnosis.fitted),
-    ):
-        answered.actions_of.save_twin(answered.answer, None, tmp_path / "twin.toml")
-        qtbot.waitUntil(lambda: question(window) is not None, timeout=LONG_MS)
-        box = question(window)
-        assert not box.isModal()
-        click(qtbot, box.button(button))
-        qtbot.waitUntil(lambda: question(window) is None, timeout=LONG_MS)
-        qtbot.waitUntil(lambda wanted=wanted: session.effects == wanted, timeout=LONG_MS)
+    answered.actions_of.save_twin(answered.answer, None, tmp_path / "twin.toml")
+    saved(qtbot, window, tmp_path / "twin.toml")
     twin = load_robot(tmp_path / "twin.toml")
     assert twin.effects == diagnosis.fitted
     qtbot.waitUntil(lambda: answered.robots.robot == twin, timeout=LONG_MS)  # the model from now on
+    assert question(window) is None
+    assert window.workbench.session.effects == ()
 
 
 def test_the_twin_of_a_robot_file_keeps_its_comments(
@@ -531,15 +523,3 @@ def test_the_twin_of_a_robot_file_keeps_its_comments(
     chosen.actions_of.save_twin(chosen.answer, chosen._source, tmp_path / "twin.toml")
     saved(qtbot, window, tmp_path / "twin.toml")
     assert (tmp_path / "twin.toml").read_text("utf-8").startswith("# our machine\n")
-
-
-def test_a_twin_of_another_robot_is_not_offered_to_this_simulator(
-    qtbot, window, answered, tmp_path
-):
-    other = {name: axis for name, axis in window.workbench.robot.axes.items() if name != "y"}
-    robot = replace(window.workbench.robot, axes=other, couplings=(), stages={})
-    diagnosis = replace(answered.answer.diagnosis, robot=robot)
-    answered.answer = replace(answered.answer, diagnosis=diagnosis)
-    answered.actions_of.save_twin(answered.answer, None, tmp_path / "twin.toml")
-    saved(qtbot, window, tmp_path / "twin.toml")
-    assert question(window) is None

@@ -5,11 +5,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rotemina.app.motion.command_memory import CommandMemory
+from rotemina.app.motion.model_in_use import ModelInUse
+from rotemina.app.motion.run import Run
 from rotemina.plugins.gap.advice import advice, readiness
 from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.cell import parts
 from rotemina.plugins.gap.playing import told
 from rotemina.plugins.gap.proof import new_motion, prove
+from rotemina.sim.comparison.comparison import compare
 from rotemina.sim.gap.diagnosis import Verdict
 from rotemina.sim.gap.regimes import Regime
 from rotemina.sim.records.record import Record, Tap
@@ -44,7 +48,12 @@ def test_the_parts_behind_a_row_of_the_map_add_up_to_the_gap_meanwhile(answer):
 
 
 def test_a_proof_tells_how_far_the_gap_of_each_diagnosed_axis_shrinks(diagnosis, record):
-    proof = prove(diagnosis, "tuesday", record)
+    model = ModelInUse.found_by(diagnosis)
+
+    def proof_of(one):
+        return prove(diagnosis, model, Run("tuesday", compare(ROBOT, one)), CommandMemory())
+
+    proof = proof_of(record)
     first = proof.shrunk[0]
     assert first.trace.axis == "thx"
     assert first.times == pytest.approx(first.before / first.after)
@@ -57,7 +66,7 @@ def test_a_proof_tells_how_far_the_gap_of_each_diagnosed_axis_shrinks(diagnosis,
         {("thy", tap): record.signal("thy", tap) for tap in (Tap.CMD, Tap.MEAS)},
         {"thy": "rad"},
     )
-    assert {one.trace.axis for one in prove(diagnosis, "wednesday", only_thy).shrunk} == {"thy"}
+    assert {one.trace.axis for one in proof_of(only_thy).shrunk} == {"thy"}
 
 
 def test_the_new_motion_is_of_the_kind_on_which_the_two_models_differ_most(diagnosis, record):

@@ -77,7 +77,7 @@ def test_every_view_is_drawn_with_cursors_and_another_run_beside(qtbot, window, 
     assert panel.plots["x"].figures.text().startswith("Δx ")
     assert neighbour.cursors[0][1] != 0.0  # every loop has its own
     panel.cursors.setChecked(False)
-    assert panel.plots["x"].figures.text().startswith("gap rms")
+    assert panel.plots["x"].figures.text().startswith("Gap, last 10 s")
     saved(qtbot, panel, tmp_path)
 
 

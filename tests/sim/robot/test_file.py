@@ -76,7 +76,7 @@ def test_the_shipped_robot_is_the_machine_of_the_paper():
 
 
 def test_every_shipped_robot_loads():
-    assert shipped_robots() == ("emps", "fsm", "picma", "rotemina", "xyz")
+    assert shipped_robots() == ("emps", "fsm", "picma", "rotemina", "rotemina_worn", "xyz")
     for name in shipped_robots():
         assert load_robot(name).axes
     assert isinstance(load_robot("emps").axes["q"], ForceAxis)

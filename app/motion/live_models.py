@@ -1,0 +1,117 @@
+"""The models that run beside a device: the nominal one, always, and the one in use."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from rotemina.app.motion.carried_model import CarriedModel
+from rotemina.app.motion.command_memory import CommandMemory
+from rotemina.app.motion.live_model import LiveModel
+from rotemina.app.motion.model_in_use import ModelInUse
+from rotemina.drivers.driver import Driver
+from rotemina.drivers.samples import Samples
+from rotemina.sim.arrays import FloatArray
+
+
+class Answers(NamedTuple):
+    """What models say of samples, each (n, axes), m or rad; NaN where one has no finite answer.
+
+    Attributes
+    ----------
+    in_use
+        The model in use: what is shown.
+    nominal
+        As the robot file describes the machine.
+    cautious
+        The model in use without what may have been a contact.
+    doubt
+        By how much ``in_use`` may be off, as the machine's past is unknown.
+    """
+
+    in_use: FloatArray
+    nominal: FloatArray
+    cautious: FloatArray
+    doubt: FloatArray
+
+    @classmethod
+    def of_nominal(cls, nominal: FloatArray) -> "Answers":
+        """Return the answers where the nominal model is in use."""
+        return cls(nominal, nominal, nominal, np.zeros(nominal.shape))
+
+
+class PreparedModel(NamedTuple):
+    """A model with its runs, which have followed what the machine was commanded before."""
+
+    model: ModelInUse
+    runs: tuple[CarriedModel, ...]  # the model's own, and the cautious one where it is another
+
+    @classmethod
+    def of(cls, model: ModelInUse, memory: CommandMemory) -> "PreparedModel":
+        """Prepare a model; on any thread, and it may take a second.
+
+        Raises
+        ------
+        EffectError
+            If an effect cannot be used.
+        """
+        if not model.corrected:
+            return cls(model, ())
+        robots = [model.robot]
+        if model.contact_like:
+            robots.append(model.without_contact)
+        made = cls(model, tuple(CarriedModel(robot, model.offsets) for robot in robots))
+        made.catch_up(memory)
+        return made
+
+    def catch_up(self, memory: CommandMemory) -> None:
+        """Follow what was commanded since."""
+        time_s, command = memory.told()
+        for run in self.runs:
+            later = time_s > run.time_s
+            if later.any():
+                run.answer(time_s[later], command[later])
+
+
+class LiveModels:
+    """Owned by the session's worker; ``model`` is replaced as a whole, for any thread."""
+
+    def __init__(self, driver: Driver) -> None:
+        self.model = ModelInUse.nominal_of(driver)
+        self.memory = CommandMemory()
+        self._nominal = LiveModel(driver.robot)
+        self._runs: tuple[CarriedModel, ...] = ()
+
+    @property
+    def unsettled(self) -> tuple[str, ...]:
+        """The axes of whose past the model in use knows too little."""
+        return self._runs[0].unsettled if self._runs else ()
+
+    def prepare(self) -> None:
+        """Compute once, which loads what is compiled: no device is to wait for that."""
+        self._nominal.prepare()
+
+    def begin_anew(self) -> None:
+        """Forget the past: a new connection has a time of its own."""
+        self.memory.clear()
+        self.restart()
+
+    def restart(self) -> None:
+        """Rest again at the next command, with a past that is unknown."""
+        self._nominal.restart()
+        for run in self._runs:
+            run.restart()
+
+    def use(self, prepared: PreparedModel) -> None:
+        """Answer by another model from the next sample on."""
+        prepared.catch_up(self.memory)
+        self.model, self._runs = prepared.model, prepared.runs
+
+    def follow(self, samples: Samples) -> Answers:
+        """Return what the models say of the next samples."""
+        self.memory.add(samples)
+        nominal = self._nominal.follow(samples)
+        if not self._runs:
+            return Answers.of_nominal(nominal)
+        told = [run.answer(samples.device_time_s, samples.command) for run in self._runs]
+        in_use, doubt = told[0]
+        return Answers(in_use, nominal, told[-1][0], doubt)

@@ -1,0 +1,91 @@
+"""The chip in the header that says which model predictions are made with."""
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QFont, QFontMetrics
+from PySide6.QtWidgets import QMenu, QToolButton
+
+from rotemina.app.display import label
+from rotemina.app.motion.model_in_use import ModelInUse
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.language import translate
+from rotemina.app.shell.workbench import Workbench
+from rotemina.sim.gap.report.words import effect_title
+
+_MOST_EFFECTS = 2  # that are named
+_ROOM = 44  # of margins and the arrow of a menu
+
+
+class ModelChip(QToolButton):
+    """Grey: the nominal model; blue: a corrected one, with the way back in its menu."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__()
+        self.setObjectName("model")
+        self.setAccessibleName(translate("shell", "Model in use"))
+        self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextOnly)
+        self._workbench = workbench
+        self._told: tuple[str, tuple[str, ...]] | None = None
+        menu = QMenu(self)
+        self.back = menu.addAction(
+            translate("shell", "Back to nominal"), workbench.use_nominal_model
+        )
+        self.setMenu(menu)
+        self.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self._show(workbench.session.model, ())
+
+    def refresh(self, state: SessionState) -> None:
+        """Show which model is in use, and of which axes it does not know the past."""
+        model = self._workbench.session.model
+        if (model.id, state.unsettled) != self._told:
+            self._show(model, state.unsettled)
+        resting = self._workbench.session.at_rest
+        if self.back.isEnabled() is not (model.corrected and resting):
+            self.back.setEnabled(model.corrected and resting)
+
+    def _show(self, model: ModelInUse, unsettled: tuple[str, ...]) -> None:
+        self._told = model.id, unsettled
+        self.setText(model_name(model) + (" ≈" if unsettled else ""))
+        self.setProperty("corrected", model.corrected)
+        self.style().unpolish(self)
+        self.style().polish(self)
+        self.setFixedWidth(self._width_of(self.text()))
+        lines = [
+            translate("shell", "The model that plots, comparison, dry run and 3-D view use."),
+            translate(
+                "shell",
+                "Predictions only: what is sent to the machine does not change; Compensate does "
+                "that.",
+            ),
+        ]
+        lines += [f"{label(one.axis)}: {_title(one.id)}" for one in model.effects]
+        if unsettled:
+            lines.append(
+                translate(
+                    "shell",
+                    "≈ What {axes} did before is not known: until it has swung through its range, "
+                    "the model may be off by the band in the plots.",
+                ).format(axes=", ".join(map(label, unsettled)))
+            )
+        self.setToolTip(plain_tip(*lines, model.id))
+
+    def _width_of(self, text: str) -> int:
+        font = QFont(self.font())
+        font.setBold(True)
+        return QFontMetrics(font).horizontalAdvance(text) + _ROOM
+
+
+def model_name(model: ModelInUse) -> str:
+    """Return what a model is called: nominal, or corrected and by what."""
+    if not model.corrected:
+        return translate("shell", "Nominal model")
+    names = list(dict.fromkeys(_title(one.id) for one in model.effects))
+    listed = ", ".join(names[:_MOST_EFFECTS])
+    if len(names) > _MOST_EFFECTS:
+        listed += f" +{len(names) - _MOST_EFFECTS}"
+    return translate("shell", "Corrected: {effects}").format(effects=listed)
+
+
+def _title(effect: str) -> str:
+    return translate("effects", effect_title(effect))

@@ -1,0 +1,221 @@
+"""The loop closes in the window: a corrected model is used everywhere at once, and told alike."""
+
+import json
+import logging
+import re
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QMessageBox
+
+from rotemina.app.motion.model_in_use import NOTED
+from rotemina.app.shell.gap_words import run_gap, run_lines
+from rotemina.plugins.gap.actions import write_report
+from rotemina.plugins.gap.answer import Answer
+from rotemina.sim.gap.diagnosis import AxisDiagnosis, Diagnosis, Shrinkage, Verdict
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.robot.model import AxisEffect
+
+PANELS = ("gap",)
+LONG_MS = 30_000
+ROBOT = load_robot("rotemina")
+LOOP = AxisEffect(axis="zn", id="hysteresis", parameters={"width": 6e-6})
+WRONG = AxisEffect(axis="zn", id="hysteresis", parameters={"width": 3e-5})
+CONTACT = AxisEffect(axis="zn", id="contact", parameters={"place": 6.0e-5, "stiffness": 1.0})
+
+
+def swing(share=0.48, seconds=1.5):
+    time_s = np.arange(0.0, seconds, 2e-3)
+    low, high = ROBOT.axes["zn"].range
+    wave = share * (high - low) * np.sin(2.0 * np.pi * time_s / seconds)
+    commands = {("zn", Tap.CMD): (low + high) / 2.0 + wave}
+    return Record.from_signals(time_s, commands, {"zn": "m"})
+
+
+def answer_of(run, *fitted, corrected=1e-7):
+    shrinkage = Shrinkage("zn", Tap.MEAS, 2e-6, 2e-6, corrected, 1e-8, None, 0.99, None, ())
+    axis = AxisDiagnosis("zn", Verdict.EXPLAINED, (), shrinkage=(shrinkage,), fitted=fitted)
+    return Answer.of(Diagnosis(ROBOT, {"zn": axis}), [run.name], [run.record])
+
+
+def click(qtbot, button):
+    qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+
+
+def question(window):
+    boxes = [box for box in window.findChildren(QMessageBox) if box.isVisible()]
+    return boxes[0] if boxes else None
+
+
+@pytest.fixture
+def bench(qtbot, window):
+    bench = window.workbench
+    qtbot.waitUntil(lambda: bench.session.snapshot().locked is None, timeout=LONG_MS)
+    bench.session.set_effects([LOOP])
+    return bench
+
+
+@pytest.fixture
+def play(qtbot, window, bench):
+    def play(name="swing", trajectory=None):
+        with qtbot.waitSignal(bench.plan_changed, timeout=LONG_MS):
+            bench.plan_trajectory(name, swing() if trajectory is None else trajectory)
+        assert bench.plan.dry_run.allowed
+        with qtbot.waitSignal(bench.run_changed, timeout=LONG_MS):
+            bench.play()
+        qtbot.waitUntil(lambda: bench.session.at_rest, timeout=LONG_MS)
+        return bench.run
+
+    return play
+
+
+@pytest.fixture
+def panel(qtbot, window):
+    return window.panels["gap"]
+
+
+def use(qtbot, bench, panel, answer):
+    panel.take_answer(answer)
+    qtbot.waitUntil(panel.use.isEnabled, timeout=LONG_MS)
+    with qtbot.waitSignals([bench.model_changed, bench.run_changed], timeout=LONG_MS):
+        panel.use.click()
+
+
+def test_what_a_diagnosis_found_is_used_everywhere_at_once(qtbot, window, bench, panel, play):
+    before = play().gaps["zn", Tap.MEAS]
+    assert before.rms == before.nominal > 1e-6
+    planned = bench.plan.dry_run.axes["zn"].tracking_rms
+    window.bring_up("gap")
+    use(qtbot, bench, panel, answer_of(bench.run, LOOP))
+    chip = window._bar.model
+    qtbot.waitUntil(lambda: chip.text().startswith("Corrected: Hysteresis"), timeout=LONG_MS)
+    assert bench.run.gaps["zn", Tap.MEAS].rms < 0.1 * before.rms  # the run in hand, again
+    assert bench.run.gaps["zn", Tap.MEAS].nominal == pytest.approx(before.rms)
+    assert panel.isVisible()  # no other panel has come up before it
+    qtbot.waitUntil(lambda: bench.plan.model_id == bench.session.model.id, timeout=LONG_MS)
+    assert bench.plan.dry_run.axes["zn"].tracking_rms > 5.0 * planned
+    run = play("again", swing(0.45))
+    after = run.gaps["zn", Tap.MEAS]
+    assert after.rms < 0.1 * after.nominal
+    assert run.model_id == run.record.metadata["model"] == bench.session.model.id
+    state = bench.session.snapshot()
+    assert abs(state.measured["zn"] - state.model["zn"]) < 1e-7  # what the ghost in 3-D shows
+
+
+def test_the_gap_is_the_same_string_in_all_four_places(qtbot, window, bench, panel, play, tmp_path):
+    play()
+    window.bring_up("gap")
+    use(qtbot, bench, panel, answer_of(bench.run, LOOP))
+    run = play("again", swing(0.45))
+    told = run_gap(run.gaps["zn", Tap.MEAS], "m")
+    assert re.fullmatch(r"Gap, this run \d+(\.\d+)? (nm|µm)", told)
+    size = told.removeprefix("Gap, this run ")
+    plots = window.panels["plots"]
+    window.bring_up("plots")
+    plots.refresh()
+    assert plots.plots["zn"].figures.text().endswith(told)
+    assert plots.plots["zn"].figures.text().startswith("Gap, last 10 s ")
+    comparison = window.panels["comparison"].table
+    heads = [comparison.horizontalHeaderItem(n).text() for n in range(comparison.columnCount())]
+    row = next(n for n in range(comparison.rowCount()) if "meas" in comparison.item(n, 0).text())
+    assert comparison.item(row, heads.index("Gap, this run")).text() == size
+    qtbot.waitUntil(lambda: panel.proof.proof and panel.proof.proof.name == "again")
+    assert panel.proof.title.text() == "again: Gap, this run"
+    assert panel.proof.table.texts()[0][2] == size
+    write_report(panel.answer.diagnosis, panel.answer.records, tmp_path / "page.html", ["a"], run)
+    assert told in (tmp_path / "page.html").read_text("utf-8")
+    assert any(told in line for line in run_lines(run))
+    figure = run.gaps["zn", Tap.MEAS]
+    assert figure.without_offset < figure.rms < figure.nominal  # in small print beside it
+
+
+def test_back_to_nominal_from_the_header(qtbot, window, bench, panel, play):
+    before = play().gaps["zn", Tap.MEAS].rms
+    use(qtbot, bench, panel, answer_of(bench.run, LOOP))
+    chip = window._bar.model
+    qtbot.waitUntil(chip.back.isEnabled, timeout=LONG_MS)
+    assert chip.property("corrected") is True
+    with qtbot.waitSignals([bench.model_changed, bench.run_changed], timeout=LONG_MS):
+        chip.back.trigger()
+    qtbot.waitUntil(lambda: chip.text() == "Nominal model", timeout=LONG_MS)
+    assert bench.run.gaps["zn", Tap.MEAS].rms == pytest.approx(before)
+
+
+def test_worse_on_a_motion_is_said_in_the_headline_and_asked_about(
+    qtbot, window, bench, panel, play
+):
+    play()
+    window.bring_up("gap")
+    panel.take_answer(answer_of(bench.run, WRONG))
+    assert panel.use.text() == "Use corrected model"
+    play("elsewhere", swing(0.3))
+    qtbot.waitUntil(lambda: panel.proof.proof is not None, timeout=LONG_MS)
+    assert panel.headline.property("tone") == "worse"
+    assert panel.verdict.text().startswith("Worse on elsewhere: Z nano ")
+    assert "× larger" in panel.verdict.text()
+    assert "× larger" in panel.proof.table.texts()[0][3]
+    assert "diagnose them together" in panel.headline.remainder.text() or (
+        "play the motion again" in panel.headline.remainder.text()
+    )
+    qtbot.waitUntil(panel.use.isEnabled, timeout=LONG_MS)
+    assert panel.use.text() == "Use anyway …"
+    click(qtbot, panel.use)
+    box = question(window)
+    assert "worse than the nominal one: Z nano" in box.informativeText()
+    assert not box.isModal()
+    box.button(QMessageBox.StandardButton.No).click()
+    qtbot.waitUntil(lambda: question(window) is None, timeout=LONG_MS)
+    assert not bench.session.model.corrected
+
+
+def test_what_was_learned_beside_a_fault_or_a_contact_is_confirmed_by_name(
+    qtbot, window, bench, panel, play
+):
+    run = play()
+    answer = answer_of(run, LOOP, CONTACT)
+    noted = Record(
+        run.record.time_s,
+        run.record.columns,
+        run.record.values,
+        run.record.units,
+        {**run.record.metadata, NOTED: "the tip was in contact"},
+    )
+    panel.take_answer(Answer(answer.diagnosis, ("day one",), (noted,), answer.traces, {}))
+    qtbot.waitUntil(panel.use.isEnabled, timeout=LONG_MS)
+    panel.use.click()
+    told = question(window).informativeText()
+    assert "While day one was played: the tip was in contact." in told
+    assert "It has learned contact" in told
+    with qtbot.waitSignal(bench.model_changed, timeout=LONG_MS):
+        question(window).button(QMessageBox.StandardButton.Yes).click()
+    model = bench.session.model
+    assert model.noted
+    assert CONTACT not in model.without_contact.effects
+
+
+def test_the_log_says_which_model_is_in_use(qtbot, bench, panel, play, caplog):
+    caplog.set_level(logging.INFO)
+    play()
+    use(qtbot, bench, panel, answer_of(bench.run, LOOP))
+    assert f"model in use: {bench.session.model.id}" in caplog.text
+
+
+def test_what_remains_beyond_the_model_in_use_is_a_choice_of_its_own(qtbot, bench, panel, play):
+    play()
+    robots = panel.robots
+    names = [robots.itemText(n) for n in range(robots.count())]
+    assert names[:2] == ["RoTeMiNa, nominal", "What remains beyond the model in use"]
+    use(qtbot, bench, panel, answer_of(bench.run, LOOP))
+    assert robots.robot == bench.robot  # a diagnosis compares with the nominal model
+    robots.activated.emit(1)
+    assert robots.robot.effects == (LOOP,)
+    gain = AxisEffect(axis="zn", id="gain_error", parameters={"error": 1e-3})
+    answer = answer_of(bench.run, gain)
+    beyond = Diagnosis(robots.robot, answer.diagnosis.axes)
+    use(qtbot, bench, panel, Answer.of(beyond, ["swing"], [bench.run.record]))
+    assert bench.session.model.effects == (LOOP, gain)
+    bench.use_nominal_model()
+    qtbot.waitUntil(lambda: robots.robot == bench.robot, timeout=LONG_MS)
+    assert json.dumps(bench.session.snapshot().model_id).startswith('"nominal-')

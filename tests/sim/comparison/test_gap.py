@@ -1,0 +1,59 @@
+"""The one figure of the gap: over which samples, with the offset, and how it is written."""
+
+import numpy as np
+import pytest
+
+from rotemina.sim.comparison.gap import gap_figure, gap_text, moving
+
+TIME_S = np.arange(4001) * 1e-3  # rests for 1 s, moves for 1 s, rests for 2 s
+COMMAND = np.clip(TIME_S - 1.0, 0.0, 1.0)[:, None] * np.array([[2e-5, 0.0]])
+
+
+def test_what_moves_counts_and_half_a_second_after_it():
+    counted = moving(TIME_S, COMMAND)
+    assert (TIME_S[counted][0], TIME_S[counted][-1]) == pytest.approx((1.0, 2.5))
+    assert counted.sum() == 1501
+
+
+def test_a_machine_at_rest_has_no_gap():
+    still = np.zeros_like(COMMAND)
+    assert not moving(TIME_S, still).any()
+    assert gap_figure(moving(TIME_S, still), still[:, 0], still[:, 0]) is None
+    assert not len(moving(np.empty(0), np.empty((0, 2))))
+
+
+def test_the_offset_is_part_of_the_gap_and_stands_beside_it():
+    counted = moving(TIME_S, COMMAND)
+    wave = 3e-7 * np.sqrt(2.0) * np.sin(2.0 * np.pi * 4.0 * TIME_S)
+    model = COMMAND[:, 1]
+    resting = np.where(counted, 0.0, 1.0)  # what is not counted may be anything
+    figure = gap_figure(counted, model + 4e-7 + wave + resting, model, model - 1e-6)
+    assert figure.rms == pytest.approx(5e-7, rel=1e-3)
+    assert figure.without_offset == pytest.approx(3e-7, rel=1e-3)
+    assert figure.nominal == pytest.approx(np.hypot(1.4e-6, 3e-7), rel=1e-3)
+
+
+def test_what_is_no_number_is_left_out():
+    model = COMMAND[:, 0].copy()
+    model[1500:] = np.nan
+    figure = gap_figure(moving(TIME_S, COMMAND), COMMAND[:, 0] + 1e-7, model)
+    assert figure.rms == pytest.approx(1e-7)
+    model[:] = np.nan
+    assert gap_figure(moving(TIME_S, COMMAND), COMMAND[:, 0], model) is None
+
+
+@pytest.mark.parametrize(
+    ("size", "unit", "text"),
+    [
+        (5.531e-6, "m", "5.53 µm"),
+        (9.996e-8, "m", "100 nm"),
+        (2.02e-8, "m", "20.2 nm"),
+        (3.1e-4, "rad", "310 µrad"),
+        (0.0, "m", "0 nm"),
+        (3.47e-18, "m", "0 nm"),
+        (None, "m", "–"),
+        (float("nan"), "m", "–"),
+    ],
+)
+def test_every_place_writes_it_alike(size, unit, text):
+    assert gap_text(size, unit) == text
