@@ -283,7 +283,7 @@ class Workbench(Requests):
     def plan_again(self, plan: Plan) -> None:
         """Try the trajectory in hand once more, on another model or device."""
         self.work(
-            "plan",
+            "plan again",
             translate("shell", "Dry run …"),
             lambda: self._tried(plan.name, plan.trajectory),
             self._renew_plan,
@@ -436,8 +436,15 @@ class Workbench(Requests):
 
     def _renew_plan(self, plan: Plan) -> None:
         """Take the same trajectory in hand with another dry run; what is paused stays so."""
+        if self.plan is None or self.plan.trajectory is not plan.trajectory:
+            return  # another one is in hand by now
         self.plan = plan
         self.plan_changed.emit(plan)
+
+    def _renew_run(self, run: Run) -> None:
+        """Take the same record in hand beside another model."""
+        if self.run is not None and self.run.record is run.record:
+            self._set_run(run)
 
     def _set_run(self, run: Run) -> None:
         self.run = run
@@ -506,10 +513,10 @@ class Workbench(Requests):
             self.plan_again(plan)
         if run is not None:
             self.work(
-                "run",
+                "run again",
                 translate("shell", "Comparing model and real …"),
                 lambda: compared_again(event.model, run, self.session.memory),
-                self._set_run,
+                self._renew_run,
             )
 
     def _compare_played(self, event: PlaybackFinished) -> None:
