@@ -127,7 +127,7 @@ class DeviceSection(Section):
         """Offer ports of virtual boards, and fill them in where a driver takes ports."""
         self._offered = ports
         if ports and not self.form.port_fields:
-            self._choose_one_with_ports()
+            self._choose_one_with_ports(len(ports))
         self._take_ports(self._ports)
         for field, port in zip(self.form.port_fields, (*ports, None), strict=False):
             if ports:
@@ -138,10 +138,12 @@ class DeviceSection(Section):
             if self.choice.itemData(index) is kind:
                 self.choice.setCurrentIndex(index)
 
-    def _choose_one_with_ports(self) -> None:
+    def _choose_one_with_ports(self, number: int) -> None:
+        """Choose the first driver that has a setting for each of so many ports."""
         for index in range(self.choice.count()):
             kind = self.choice.itemData(index)
-            if isinstance(kind, type) and "port" in kind.default_settings:
+            settings = kind.default_settings if isinstance(kind, type) else ()
+            if sum(name.endswith("port") for name in settings) >= number:
                 self.choice.setCurrentIndex(index)
                 return
 

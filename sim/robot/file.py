@@ -75,6 +75,11 @@ def shipped_robots() -> tuple[str, ...]:
     return tuple(sorted(item.name[:-5] for item in folder.iterdir() if item.name.endswith(".toml")))
 
 
+def nominal_robots() -> tuple[str, ...]:
+    """Return the names of the shipped robots that are described without any effect, sorted."""
+    return tuple(name for name in shipped_robots() if not _effects_of(name))
+
+
 def load_robot(name_or_file: str | Path) -> Robot:
     """Load a shipped robot by name, or a robot file by path.
 
@@ -193,6 +198,12 @@ def _with_unit(name: str, axis: Axis) -> Axis:
     if axis.unit is not None or unit is None:
         return axis
     return replace(axis, unit=unit)
+
+
+def _effects_of(name: str) -> list[tuple[str, dict[str, Any]]]:
+    """Return the effects in a shipped robot's file, as tables by axis."""
+    source = f"{name}.toml"
+    return _apart(parse_toml(robot_file_text(name), source, RobotFileError), source)[1]
 
 
 def _is_shipped(name_or_file: str | Path) -> bool:

@@ -14,7 +14,7 @@ from rotemina.sim.effects.formulation import Effect
 from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.errors import InputError
 from rotemina.sim.plant.plant import Plant
-from rotemina.sim.robot.file import load_robot, shipped_robots
+from rotemina.sim.robot.file import load_robot, nominal_robots
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.simulation.check import Check, Report, left_out
 from rotemina.sim.simulation.check_bench import Bench, benches_of
@@ -53,7 +53,7 @@ def check_effect(
         return Report(effect_id, (Check("can be loaded", False, note=str(error)),))
     shipped = robots is None
     if robots is None:
-        robots = [load_robot(name) for name in sorted(shipped_robots(), key=_roteminas_first)]
+        robots = [load_robot(name) for name in sorted(nominal_robots(), key=_roteminas_first)]
     return Report(effect_id, tuple(_checks(effect, robots, clock, shipped)))
 
 

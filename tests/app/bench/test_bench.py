@@ -165,7 +165,7 @@ def test_a_set_of_all_that_stand_for_each_other_counts_however_large():
         ("tap = 'cmd'", "tap = 'cmd': must be u, ref or meas"),
         ("to_beat = 0", "to_beat = 0: must be a number above 0"),
         ("cause = []", "cause = []: use causes, also, tap, relative, to_beat"),
-        ("causes =", "it cannot be read"),
+        ("causes =", "truth.toml: not valid TOML"),
     ],
 )
 def test_a_truth_that_cannot_be_understood_is_refused(table, tmp_path, text, said):

@@ -379,7 +379,8 @@ def test_a_cluster_that_does_not_answer_is_said(monkeypatch, capsys, asked):
         raise OSError(f"timed out trying to connect to {address}")
 
     write_measured()
-    monkeypatch.setitem(sys.modules, "distributed", types.SimpleNamespace(Client=client))
+    distributed = types.SimpleNamespace(Client=client, KilledWorker=RuntimeError)
+    monkeypatch.setitem(sys.modules, "distributed", distributed)
     assert main(["gap", "diagnose", "r.csv", "--cluster", "tcp://host:8786"]) == 2
     assert "--cluster tcp://host:8786: it cannot be reached" in capsys.readouterr().err
     assert not asked
@@ -394,7 +395,8 @@ def test_a_cluster_without_workers_is_said(monkeypatch, capsys, asked):
             raise TimeoutError
 
     write_measured()
-    monkeypatch.setitem(sys.modules, "distributed", types.SimpleNamespace(Client=Client))
+    distributed = types.SimpleNamespace(Client=Client, KilledWorker=RuntimeError)
+    monkeypatch.setitem(sys.modules, "distributed", distributed)
     assert main(["gap", "diagnose", "r.csv", "--cluster", "tcp://host:8786"]) == 2
     assert "--cluster tcp://host:8786: it has no workers" in capsys.readouterr().err
     assert not asked

@@ -86,7 +86,10 @@ HARMLESS = {
     "epoch": lambda session: session.epoch,
     "has_reserved": lambda session: session.has_reserved("somebody"),
     "keep_out": lambda session: session.keep_out,
+    "memory": lambda session: session.memory,
+    "model": lambda session: session.model,
     "no_regulation": lambda session: session.no_regulation,
+    "note_contact": lambda session: session.note_contact("a cell"),
     "permit": lambda session: session.permit(),
     "reconnect": let_go,
     "regulated": lambda session: session.regulated,
@@ -104,6 +107,7 @@ HARMLESS = {
     "tool_on": lambda session: session.tool_on,
     "undoable": lambda session: session.undoable,
     "use": exchanged,
+    "use_model": lambda session: session.use_model(session.model),
 }
 #: Harmless as well, but not on a session that a test steps or on this device; the latch's end.
 HARMLESS_ELSEWHERE = {"accept_parameters", "close", "release", "start"}

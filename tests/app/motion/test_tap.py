@@ -15,7 +15,7 @@ def test_a_tap_gets_every_sample_once_with_the_model(stepped):
     stepped.until_idle()
     window = stepped.session.history.tail()
     times = np.concatenate([samples.device_time_s for samples, _ in portions])
-    models = np.concatenate([model for _, model in portions])
+    models = np.concatenate([model for _, (model, *_) in portions])
     np.testing.assert_array_equal(times, window.device_time_s[before:])
     np.testing.assert_array_equal(models, window.model[before:])
     end()

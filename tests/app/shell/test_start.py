@@ -59,7 +59,10 @@ def test_a_missing_library_is_one_line_with_the_command(monkeypatch, capsys, tmp
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--driver", "nobody"], "there is no driver 'nobody'; installed: mc68hc11, simulator"),
+        (
+            ["--driver", "nobody"],
+            "there is no driver 'nobody'; installed: gcode, mc68hc11, simulator",
+        ),
         (["--robot", "nobody"], "nobody: no such robot file"),
         (["--set", "colour=red"], "driver 'simulator' has no setting 'colour'; it knows"),
         (["--set", "seed=many"], "setting seed: 'many' is no whole number"),

@@ -477,7 +477,7 @@ def test_json_holds_the_diagnosis(qtbot, window, answered, diagnosis, tmp_path):
 def test_the_report_is_written_and_opened(qtbot, window, answered, tmp_path, monkeypatch):
     opened = []
 
-    def write(_diagnosis, _records, path, names):
+    def write(_diagnosis, _records, path, names, _run):
         path.write_text(", ".join(names), "utf-8")
 
     monkeypatch.setattr(actions, "write_report", write)  # which has tests of its own

@@ -3,7 +3,7 @@
 import pytest
 
 from rotemina.sim.robot.errors import RobotFileError
-from rotemina.sim.robot.file import load_robot, parse_robot, shipped_robots
+from rotemina.sim.robot.file import load_robot, nominal_robots, parse_robot, shipped_robots
 from rotemina.sim.robot.model import ForceAxis, PiezoAxis, StepperAxis
 
 MINIMAL = """
@@ -79,6 +79,7 @@ def test_every_shipped_robot_loads():
     assert shipped_robots() == ("emps", "fsm", "picma", "rotemina", "rotemina_worn", "xyz")
     for name in shipped_robots():
         assert load_robot(name).axes
+        assert (name in nominal_robots()) == (not load_robot(name).effects)
     assert isinstance(load_robot("emps").axes["q"], ForceAxis)
     assert load_robot("emps").axes["q"].controller.velocity == "backward"
 
