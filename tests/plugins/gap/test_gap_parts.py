@@ -1,6 +1,7 @@
 """What the gap page shows, without a window: cells of the map, proofs, advice."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from rotemina.plugins.gap.advice import advice, readiness
 from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.cell import parts
 from rotemina.plugins.gap.playing import told
-from rotemina.plugins.gap.proof import new_motion, prove
+from rotemina.plugins.gap.proof import Shrunk, new_motion, prove
 from rotemina.sim.comparison.comparison import compare
 from rotemina.sim.gap.diagnosis import Verdict
 from rotemina.sim.gap.regimes import Regime
@@ -110,3 +111,11 @@ def test_a_question_tells_how_far_a_motion_leads_in_the_axis_own_unit():
     assert "It takes 1 s" in text
     assert "θx: 100.0 … 200.0 µrad" in text
     assert "X: rests at 10.0000 mm" in text
+
+
+@pytest.mark.parametrize(
+    ("times", "changed", "worse"), [(0.97, True, False), (0.7, True, True), (0.7, False, False)]
+)
+def test_a_gap_that_is_hardly_larger_is_not_called_so(times, changed, worse):
+    trace = SimpleNamespace(changed=changed)
+    assert Shrunk(trace, None, times, (times, times)).worse is worse
