@@ -132,10 +132,16 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
         Closing(selection.raw + power, left, black_box.score, by_tap),
         ambiguous,
         poor=poor,
-        sure=is_sure(evidence, [ranked[key] for key in best.ids], ambiguous),
+        sure=is_sure(
+            evidence,
+            [ranked[key] for key in best.ids],
+            [() for _ in best.ids] if poor else ambiguous,  # a poor motion makes sets large
+        ),
     )
     if verdict in CORRECTING and drift is None:
-        best = with_retained(evidence, _fullest(selection, best))
+        if len(evidence.observations) > 1:  # pieces of one motion vouch for no other one
+            best = _fullest(selection, best)
+        best = with_retained(evidence, best)
     steps = _stepped(whole, best, disturbances) if verdict in CORRECTING else ()
     return Examination(
         evidence,

@@ -97,7 +97,9 @@ def select(
     account.begin(bare.score)
     alone = retuned(evidence)
     account.tried((), alone.score, Grade.UNSEEN)
-    enters = partial(_enters, bare, aside, evidence.has(Tap.REF))
+    # Pieces of one motion vouch for no other: what is small beside a formula needs a second record.
+    seen = SEEN if len(evidence.observations) > 1 else inf
+    enters = partial(_enters, bare, aside, evidence.has(Tap.REF), seen)
     best = alone if enters(bare, alone) else bare
     beam, tried = [bare], [alone]
     if alone.score >= NOTICED and closed(bare.score, alone.score) >= _MOSTLY_OWN:
@@ -116,9 +118,9 @@ def select(
             break
         if enters(best, found[0]):
             best = found[0]
-            if _is_enough(bare, best):
+            if _is_enough(bare, best, seen):
                 break
-        elif level > 0 or _is_little(bare, best):
+        elif level > 0 or _is_little(bare, best, seen):
             break  # two causes may still do what one alone does not do better than a re-tuning
         near = [one for one in found if one.score < _ALSO * found[0].score]
         beam = _unlike(near)[: _BEAM[level]]
@@ -154,6 +156,7 @@ def _enters(
     bare: Explanation,
     aside: Mapping[Tap, float],
     staged: bool,
+    seen: float,
     before: Explanation,
     after: Explanation,
 ) -> bool:
@@ -161,11 +164,12 @@ def _enters(
 
     It closes its share of the gap of the ``bare`` model, or at least as much as then remains; and
     more than what is set ``aside`` may leave of itself. ``staged``: a reference tells what the
-    machine does from what its sensor does.
+    machine does from what its sensor does. ``seen`` is the power, in floors squared, from which a
+    further cause counts whatever its share.
     """
     needed = max(_needed(after.causes, staged), default=0.0)
     return any(
-        _closes(bare.by_tap[tap], before.by_tap[tap], left, needed, alone=not before.causes)
+        _closes(bare.by_tap[tap], before.by_tap[tap], left, needed, seen, alone=not before.causes)
         and before.by_tap[tap] - left >= _LEFT_ASIDE * aside.get(tap, 0.0)
         for tap, left in after.by_tap.items()
     )
@@ -185,7 +189,9 @@ def _needed(causes: Sequence[AxisEffect], staged: bool) -> Iterator[float]:
                     yield share
 
 
-def _closes(raw: float, before: float, after: float, needed: float, *, alone: bool) -> bool:
+def _closes(
+    raw: float, before: float, after: float, needed: float, seen: float, *, alone: bool
+) -> bool:
     closing = before - after
     if closing >= max(max(LEAST_SHARE, needed) * (raw - 1.0), LEAST_POWER):
         return True
@@ -194,10 +200,10 @@ def _closes(raw: float, before: float, after: float, needed: float, *, alone: bo
     if alone:
         return before >= NOTICED and closing >= CLEARLY * (before - 1.0)
     # Beside other causes, less may be how these differ from their formulas.
-    return closing >= max(_OF_WHAT_IS_LEFT * (before - 1.0), SEEN)
+    return closing >= max(_OF_WHAT_IS_LEFT * (before - 1.0), seen)
 
 
-def _is_little(bare: Explanation, begun: Explanation, seen: float = SEEN) -> bool:
+def _is_little(bare: Explanation, begun: Explanation, seen: float) -> bool:
     """Tell whether no single further cause can close its share of any tap's gap, or be seen."""
     return all(
         left - 1.0 < min(max(LEAST_SHARE * (bare.by_tap[tap] - 1.0), LEAST_POWER), seen)
@@ -205,9 +211,9 @@ def _is_little(bare: Explanation, begun: Explanation, seen: float = SEEN) -> boo
     )
 
 
-def _is_enough(bare: Explanation, best: Explanation) -> bool:
+def _is_enough(bare: Explanation, best: Explanation, seen: float) -> bool:
     """Tell whether no further cause can close its share, nor correct the model by much."""
-    return _is_little(bare, best) and closed(bare.score, best.score) > _BY_FAR_MOST
+    return _is_little(bare, best, seen) and closed(bare.score, best.score) > _BY_FAR_MOST
 
 
 def _apart_from_own(

@@ -172,8 +172,8 @@
         <translation>wird vorbereitet …</translation>
     </message>
     <message>
-        <source>No effects: the simulator is the nominal machine.</source>
-        <translation>Keine Effekte: die nominelle Maschine.</translation>
+        <source>No effects</source>
+        <translation>Keine Effekte</translation>
     </message>
     <message>
         <source>all off</source>

@@ -23,11 +23,6 @@ def of_x(record, *taps):
 
 
 @pytest.mark.slow
-@pytest.mark.xfail(
-    strict=True,
-    raises=KeyError,
-    reason="a known fault of the diagnosis: with a reference, the sensor's gain is not named",
-)
 def test_a_sensor_that_reads_wrong_is_told_from_a_machine_that_goes_wrong(tmp_path, make_work):
     running = []
     work = make_work(tmp_path, seconds=0.04, recorder=lambda: running[0] if running else None)

@@ -6,6 +6,7 @@ import pytest
 
 from rotemina.sim.gap.repeats import has_overtone, is_own_mode
 from rotemina.sim.gap.selection import (
+    SEEN,
     _enters,
     _is_bent_to,
     _is_enough,
@@ -39,13 +40,19 @@ def left(meas, *causes):
     ],
 )
 def test_beside_others_a_cause_closes_a_share_of_the_gap(before, after, counts):
-    assert _enters(left(2000.0), {}, False, before, after) is counts
+    assert _enters(left(2000.0), {}, False, SEEN, before, after) is counts
+
+
+def test_one_record_vouches_for_no_small_cause_beside_another():
+    before, after = left(50.0, LAG), left(1.0, LAG, LAG)
+    assert _enters(left(2000.0), {}, False, SEEN, before, after)
+    assert not _enters(left(2000.0), {}, False, float("inf"), before, after)
 
 
 def test_what_was_set_aside_may_leave_something_of_itself():
     before, after = left(60.0), left(20.0, LAG)
-    assert _enters(left(60.0), {Tap.MEAS: 1000.0}, False, before, after)
-    assert not _enters(left(60.0), {Tap.MEAS: 10_000.0}, False, before, after)
+    assert _enters(left(60.0), {Tap.MEAS: 1000.0}, False, SEEN, before, after)
+    assert not _enters(left(60.0), {Tap.MEAS: 10_000.0}, False, SEEN, before, after)
 
 
 @pytest.mark.parametrize(
@@ -63,7 +70,7 @@ def test_no_more_is_looked_for_where_no_cause_can_close_its_share(ref, meas, eno
         taps = {Tap.REF: ref, Tap.MEAS: meas}
         return SimpleNamespace(by_tap=taps, score=(ref + meas) / 2.0)
 
-    assert _is_enough(both(10_000.0, 1000.0), both(ref, meas)) is enough
+    assert _is_enough(both(10_000.0, 1000.0), both(ref, meas), SEEN) is enough
 
 
 def alone(name, score, formulation=None):
