@@ -81,7 +81,7 @@ class EffectsPanel(Panel):
         self.add.setToolTip(
             translate("effects", "Choose an axis, an effect that it may have, and its formulation")
         )
-        self.machine = QPushButton(translate("effects", "Simulated machine"))
+        self.machine = QPushButton(translate("effects", "Machine"))
         self.machine.setToolTip(
             translate(
                 "effects",

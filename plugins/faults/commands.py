@@ -100,7 +100,7 @@ def faults(axes: tuple[str, ...], steppers: tuple[str, ...], lines: int) -> tupl
                 Pick(
                     translate("faults", "What"),
                     (
-                        (translate("faults", "torn or shorted"), "silence"),
+                        (translate("faults", "silent"), "silence"),
                         (translate("faults", "held at space"), "space"),
                     ),
                 ),

@@ -64,8 +64,8 @@
         <translation>Eine Achse, einen möglichen Effekt und seinen Ansatz wählen</translation>
     </message>
     <message>
-        <source>Simulated machine</source>
-        <translation>Simulierte Maschine</translation>
+        <source>Machine</source>
+        <translation>Maschine</translation>
     </message>
     <message>
         <source>Let the simulator be as the robot file says, or worn, to demonstrate with</source>

@@ -84,12 +84,12 @@
         <translation>Nichts kommt durch, in beiden Richtungen; auf Dauer-Null gehalten hören die Steuerkarten zuerst einen Halt</translation>
     </message>
     <message>
-        <source>torn or shorted</source>
-        <translation>abgerissen oder kurzgeschlossen</translation>
+        <source>silent</source>
+        <translation>stumm</translation>
     </message>
     <message>
         <source>held at space</source>
-        <translation>auf Dauer-Null gehalten</translation>
+        <translation>Dauer-Null</translation>
     </message>
     <message>
         <source>Duration</source>
