@@ -398,7 +398,7 @@ class EffectsPanel(Panel):
 
     def _count(self) -> str:
         if not len(self.chain):
-            return translate("effects", "No effects")
+            return translate("effects", "No effects: nominal")
         on = sum(one.enabled for one in self.chain.asked)
         state = (
             translate("effects", "all off")

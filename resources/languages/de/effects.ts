@@ -172,8 +172,8 @@
         <translation>wird vorbereitet …</translation>
     </message>
     <message>
-        <source>No effects</source>
-        <translation>Keine Effekte</translation>
+        <source>No effects: nominal</source>
+        <translation>Keine Effekte: nominal</translation>
     </message>
     <message>
         <source>all off</source>

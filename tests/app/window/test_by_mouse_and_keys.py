@@ -20,7 +20,6 @@ from rotemina.sim.gap.report.words import effect_title
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory.demonstration import demonstration
 
 HERE = Path(__file__).parent
 SEED = 1
@@ -213,63 +212,6 @@ def on_the_simulator(screen, tmp_path):
         operator.wait("window.isVisible()")
         operator.wait("bench.session.snapshot().locked is None")
         yield operator
-
-
-def test_the_loop_closes_on_a_machine_that_moved_before(on_the_simulator, tmp_path):
-    hand, robot = on_the_simulator, load_robot("rotemina")
-    paths = [tmp_path / f"{name}.csv" for name in ("one", "two")]
-    for path, pace in zip(paths, (1.0, 0.83), strict=True):
-        write_record(demonstration(robot, pace), path)
-
-    hand.wait("'effects' in panels")
-    hand.focus("RoTeMiNa")
-    hand.press("ctrl+2")
-    hand.wait("bool(window.docks['effects'].raise_() or True)")  # beside other tabs
-    machine = "panels['effects'].machine"
-    hand.click(f"place({machine})")
-    hand.click(f"item({machine}.menu(), 'Worn, to demonstrate with')")
-    hand.wait("len(bench.session.effects) > 5")
-    before = hand.see("bench.session.snapshot().command['zn']")
-    hand.click("place(panels['control'].rows['zn'].plus)")
-    hand.wait(f"bench.session.snapshot().command['zn'] > {before}")
-
-    def load(path):
-        hand.focus("RoTeMiNa")
-        hand.press("ctrl+t")
-        hand.wait("dialog('Load trajectory') is not None")
-        hand.focus("Load trajectory")
-        hand.write_into("written('Load trajectory')", str(path))
-        hand.press("Return")
-        hand.wait(f"bench.plan is not None and bench.plan.name == {path.name!r}")
-
-    def played(path):
-        load(path)
-        run = hand.see("id(bench.run)")
-        hand.focus("RoTeMiNa")
-        hand.press("ctrl+p")
-        hand.wait(f"id(bench.run) != {run}", LONG_S)
-        found = "next(g for (a, t), g in bench.run.gaps.items() if (a, str(t)) == ('zn', 'meas'))"
-        return hand.see(f"[{found}.rms, {found}.nominal]")
-
-    first, nominal = played(paths[0])
-    assert first == pytest.approx(nominal)
-    hand.press("ctrl+3")
-    hand.click("place(panels['gap'].start)")
-    hand.wait("panels['gap'].answer is not None", 2.0 * LONG_S)  # it stands back
-    hand.click("panels['gap'].use.isEnabled() and place(panels['gap'].use)")
-    hand.wait("window._bar.model.text().startswith('Corrected: ')", LONG_S)
-    hand.wait("bench.run.model_id.startswith('corrected-') and not bench.busy", LONG_S)
-    last, nominal = played(paths[1])
-    assert last <= nominal / LEAST_SMALLER
-
-    hand.wait("panels['gap'].proof.proof is not None", LONG_S)
-    hand.wait("panels['gap'].proof.proof.name == 'two.csv'", LONG_S)
-    size = hand.see("panels['gap'].proof.table.texts()[0][2]")
-    hand.wait(f"panels['plots'].plots['zn'].figures.text().endswith('Gap, this run {size}')")
-    cells = "[panels['comparison'].table.item(r, 1).text() for r in range(2)]"
-    assert size in hand.see(cells)
-    assert hand.see("panels['gap'].headline.property('tone')") in ("good", "partly")
-    print(f"the gap is {nominal / last:.0f} times smaller: {size}, in all places")
 
 
 def test_from_the_start_to_a_twin_that_is_right(operator, tmp_path):
