@@ -86,7 +86,7 @@ class HiddenMachine(Simulator):
 
     def _made(self, position: FloatArray, time_s: float) -> SimulatedDevice:
         device = super()._made(position, time_s)
-        plant = SteppedPlant(self.robot, self._secret.case, self.setpoint_period_s)
+        plant = SteppedPlant(self.robot, self._secret.case)
         state = plant.at_rest(0.0, position)
         # It answers to all that a device asks of a plant.
         device.use(cast("Plant", plant), cast("PlantState", state))

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numba
 import numpy as np
 
-from rotemina.sim.arrays import FloatArray
+from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.blind import mechanics
 from rotemina.sim.blind.case import Case
 from rotemina.sim.blind.machine import Machine, machine_of
@@ -111,9 +111,15 @@ class Going:
         state[: len(force)] = np.linalg.solve(structure.stiffness, force)
         return Memory(state, np.zeros((len(self._loads), _MEMORY)), turns, 0)
 
-    def advance(self, memory: Memory, commands: FloatArray) -> tuple[FloatArray, Memory]:
-        """Return positions (ticks, m) for the next commands (ticks, m), and the memory then."""
+    def advance(
+        self, memory: Memory, commands: FloatArray, ticks: IntArray | int = 1
+    ) -> tuple[FloatArray, Memory]:
+        """Return positions (ticks, m) for the next commands (n, m), and the memory then.
+
+        ``ticks`` (n,) is for how long each of them holds.
+        """
         target, turns = self._target(commands, memory.turns)
+        target = np.repeat(target, ticks, axis=0)
         state, forces = memory.state.copy(), memory.forces.copy()
         motion = _go_on(
             *self._steps,
@@ -125,7 +131,7 @@ class Going:
             memory.ticks * self._every,
             self._step_s,
         )
-        after = Memory(state, forces, turns, memory.ticks + len(commands))
+        after = Memory(state, forces, turns, memory.ticks + len(target))
         return motion[:: self._every], after
 
     def _target(
@@ -163,16 +169,15 @@ class SteppedPlant:
 
     loops: tuple[None, ...] = ()  # of controllers: none is closed
 
-    def __init__(self, robot: Robot, case: Case | None, tick_s: float) -> None:
+    def __init__(self, robot: Robot, case: Case | None) -> None:
         self.axes = tuple(robot.axes)
-        self._tick_s = tick_s
         self._stages: list[tuple[list[int], Going]] = []
         for names in robot.stages.values():
             columns = [self.axes.index(name) for name in names]
             travels = {name: np.array(robot.axes[name].range) for name in names}
             mine = case is not None and tuple(names) == tuple(case.names)
             machine = case.machine if mine and case else machine_of(robot, names, travels)
-            self._stages.append((columns, Going(machine, tick_s)))
+            self._stages.append((columns, Going(machine, _FINE_S)))
 
     def at_rest(self, time_s: float, position: FloatArray) -> SteppedState:
         """Return the state at rest at ``position`` (axes,)."""
@@ -184,17 +189,17 @@ class SteppedPlant:
         self, state: SteppedState, time_s: FloatArray, command: FloatArray, *, chance: Chance
     ) -> tuple[SteppedMotion, SteppedState]:
         """Sample the response to commands (n, axes) at times (n,); each holds until the next."""
-        since_s = np.diff(np.concatenate([state.time_s[-1:], time_s]))
-        ticks = np.maximum(np.rint(since_s / self._tick_s).astype(np.int64), 1)
-        held = np.vstack([state.command[None], command[:-1]])
-        asked = np.repeat(held, ticks, axis=0)
-        asked[np.cumsum(ticks) - 1] = command  # acts from its own sample on
+        since_s = np.concatenate([state.time_s[-1:], time_s]) - state.time_s[-1]
+        ticks = np.maximum(np.diff(np.rint(since_s / _FINE_S).astype(np.int64)), 1)
+        held = np.vstack([state.command[None], command])
         rows = np.cumsum(ticks) - 1
+        # Each acts from its own sample on: so far, the latest one for a tick.
+        durations = np.concatenate([[ticks[0] - 1], ticks[1:], [1]])
         motion, reading = np.empty_like(command), np.empty_like(command)
         noise = chance.draw(len(command), len(self.axes), 0)
         memories = []
         for (columns, going), memory in zip(self._stages, state.memories, strict=True):
-            told, after = going.advance(memory, asked[:, columns])
+            told, after = going.advance(memory, held[:, columns], durations)
             motion[:, columns] = told[rows]
             memories.append(after)
             rms = np.array([axis.noise for axis in going.axes])

@@ -139,9 +139,7 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
         ),
     )
     if verdict in CORRECTING and drift is None:
-        if len(evidence.observations) > 1:  # pieces of one motion vouch for no other one
-            best = _fullest(selection, best)
-        best = with_retained(evidence, best)
+        best = with_retained(evidence, best, *_fullest(selection, best))
     steps = _stepped(whole, best, disturbances) if verdict in CORRECTING else ()
     return Examination(
         evidence,
@@ -274,7 +272,7 @@ def _was_explained(
     return power / rows < _STILL_OUT * one.power
 
 
-def _fullest(selection: Selection, best: Explanation) -> Explanation:
+def _fullest(selection: Selection, best: Explanation) -> Sequence[Explanation]:
     """Return what explains most with the same causes and more, if that is much more."""
     named = set(best.ids)
     fuller = [
@@ -285,10 +283,10 @@ def _fullest(selection: Selection, best: Explanation) -> Explanation:
         and one.score < _MUCH_BETTER * best.score
     ]
     if not fuller:
-        return best
+        return ()
     one = min(fuller, key=lambda one: one.score)
     causes = [own for own in one.fit.effects if (own.id, own.from_axis) in named]
-    return replace(one, causes=tuple(causes))
+    return (replace(one, causes=tuple(causes)),)
 
 
 def _of_modes(evidence: Evidence, modal: Explanation) -> Examination:

@@ -1,10 +1,12 @@
-"""Which re-tunings of the model's own parameters the corrected model keeps beside its causes.
+"""What the corrected model holds beside its causes.
 
-They take part in every fit, and where a formula is not quite right they bend to what it leaves. On
-another motion such a re-tuning is worse than none: each stays only where unseen data ask for it.
+Re-tunings of the model's own parameters take part in every fit, and where a formula is not quite
+right they bend to what it leaves; further effects that are not sure enough to be named may do so
+as well. On another motion they are then worse than none: each stays only where unseen data ask for
+it.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator
 from itertools import combinations
 
 import numpy as np
@@ -15,26 +17,28 @@ from rotemina.sim.gap.compare.weights import weigh
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import fit
 from rotemina.sim.gap.models import MOST_STEPS, Explanation, explanation
-from rotemina.sim.robot.model import AxisEffect
 
 
-def with_retained(evidence: Evidence, best: Explanation) -> Explanation:
-    """Return an explanation by the same causes with the likeliest of its re-tunings."""
-    causes = best.causes
-    named = {one.id for one in causes}
-    own = [one for one in best.fit.effects if one.id not in named and is_own(evidence, one)]
-    others = [one for one in best.fit.effects if one not in own and one not in causes]
-    if not causes or not own:
+def with_retained(evidence: Evidence, best: Explanation, *fuller: Explanation) -> Explanation:
+    """Return an explanation by the same causes with the likeliest of what it may hold beside them.
+
+    ``fuller`` ones have the causes of ``best``, and hold more beside these that is named by none.
+    """
+    if not best.causes:
         return best
-    tried = [best]
-    numbers = [len(own)]
-    for kept in _fewer(own):
-        fitted = fit(evidence, [*causes, *others, *kept], most_steps=MOST_STEPS)
-        tried.append(explanation(evidence, len(causes), fitted))
-        numbers.append(len(kept))
+    tried = [other for one in (best, *fuller) for other in _with_fewer(evidence, one)]
+    numbers = [len(one.fit.effects) for one in tried]
     weights = weigh(held_out_powers(evidence, [one.held_out for one in tried]), numbers)
     return tried[int(np.argmax(weights))]
 
 
-def _fewer(own: Sequence[AxisEffect]) -> list[tuple[AxisEffect, ...]]:
-    return [kept for count in range(len(own)) for kept in combinations(own, count)]
+def _with_fewer(evidence: Evidence, best: Explanation) -> Iterator[Explanation]:
+    """Give an explanation, and it with fewer re-tunings of the model's own parameters."""
+    yield best
+    causes, held = best.causes, best.fit.effects
+    own = [one for one in held if one not in causes and is_own(evidence, one)]
+    others = [one for one in held if one not in causes and one not in own]
+    for count in range(len(own)):
+        for kept in combinations(own, count):
+            fitted = fit(evidence, [*causes, *others, *kept], most_steps=MOST_STEPS)
+            yield explanation(evidence, len(causes), fitted)

@@ -60,7 +60,8 @@ def test_some_machines_have_nothing():
     assert draw_secret(ROBOT, healthy).causes == frozenset()
 
 
-def test_sample_by_sample_it_does_what_the_generator_does_over_the_whole_motion(secret):
+@pytest.mark.parametrize("finer", [1, 2, 5])
+def test_sample_by_sample_it_does_what_the_generator_does_over_the_whole_motion(secret, finer):
     case, tick_s = secret.case, 5e-4
     columns = [list(ROBOT.axes).index(name) for name in case.names]
     time_s = np.arange(2400) * tick_s
@@ -70,14 +71,16 @@ def test_sample_by_sample_it_does_what_the_generator_does_over_the_whole_motion(
     middle = [sum(axis.range) / 2.0 for axis in ROBOT.axes.values()]
     whole = np.tile(middle, (len(time_s), 1))
     whole[:, columns] = commands
-    plant = SteppedPlant(ROBOT, case, tick_s)
+    plant = SteppedPlant(ROBOT, case)
     state = plant.at_rest(0.0, whole[0])
     told = []
-    for first in range(0, len(time_s), 37):
-        part = slice(first, first + 37)
+    asked = np.repeat(whole, finer, axis=0)
+    sampled_s = tick_s + np.arange(len(asked)) * tick_s / finer
+    for first in range(0, len(asked), 37 * finer):
+        part = slice(first, first + 37 * finer)
         chance = Chance(np.random.default_rng(0))
-        motion, state = plant.advance(state, time_s[part] + tick_s, whole[part], chance=chance)
-        told.append(motion.position[:, columns])
+        motion, state = plant.advance(state, sampled_s[part], asked[part], chance=chance)
+        told.append(motion.position[::finer, columns])
     run = case.machine.respond(Commands(tick_s, commands), 0)
     off = np.abs(np.concatenate(told) - run.motion)[800:].max(axis=0)  # once it has settled
     assert (off < 1e-3 * np.array([axis.floor for axis in case.machine.axes])).all()

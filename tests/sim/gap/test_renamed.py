@@ -74,7 +74,7 @@ TRUTHS = (
     on("zn", "sensor_drift", rate=1e-7),
     on("zn", "sensor_outliers", size=5e-6),
     on("x", "encoder_interpolation", sine=1e-6, cosine=5e-7),
-    on("thx", "clock_skew", skew=2000.0),
+    on("x", "clock_skew", skew=2000.0),
 )
 
 
