@@ -22,6 +22,7 @@ from rotemina.sim.gap.selection import LEAST_SHARE
 from rotemina.sim.identification.vector_fitting import (
     Spectra,
     contributions,
+    fewer,
     relocated,
     vector_fit,
 )
@@ -83,7 +84,7 @@ def many_modes(evidence: Evidence, account: Account) -> Explanation | None:
     ringing = grown[_damping(poles) < _RINGING]
     if left > _LEFT * raw or np.sum(ringing > _TRIFLE * raw) < _AT_LEAST:
         return None
-    few = vector_fit(whole, _SOUGHT, axis.slowest, most=_FEW)
+    few = fewer(whole, poles, axis.slowest, most=_FEW)
     if contributions(whole, few)[0] - left < LEAST_SHARE * raw:
         return None
     for name in axis.sources:

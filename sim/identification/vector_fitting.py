@@ -7,7 +7,7 @@ Gustavsen and Semlyen, IEEE Trans. Power Delivery 14 (1999) 1052-1061, in its re
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Self
+from typing import NamedTuple, Self
 
 import numpy as np
 
@@ -114,20 +114,9 @@ def contributions(spectra: Spectra, poles: ComplexArray) -> tuple[float, FloatAr
 
     The others keep their poles and change their residues.
     """
-    design, output = _design(spectra, poles)
-    size = np.linalg.norm(design, axis=0)
-    q, r = np.linalg.qr(design / size)
-    amounts = np.linalg.solve(r, q.T @ output)
-    left = float(np.sum((output - q @ (q.T @ output)) ** 2))
-    inverse = np.linalg.inv(r)
-    covariance = inverse @ inverse.T
-    inputs = spectra.inputs.shape[1]
-    grown = []
-    for k in range(len(poles)):
-        own = [2 * (j * len(poles) + k) + part for j in range(inputs) for part in (0, 1)]
-        theta = amounts[own]
-        grown.append(float(theta @ np.linalg.solve(covariance[np.ix_(own, own)], theta)))
-    return left, np.array(grown)
+    reduced = _reduced(spectra, poles)
+    left, grown = _grown(reduced.design, reduced.output, spectra.inputs.shape[1])
+    return reduced.beyond + left, grown
 
 
 def vector_fit(spectra: Spectra, pairs: int, slowest: float, *, most: int) -> ComplexArray:
@@ -138,12 +127,58 @@ def vector_fit(spectra: Spectra, pairs: int, slowest: float, *, most: int) -> Co
     poles = first_poles(spectra.z, pairs)
     for _ in range(8):
         poles = relocated(spectra, poles, slowest)
+    return fewer(spectra, poles, slowest, most=most)
+
+
+def fewer(spectra: Spectra, poles: ComplexArray, slowest: float, *, most: int) -> ComplexArray:
+    """Drop the poles (pairs,) that tell least until ``most`` are left, and relocate these.
+
+    ``slowest`` is as for :func:`relocated`.
+    """
+    design, output, _ = _reduced(spectra, poles)
+    inputs = spectra.inputs.shape[1]
     while len(poles) > most:
-        _, grown = contributions(spectra, poles)
-        poles = np.delete(poles, int(np.argmin(grown)))
+        least = int(np.argmin(_grown(design, output, inputs)[1]))
+        design = np.delete(design, _columns(least, len(poles), inputs), axis=1)
+        poles = np.delete(poles, least)
     for _ in range(3):
         poles = relocated(spectra, poles, slowest)
     return poles
+
+
+class _Reduced(NamedTuple):
+    """A design in the coordinates of its own columns, the output in them, and what is beyond."""
+
+    design: FloatArray
+    output: FloatArray
+    beyond: float
+
+
+def _reduced(spectra: Spectra, poles: ComplexArray) -> _Reduced:
+    design, output = _design(spectra, poles)
+    q, r = np.linalg.qr(design / np.linalg.norm(design, axis=0))
+    told = q.T @ output
+    return _Reduced(r, told, float(np.sum((output - q @ told) ** 2)))
+
+
+def _grown(design: FloatArray, output: FloatArray, inputs: int) -> tuple[float, FloatArray]:
+    """Return what a design (n, columns) leaves, and by how much it grows (pairs,) without each."""
+    q, r = np.linalg.qr(design)
+    amounts = np.linalg.solve(r, q.T @ output)
+    inverse = np.linalg.inv(r)
+    covariance = inverse @ inverse.T
+    pairs = design.shape[1] // (2 * inputs)
+    grown = np.empty(pairs)
+    for k in range(pairs):
+        own = _columns(k, pairs, inputs)
+        theta = amounts[own]
+        grown[k] = theta @ np.linalg.solve(covariance[np.ix_(own, own)], theta)
+    return float(np.sum((output - design @ amounts) ** 2)), grown
+
+
+def _columns(pair: int, pairs: int, inputs: int) -> list[int]:
+    """Return the columns of a design that belong to a pair of poles."""
+    return [2 * (j * pairs + pair) + part for j in range(inputs) for part in (0, 1)]
 
 
 def _design(spectra: Spectra, poles: ComplexArray) -> tuple[FloatArray, FloatArray]:
