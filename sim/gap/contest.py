@@ -63,13 +63,7 @@ def contested(
     one that closes little where the sensor ``wanders``. ``aside`` is the power at each tap, in its
     floors squared, of what was set aside: a cause beside it closes a share of the whole.
     """
-    ranked = rivals_of(evidence, selection, best)
-    for _ in range(_TURNS):
-        likelier = _likelier(ranked)
-        if likelier is None:
-            break
-        best = attributed(evidence, selection.bare, likelier)
-        ranked = rivals_of(evidence, selection, best)
+    best, ranked = _with_the_likeliest(evidence, selection, best)
     unsure = wanders or max(aside.values(), default=0.0) > selection.raw
     # What nothing that was found explains: one that does not stand may still take a part of it.
     more = [one for one in selection.tried if set(one.ids) >= set(best.ids)]
@@ -93,6 +87,26 @@ def contested(
         once.add(least)
         kept = [one for one in best.causes if (one.id, one.from_axis) != least]
         best = _with_only(evidence, selection, kept)
+        ranked = rivals_of(evidence, selection, best)
+    return _with_the_likeliest(evidence, selection, best, ranked) if once else (best, ranked)
+
+
+def _with_the_likeliest(
+    evidence: Evidence,
+    selection: Selection,
+    best: Explanation,
+    ranked: dict[Key, tuple[Rival, ...]] | None = None,
+) -> tuple[Explanation, dict[Key, tuple[Rival, ...]]]:
+    """Return an explanation with rivals in the place of causes than which they are by far likelier.
+
+    With it come the rivals of each of its causes, ``ranked`` where they are known.
+    """
+    ranked = ranked or rivals_of(evidence, selection, best)
+    for _ in range(_TURNS):
+        likelier = _likelier(ranked)
+        if likelier is None:
+            break
+        best = attributed(evidence, selection.bare, likelier)
         ranked = rivals_of(evidence, selection, best)
     return best, ranked
 
@@ -195,7 +209,11 @@ def _with_only(evidence: Evidence, selection: Selection, kept: Sequence[AxisEffe
     if not kept:
         return selection.bare
     causes = [one for one in kept if not is_own(evidence, one)]
-    return attributed(evidence, selection.bare, explain(evidence, causes))
+    named = {(one.id, one.from_axis) for one in causes}
+    # Without what went, another of their forms may do better.
+    alone = [one for one in selection.tried if set(one.ids) == named]
+    best = min([explain(evidence, causes), *alone], key=lambda one: one.score)
+    return attributed(evidence, selection.bare, best)
 
 
 def rivals_of(
