@@ -27,9 +27,13 @@ def shrinkage(
     black_box: Probe,
     tap: Tap,
     rng: np.random.Generator,
+    left_by: "LeftBy",
 ) -> Shrinkage:
-    """Return the whole way from the raw gap of a tap to its floor."""
-    raw = evidence.residual()
+    """Return the whole way from the raw gap of a tap to its floor.
+
+    ``left_by`` tells what some of the causes of ``best`` leave.
+    """
+    raw = left_by(frozenset())
     floor = evidence.floor(tap)
     shown = at_tap(evidence, tap)
     share, interval = closing(evidence, raw, best.held_out, tap, rng)
@@ -43,7 +47,7 @@ def shrinkage(
         ceiling=floor * rms(black_box.left[shown]),
         closed=share,
         closed_interval=interval,
-        steps=_steps(evidence, raw, best, shown, floor),
+        steps=_steps(best, shown, floor, left_by),
     )
 
 
@@ -74,23 +78,30 @@ def rms(left: FloatArray) -> float:
     return float(np.sqrt(np.mean(left**2)))
 
 
-def _steps(
-    evidence: Evidence, raw: FloatArray, best: Explanation, shown: np.ndarray, floor: float
-) -> tuple[ShrinkageStep, ...]:
-    """Return what is left after each cause, and the causes' Shapley shares of what is closed.
+class LeftBy:
+    """What some of an explanation's causes leave, as they were fitted together with the others."""
 
-    Some of the causes act as they were fitted together with the others.
-    """
-    if not best.causes:
-        return ()
+    def __init__(self, evidence: Evidence, best: Explanation) -> None:
+        self._evidence, self._causes = evidence, best.causes
+        whole = frozenset(range(len(best.causes)))
+        self._left: dict[frozenset[int], FloatArray] = {whole: best.held_out} if whole else {}
+
+    def __call__(self, members: frozenset[int]) -> FloatArray:
+        """Return what is left (rows,), over the floor, by the causes of these numbers."""
+        if members not in self._left:
+            own = [self._causes[number] for number in sorted(members)]
+            self._left[members] = self._evidence.residual(own)
+        return self._left[members]
+
+
+def _steps(
+    best: Explanation, shown: np.ndarray, floor: float, left_by: LeftBy
+) -> tuple[ShrinkageStep, ...]:
+    """Return what is left after each cause, and the causes' Shapley shares of what is closed."""
     whole = frozenset(range(len(best.causes)))
-    left: dict[frozenset[int], FloatArray] = {frozenset(): raw, whole: best.held_out}
 
     def score(members: frozenset[int]) -> float:
-        if members not in left:
-            own = [best.causes[number] for number in sorted(members)]
-            left[members] = evidence.residual(own)
-        return float(np.mean(left[members][shown] ** 2))
+        return float(np.mean(left_by(members)[shown] ** 2))
 
     steps = []
     for number, cause in enumerate(best.causes):

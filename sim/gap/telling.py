@@ -27,7 +27,7 @@ from rotemina.sim.gap.models import Explanation
 from rotemina.sim.gap.origins import origin_remarks
 from rotemina.sim.gap.rivals import not_ruled_out, paired_blocks, probability
 from rotemina.sim.gap.selection import NOTICED
-from rotemina.sim.gap.shrinkage import at_tap, closing, rms, shrinkage
+from rotemina.sim.gap.shrinkage import LeftBy, at_tap, closing, rms, shrinkage
 from rotemina.sim.gap.where import Place
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
@@ -49,8 +49,9 @@ def told_of(
     evidence, best = examination.evidence, examination.best
     explained = examination.verdict in CORRECTING
     causes: list[Cause] = []
+    left_by = LeftBy(evidence, best)
     if explained:
-        causes = [_cause(examination, number, rng) for number in range(len(best.causes))]
+        causes = [_cause(examination, number, left_by, rng) for number in range(len(best.causes))]
         named = {one.effect for one in causes}
         causes += [
             _disturbance(examination, one, one.effect)
@@ -62,6 +63,7 @@ def told_of(
     elif examination.verdict is Verdict.UNKNOWN:
         causes = [_unknown(examination, places, rng)]
     shown = best if explained else examination.selection.retuned
+    left_by = left_by if explained else LeftBy(evidence, shown)
     return AxisDiagnosis(
         axis=evidence.axis,
         verdict=examination.verdict,
@@ -69,7 +71,13 @@ def told_of(
         causes=tuple(causes),
         shrinkage=tuple(
             shrinkage(
-                evidence, examination.selection.retuned, shown, examination.black_box, tap, rng
+                evidence,
+                examination.selection.retuned,
+                shown,
+                examination.black_box,
+                tap,
+                rng,
+                left_by,
             )
             for tap in dict.fromkeys(place.tap for place in places if place.significant)
         ),
@@ -113,13 +121,14 @@ def _place(part: Part) -> int:
     return list(Tap).index(part.tap)
 
 
-def _cause(examination: Examination, number: int, rng: np.random.Generator) -> Cause:
+def _cause(
+    examination: Examination, number: int, left_by: LeftBy, rng: np.random.Generator
+) -> Cause:
     evidence, best = examination.evidence, examination.best
     asked = best.causes[number]
     key = asked.id, asked.from_axis
     attached = Attached.of(evidence.robot, asked)
-    others = [one for one in best.causes if one is not asked]
-    before = evidence.residual(others)
+    before = left_by(frozenset(range(len(best.causes))) - {number})
     tap = _first_tap(evidence, attached.effect.stage)
     shown, floor = at_tap(evidence, tap), evidence.floor(tap)
     share, interval = closing(evidence, before, best.held_out, tap, rng)
