@@ -30,7 +30,7 @@ _THX = "excite multisine --axes thx --duration 5"
 _HYSTERESIS = '[[axis.thx.effect]]\nid = "hysteresis"\nwidth = 1.1e-4\n'
 # What a page takes for granted, made by commands: files that a reader has.
 PREPARED = {
-    "README.md": (
+    "command-line.md": (
         "simulate reference.csv --robot emps -o emps_train.csv",
         f"{_THX} -o new.csv",
         f"{_THX} --seed 1 -o first.csv",
