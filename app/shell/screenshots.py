@@ -20,13 +20,12 @@ def main(folder: Path) -> int:
 
     from rotemina.app.motion.session import MotionSession
     from rotemina.app.settings import Settings
-    from rotemina.app.shell.offscreen_run import play
+    from rotemina.app.shell.offscreen_run import tell_the_story
     from rotemina.app.shell.qt_messages import log_qt_messages
     from rotemina.app.shell.window_run import make_window
     from rotemina.drivers.simulator.driver import Simulator
     from rotemina.sim.robot.file import load_robot
-    from rotemina.sim.robot.model import AxisEffect
-    from rotemina.sim.trajectory.example import example_for
+    from rotemina.sim.trajectory.demonstration import wear
 
     log_qt_messages()
     folder.mkdir(parents=True, exist_ok=True)
@@ -38,14 +37,13 @@ def main(folder: Path) -> int:
         window = make_window(MotionSession(Simulator(robot)), settings, Path(kept) / "played")
         window.show()
         window.workbench.start()
-        diagnose(window)
-        play(window, example_for(robot))
+        window.panels.make_all()
+        begun = window.saveState()
+        tell_the_story(window, wear(robot))
+        window.restoreState(begun)  # the layout of a first start
         while window.workbench.busy:  # panels that work on what was played
             QApplication.processEvents()
-        effects = (AxisEffect(axis="thx", id="hysteresis"), AxisEffect(axis="x", id="friction"))
-        window.workbench.session.set_effects(effects)
-        while window.workbench.session.effects != effects:  # the panel shows what is in place
-            QApplication.processEvents()
+        window.panels["gap"].tabs.setCurrentIndex(2)  # how far the gap shrinks
         window.workbench.emergency_stop()
         window.workbench.refreshed.emit(window.workbench.session.snapshot())
         window.workbench.release()
@@ -122,31 +120,6 @@ def bring_up(window: "MainWindow", name: str) -> None:
     QApplication.processEvents()
     while name == "microscope" and panel.view.frame is None:
         QApplication.processEvents()
-
-
-def diagnose(window: "MainWindow") -> None:
-    """Let the gap page diagnose two records of a machine with hysteresis on one axis."""
-    import numpy as np
-    from PySide6.QtWidgets import QApplication
-
-    from rotemina.app.shell.workbench import Run
-    from rotemina.sim.comparison.comparison import compare
-    from rotemina.sim.excitation.generator import excite
-    from rotemina.sim.excitation.levels import Staircase
-    from rotemina.sim.excitation.swings import DecayingTriangle
-    from rotemina.sim.robot.model import AxisEffect
-    from rotemina.sim.simulation.simulation import simulate
-
-    robot, panel = window.workbench.robot, window.panels["gap"]
-    loop = AxisEffect(axis="thx", id="hysteresis")
-    for name, kind in (("swings", DecayingTriangle()), ("stairs", Staircase())):
-        asked = excite(robot, {"thx": kind, "thy": kind}).record
-        record = simulate(robot, [loop], asked, np.random.default_rng(len(name)))
-        panel.records.take(Run(f"{name}.csv", compare(robot, record)))
-    panel.diagnose()
-    while panel.diagnosing.running:
-        QApplication.processEvents()
-    panel.tabs.setCurrentIndex(2)  # how far the gap shrinks
 
 
 if __name__ == "__main__":
