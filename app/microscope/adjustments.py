@@ -10,9 +10,9 @@ from rotemina.app.microscope.calibration_run import CalibrationRun, Phase
 from rotemina.app.microscope.camera_in_use import CameraInUse
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.focus_run import FocusRun, Search
-from rotemina.app.microscope.known import Known
+from rotemina.app.microscope.optical_setup import OpticalSetup
 from rotemina.app.microscope.runs import Runs
-from rotemina.app.microscope.sight import Activity, FocusPlace
+from rotemina.app.microscope.status import Activity, FocusPlace
 from rotemina.app.microscope.tip_tracker import TipTracker
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.cameras.camera import FocusDrive
@@ -34,7 +34,7 @@ class Adjustments:
     ----------
     session : MotionSession
     camera : CameraInUse
-    known : Known
+    setup : OpticalSetup
     tracker : TipTracker
     runs : Runs
     clock : callable
@@ -46,13 +46,13 @@ class Adjustments:
         self,
         session: MotionSession,
         camera: CameraInUse,
-        known: Known,
+        setup: OpticalSetup,
         tracker: TipTracker,
         runs: Runs,
         clock: Clock,
         told: Callable[[str], None],
     ) -> None:
-        self._session, self._camera, self._known = session, camera, known
+        self._session, self._camera, self._setup = session, camera, setup
         self._tracker, self._runs, self._clock, self._told = tracker, runs, clock, told
         #: The present ones, or the latest.
         self.calibrating: CalibrationRun | None = None
@@ -69,7 +69,7 @@ class Adjustments:
             if axis in axes:
                 low, high = axes[axis].range
                 places.append(FocusPlace(axis, command.get(axis), low, high))
-        kept = self._known.calibration
+        kept = self._setup.calibration
         focus = None if kept is None else kept.focus
         return tuple(
             FocusPlace(one.name, one.place, one.low, one.high, focus.sharpest, focus.uncertainty)
@@ -80,7 +80,7 @@ class Adjustments:
 
     def calibrate(self, stage: str, *, whole_picture: bool) -> None:
         """Begin the calibration of a stage; raises as :class:`CalibrationRun`, `Runs.begin`."""
-        pipette, known = (None, True) if whole_picture else self._known.pipette()
+        pipette, known = (None, True) if whole_picture else self._setup.pipette()
 
         def make() -> CalibrationRun:
             self.calibrating = CalibrationRun(
@@ -160,10 +160,10 @@ class Adjustments:
         if run is None or frame is None or run.status.phase is not Phase.DONE:
             return
         if run.pipette is not None:
-            self._known.learn_direction(run.pipette.direction)
+            self._setup.learn_direction(run.pipette.direction)
         found = run.status.calibration
         assert found is not None
-        self._keep(lambda: self._known.keep_stage(stage, found, frame.region))
+        self._keep(lambda: self._setup.keep_stage(stage, found, frame.region))
 
     def _focused(self, name: str) -> None:
         run, frame = self.focusing, self._camera.newest
@@ -177,7 +177,7 @@ class Adjustments:
             sharpest=peak.place,
             uncertainty=peak.uncertainty,
         )
-        self._keep(lambda: self._known.keep_focus(found, frame.region))
+        self._keep(lambda: self._setup.keep_focus(found, frame.region))
 
     def _keep(self, keep: Callable[[], None]) -> None:
         try:

@@ -13,11 +13,11 @@ from rotemina.app.microscope.camera_memory import CameraMemory
 from rotemina.app.microscope.click_to_move import PlannedMove
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.frame_recording import FrameRecording
-from rotemina.app.microscope.known import Known
+from rotemina.app.microscope.optical_setup import OpticalSetup
 from rotemina.app.microscope.picture_jobs import PictureJobs
 from rotemina.app.microscope.runs import Runs
-from rotemina.app.microscope.sight import Activity, Sight, TipState
-from rotemina.app.microscope.sight_of import sight_of
+from rotemina.app.microscope.status import Activity, MicroscopeStatus, TipState
+from rotemina.app.microscope.status_builder import build_status
 from rotemina.app.microscope.tip_tracker import Pressing, TipTracker
 from rotemina.app.microscope.visits import Visits
 from rotemina.app.motion.penetration.status import Phase as PenetrationPhase
@@ -50,7 +50,7 @@ class Microscope:
     """What a panel holds; every method may be called from any thread and never waits.
 
     A method raises InputError where what is asked can be refused at once; what goes wrong later is
-    in :attr:`sight`.
+    in :attr:`status`.
 
     Parameters
     ----------
@@ -93,20 +93,20 @@ class Microscope:
         made = feed_of or (lambda camera: CameraFeed(camera, clock=clock))
         memory = CameraMemory(settings)
         self.camera = CameraInUse(hub, lambda: session.driver, made, memory)
-        self.known = Known(session, folder / FOLDER, lambda: self.camera.camera)
-        self.recording = FrameRecording(recorder, lambda: self.known.calibration)
+        self.setup = OpticalSetup(session, folder / FOLDER, lambda: self.camera.camera)
+        self.recording = FrameRecording(recorder, self.setup.calibration)
         self.tracker = TipTracker(
             lambda: self.camera.view,
-            self.known.pipette,
-            self.known.expected,
+            self.setup.pipette,
+            self.setup.expected,
             self._pressing,
             self.recording.tip,
         )
         self.jobs = PictureJobs(lambda: self.camera.newest)
         self.runs = Runs(session, lambda: self.camera.view, lambda what: self.visits.doubt(what))
-        self.visits = Visits(session, self.camera, self.known, self.tracker, self.runs, clock)
+        self.visits = Visits(session, self.camera, self.setup, self.tracker, self.runs, clock)
         self.adjustments = Adjustments(
-            session, self.camera, self.known, self.tracker, self.runs, clock, told
+            session, self.camera, self.setup, self.tracker, self.runs, clock, told
         )
         self.measured: tuple[FloatArray, FloatArray] | None = None
         self._leave = self.camera.listen(self.recording.frame)
@@ -140,20 +140,20 @@ class Microscope:
     def keep(self, now_s: float) -> None:
         """Mind cameras, calibrations and slow looks at pictures; may take a while."""
         self.camera.step(now_s)
-        self.known.step()
+        self.setup.step()
         self.jobs.step(now_s)
         track = self.tracker.tracked.track
         if track is not None:
-            self.known.learn_direction(track.pipette.direction)
+            self.setup.learn_direction(track.pipette.direction)
 
     @property
-    def sight(self) -> Sight:
+    def status(self) -> MicroscopeStatus:
         """All that a view shows now; to be read once a frame, while somebody looks at it.
 
         Cameras are looked for from the first time on.
         """
         self.camera.watched = True
-        return sight_of(self)
+        return build_status(self)
 
     # --- camera -----------------------------------------------------------------------------------
 
@@ -191,7 +191,7 @@ class Microscope:
         """Say which objective is in; raises MicroscopeError without a name, or in a run."""
         self._refuse_under_way()
         self.visits.planned = None
-        self.known.choose_objective(name)
+        self.setup.choose_objective(name)
 
     # --- what moves; one at a time ----------------------------------------------------------------
 
@@ -309,7 +309,7 @@ class Microscope:
 
     def outline_cell(self, near: FloatArray) -> None:
         """Look for the outline of the cell about ``near`` (2,), px."""
-        self.jobs.outline(np.asarray(near, dtype=np.float64), self.known.pixel_m)
+        self.jobs.outline(np.asarray(near, dtype=np.float64), self.setup.pixel_m)
 
     def forget_cell(self) -> None:
         """Show no outline any more."""

@@ -6,9 +6,9 @@ from rotemina.app.microscope.camera_in_use import CameraInUse
 from rotemina.app.microscope.click_run import ClickRun
 from rotemina.app.microscope.click_to_move import ClickToMove, PlannedMove
 from rotemina.app.microscope.errors import MicroscopeError
-from rotemina.app.microscope.known import Known
+from rotemina.app.microscope.optical_setup import OpticalSetup
 from rotemina.app.microscope.runs import Runs
-from rotemina.app.microscope.sight import Activity
+from rotemina.app.microscope.status import Activity
 from rotemina.app.microscope.targets import Tour
 from rotemina.app.microscope.tip_tracker import TipTracker
 from rotemina.app.motion.session import MotionSession
@@ -28,7 +28,7 @@ class Visits:
     ----------
     session : MotionSession
     camera : CameraInUse
-    known : Known
+    setup : OpticalSetup
     tracker : TipTracker
     runs : Runs
     clock : callable
@@ -38,12 +38,12 @@ class Visits:
         self,
         session: MotionSession,
         camera: CameraInUse,
-        known: Known,
+        setup: OpticalSetup,
         tracker: TipTracker,
         runs: Runs,
         clock: Clock,
     ) -> None:
-        self._session, self._camera, self._known = session, camera, known
+        self._session, self._camera, self._setup = session, camera, setup
         self._tracker, self._runs, self._clock = tracker, runs, clock
         self.planned: PlannedMove | None = None
         #: The present visit, or the latest one.
@@ -109,7 +109,7 @@ class Visits:
 
     def _clicks(self) -> ClickToMove:
         try:
-            return ClickToMove(self._session, self._known.calibration)
+            return ClickToMove(self._session, self._setup.calibration)
         except ChainError as error:
             raise MicroscopeError(f"no tip can be moved by a click: {error}") from error
 

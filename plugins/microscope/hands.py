@@ -6,7 +6,7 @@ import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from rotemina.app.microscope.microscope import Microscope
-from rotemina.app.microscope.sight import Sight
+from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.pending import Pending
@@ -52,21 +52,23 @@ class Hands(QObject):
             self._view.set_hand(hand)
             self.changed.emit()
 
-    def against(self, sight: Sight, state: SessionState) -> dict[Hand, str | None]:
+    def against(self, status: MicroscopeStatus, state: SessionState) -> dict[Hand, str | None]:
         """Return why a mode cannot be switched on now; one that is on can be switched off."""
         none = (
-            None if sight.feed.frame is not None else translate("microscope", "there is no picture")
+            None
+            if status.feed.frame is not None
+            else translate("microscope", "there is no picture")
         )
         reasons = dict.fromkeys(Hand, none)
-        reasons[Hand.MOVE] = against_clicking(sight, state)
+        reasons[Hand.MOVE] = against_clicking(status, state)
         reasons[self._view.hand] = None
         return reasons
 
-    def refresh(self, sight: Sight) -> None:
+    def refresh(self, status: MicroscopeStatus) -> None:
         """End the mode Move where somebody has stopped, or the picture is not live any more."""
         before, self._permit = self._permit, self._workbench.session.permit()
         stopped = before.epoch != self._permit.epoch
-        doubtful = against_aiming(sight) is not None
+        doubtful = against_aiming(status) is not None
         if stopped or (doubtful and self._planned.what):
             self._forget()
         if self._view.hand is Hand.MOVE and (stopped or doubtful):
@@ -75,7 +77,7 @@ class Hands(QObject):
     def visit_next(self) -> None:
         """Go to the first target that was not visited; a large move is asked about first."""
         microscope = self._microscope
-        targets = microscope.sight.targets
+        targets = microscope.status.targets
         target = next((one for one in targets if one.visit is None), None)
         if target is not None and self._plan(target.column, target.row):
             self._go(microscope.visit_next)
@@ -136,13 +138,13 @@ class Hands(QObject):
 
     def _go(self, go: Callable[..., object]) -> None:
         """Make the planned move, or ask first."""
-        sight = self._microscope.sight
-        if sight.planned is None or not self._may_move():
+        status = self._microscope.status
+        if status.planned is None or not self._may_move():
             self._forget()
-        elif sight.planned.confirm:
+        elif status.planned.confirm:
             self._asked = go
             self.asks.emit(
-                translate("microscope", "Move the tip {how}?").format(how=ghost_text(sight))
+                translate("microscope", "Move the tip {how}?").format(how=ghost_text(status))
             )
         else:
             self._make(lambda permit: go(permit=permit))
@@ -157,7 +159,7 @@ class Hands(QObject):
 
     def _may_move(self) -> bool:
         """Tell whether the machine may move by this picture, and say why not."""
-        why = against_clicking(self._microscope.sight, self._workbench.session.snapshot())
+        why = against_clicking(self._microscope.status, self._workbench.session.snapshot())
         if why is not None:
             self._workbench.refused.emit(
                 translate("microscope", "nothing is moved: {why}").format(why=why)
@@ -167,5 +169,5 @@ class Hands(QObject):
     def _forget(self) -> None:
         self.asks.emit("")
         self._planned.withdraw()
-        if self._microscope.sight.planned is not None:
+        if self._microscope.status.planned is not None:
             self._microscope.cancel_plan()

@@ -8,7 +8,7 @@ from rotemina.app.cameras.snapshot import Circumstances, program, write_png, wri
 from rotemina.app.cameras.video import Video, VideoStatus
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.microscope import Microscope
-from rotemina.app.microscope.sight import Sight
+from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.motion.recording.session_recorder import SessionRecorder
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.language import translate
@@ -19,15 +19,15 @@ STAMP = "%Y-%m-%d_%H-%M-%S-%f"
 
 
 def circumstances(
-    sight: Sight, state: SessionState, now: datetime, recording: str = ""
+    status: MicroscopeStatus, state: SessionState, now: datetime, recording: str = ""
 ) -> Circumstances:
     """Return what is known beside a picture at this moment."""
     return Circumstances(
         taken=now.isoformat(timespec="milliseconds"),
-        camera="" if sight.camera is None else f"{sight.camera.name} ({sight.camera.key})",
-        objective=sight.objective,
-        gain=sight.feed.settings.gain,
-        pixel_m=sight.pixel_m,
+        camera="" if status.camera is None else f"{status.camera.name} ({status.camera.key})",
+        objective=status.objective,
+        gain=status.feed.settings.gain,
+        pixel_m=status.pixel_m,
         command=dict(state.command),
         measured=dict(state.measured),
         recording=recording,
@@ -95,7 +95,9 @@ class Filming:
         """How the present film does; None: there is none."""
         return None if self.video is None else self.video.status
 
-    def begin(self, sight: Sight, state: SessionState, recorder: SessionRecorder | None) -> Path:
+    def begin(
+        self, status: MicroscopeStatus, state: SessionState, recorder: SessionRecorder | None
+    ) -> Path:
         """Begin a film, and return into which file.
 
         Raises
@@ -109,7 +111,7 @@ class Filming:
             raise MicroscopeError(
                 translate("microscope", "a video is being recorded; end it first")
             )
-        frame = sight.feed.frame
+        frame = status.feed.frame
         if frame is None:
             raise MicroscopeError(
                 translate("microscope", "there is no picture to record; open a camera first")
@@ -118,7 +120,7 @@ class Filming:
         recording = "" if recorder is None else recorder.writer.path.name
         name = now.strftime(STAMP) if recorder is None else recorder.writer.path.stem
         path = _free(self._folder, name)
-        about = circumstances(sight, state, now, recording)
+        about = circumstances(status, state, now, recording)
         facts = {
             "program": program(),
             "taken": about.taken,
@@ -129,7 +131,7 @@ class Filming:
             "recording": about.recording,
             "recording_began_s": None if recorder is None else recorder.writer.began_s,
         }
-        video = Video(path, facts, pixel_m=sight.pixel_m, tell=self._tell)
+        video = Video(path, facts, pixel_m=status.pixel_m, tell=self._tell)
         video.start()
         self._leave = self._microscope.listen(video.take)
         self.video = video

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QCheckBox
 
 from rotemina.app.cameras.video import VideoStatus
 from rotemina.app.microscope.microscope import Microscope
-from rotemina.app.microscope.sight import Sight
+from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import translate
@@ -60,7 +60,7 @@ class KeepingSection(Section):
         self._where.setText(
             translate("microscope", "Files go to pictures and videos in {data}.").format(data=data)
         )
-        self._sight, self._state = Sight(), workbench.session.snapshot()
+        self._status, self._state = MicroscopeStatus(), workbench.session.snapshot()
         workbench.closing.connect(self._close)
 
     @property
@@ -69,25 +69,25 @@ class KeepingSection(Section):
         filming, recorder = self.filming, self._workbench.operation.recording
         return filming.video is not None or (filming.follows and recorder is not None)
 
-    def refresh(self, sight: Sight, state: SessionState) -> None:
+    def refresh(self, status: MicroscopeStatus, state: SessionState) -> None:
         """Show how a film does, and follow the recording."""
-        self._sight, self._state = sight, state
+        self._status, self._state = status, state
         due = self.filming.due(self._workbench.operation.recording)
         if due is True:
             self._begin()
         elif due is False:
             self._end()
-        status = self.filming.status
-        if status is not None and status.failure:
+        video = self.filming.status
+        if video is not None and video.failure:
             self._end()
-            status = None
-        none = translate("microscope", "there is no picture") if sight.feed.frame is None else None
+            video = None
+        none = translate("microscope", "there is no picture") if status.feed.frame is None else None
         allow(
             self.snapshot,
             none,
             translate("microscope", "Keep this picture: its numbers as TIFF, what is seen as PNG"),
         )
-        on = status is not None
+        on = video is not None
         self.record.setText(
             translate("microscope", "■ End video") if on else translate("microscope", "● Video")
         )
@@ -97,7 +97,7 @@ class KeepingSection(Section):
             else translate("microscope", "Record every picture, with its time, as a BigTIFF")
         )
         allow(self.record, None if on else none, tip)
-        show_text(self.said, progress(status) if status is not None else "")
+        show_text(self.said, progress(video) if video is not None else "")
 
     def _snap(self) -> None:
         frame = self._view.frame
@@ -106,7 +106,7 @@ class KeepingSection(Section):
         now = datetime.now().astimezone()
         recorder = self._workbench.operation.recording
         recording = "" if recorder is None else recorder.writer.path.name
-        about = circumstances(self._sight, self._state, now, recording)
+        about = circumstances(self._status, self._state, now, recording)
         contrast, name = self._view.contrast, now.strftime(STAMP)
 
         def done(paths: tuple[object, object]) -> None:
@@ -132,7 +132,7 @@ class KeepingSection(Section):
 
     def _begin(self) -> None:
         recorder = self._workbench.operation.recording
-        self._workbench.ask(lambda: self.filming.begin(self._sight, self._state, recorder))
+        self._workbench.ask(lambda: self.filming.begin(self._status, self._state, recorder))
 
     def _end(self) -> None:
         video = self.filming.end()

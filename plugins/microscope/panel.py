@@ -12,7 +12,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.microscope.sight import Sight
+from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.controls import ElidedLabel
@@ -71,17 +71,17 @@ class MicroscopePanel(Panel):
     def refresh(self, state: SessionState) -> None:
         """Show this moment of the microscope."""
         if not (self.isVisible() or self.keeping.needed):
-            return  # whoever reads the sight has a camera work
-        sight = self.microscope.sight
-        self.hands.refresh(sight)
-        self.keeping.refresh(sight, state)  # a video goes on while nobody looks
+            return  # reading the status keeps a camera working
+        status = self.microscope.status
+        self.hands.refresh(status)
+        self.keeping.refresh(status, state)  # a video goes on while nobody looks
         if not self.isVisible():
             return
-        self._show(sight)
-        self.bar.refresh(self.hands.against(sight, state))
+        self._show(status)
+        self.bar.refresh(self.hands.against(status, state))
         page = self.bar.tools.currentIndex()
         if page < len(self._refreshing):
-            self._refreshing[page](sight, state)
+            self._refreshing[page](status, state)
 
     # --- parts ------------------------------------------------------------------------------------
 
@@ -106,15 +106,15 @@ class MicroscopePanel(Panel):
             (self.tip, self.cell, self.focus),
             (self.keeping,),
         )
-        self._refreshing: tuple[Callable[[Sight, SessionState], None], ...] = (
-            lambda sight, _: (self.camera.refresh(sight), self.settings.refresh(sight)),
-            lambda sight, _: self.picture.refresh(sight),
+        self._refreshing: tuple[Callable[[MicroscopeStatus, SessionState], None], ...] = (
+            lambda status, _: (self.camera.refresh(status), self.settings.refresh(status)),
+            lambda status, _: self.picture.refresh(status),
             self.calibration.refresh,
             lambda *now: (self.move.refresh(*now), self.targets.refresh(*now)),
-            lambda sight, state: (
-                self.tip.refresh(sight),
-                self.cell.refresh(sight),
-                self.focus.refresh(sight, state),
+            lambda status, state: (
+                self.tip.refresh(status),
+                self.cell.refresh(status),
+                self.focus.refresh(status, state),
             ),
             lambda *_: None,
         )
@@ -166,15 +166,15 @@ class MicroscopePanel(Panel):
         """Show the newest picture, whichever it is by now."""
         self._awaited = False
         if self.isVisible():
-            self._show(self.microscope.sight)
+            self._show(self.microscope.status)
 
-    def _show(self, sight: Sight) -> None:
-        self.view.show_sight(sight)
+    def _show(self, status: MicroscopeStatus) -> None:
+        self.view.show_status(status)
         self._show_readout()
 
     def _show_readout(self) -> None:
-        sight, hand = self.view.sight, self.view.hand
-        said = cursor_text(sight, self.view.cursor_at)
+        status, hand = self.view.status, self.view.hand
+        said = cursor_text(status, self.view.cursor_at)
         mode = ""
         if hand is not Hand.PAN:
             mode = translate("microscope", "{mode}: Esc ends it   ").format(mode=spoken(hand))

@@ -19,7 +19,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from rotemina.app.microscope.sight import Sight
+from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.drivers.cameras.frame import Frame, Region
@@ -47,7 +47,7 @@ class Hand(StrEnum):
 
 
 class PictureView(QWidget):
-    """Shows a :class:`Sight`; it keeps only the newest, and paints when Qt has time.
+    """Shows a :class:`MicroscopeStatus`; it keeps only the newest, and paints when Qt has time.
 
     Signals
     -------
@@ -68,7 +68,7 @@ class PictureView(QWidget):
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
-        self.sight = Sight()
+        self.status = MicroscopeStatus()
         self.viewport = Viewport()
         self.contrast = Contrast()
         self.span = (0.0, 1.0)
@@ -94,12 +94,12 @@ class PictureView(QWidget):
     @property
     def frame(self) -> Frame | None:
         """The newest picture."""
-        return self.sight.feed.frame
+        return self.status.feed.frame
 
-    def show_sight(self, sight: Sight) -> None:
+    def show_status(self, status: MicroscopeStatus) -> None:
         """Show another moment; one that was not painted yet is forgotten."""
         before = self.frame
-        self.sight = sight
+        self.status = status
         frame = self.frame
         if frame is not None and frame is not before:
             rows, columns = frame.pixels.shape[:2]
@@ -172,10 +172,10 @@ class PictureView(QWidget):
             if Layer.CROSSHAIR in self.layers:
                 painting.draw_crosshair(painter, self.viewport)
             painting.draw_shapes(painter, self.viewport, self._shapes())
-            zoom, sight = self.viewport.zoom, self.sight
-            bar = scale_bar(sight.pixel_m, sight.scale_source, zoom, area.width())
+            zoom, status = self.viewport.zoom, self.status
+            bar = scale_bar(status.pixel_m, status.scale_source, zoom, area.width())
             painting.draw_bar(painter, area, bar)
-        said = standing(self.sight.feed)
+        said = standing(self.status.feed)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painting.draw_standing(painter, area, said, self._theme)
         painting.draw_badge(painter, area, said, self._theme)
@@ -203,7 +203,7 @@ class PictureView(QWidget):
         painter.drawImage(QPointF(round(part.left), round(part.top)), self._image)
 
     def _shapes(self) -> list[Shape]:
-        found = shapes(self.sight, self.layers)
+        found = shapes(self.status, self.layers)
         if self.line is not None:
             found.append(Stroke(Look.MEASURE, np.array(self.line)))
         return found

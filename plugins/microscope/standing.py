@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from rotemina.app.cameras.feed import FeedState, FeedView
-from rotemina.app.microscope.sight import Activity, Sight, TipState
+from rotemina.app.microscope.status import Activity, MicroscopeStatus, TipState
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.language import marked, translate
 from rotemina.drivers.samples import DeviceState
@@ -93,23 +93,23 @@ def age(age_s: float | None) -> str:
     )
 
 
-def against_aiming(sight: Sight) -> str | None:
+def against_aiming(status: MicroscopeStatus) -> str | None:
     """Return why a place in the picture is no place to go to; None if it is."""
-    if sight.feed.state is not FeedState.LIVE or sight.feed.frame is None:
+    if status.feed.state is not FeedState.LIVE or status.feed.frame is None:
         return translate("microscope", "the picture is not live: {state}").format(
-            state=spoken(sight.feed.state)
+            state=spoken(status.feed.state)
         )
-    if sight.calibration is None:
-        return sight.calibration_problem or translate(
+    if status.calibration is None:
+        return status.calibration_problem or translate(
             "microscope", "this camera and objective are not calibrated yet"
         )
     return None
 
 
-def against_clicking(sight: Sight, state: SessionState) -> str | None:
+def against_clicking(status: MicroscopeStatus, state: SessionState) -> str | None:
     """Return why no click may move anything now; None if it may."""
-    why = against_aiming(sight) or against_moving(sight, state)
-    if why is None and sight.tip.state is not TipState.TRACKED:
+    why = against_aiming(status) or against_moving(status, state)
+    if why is None and status.tip.state is not TipState.TRACKED:
         why = translate(
             "microscope",
             "the tip is not tracked; click it with Tip, or switch tracking on under Vision",
@@ -117,15 +117,15 @@ def against_clicking(sight: Sight, state: SessionState) -> str | None:
     return why
 
 
-def against_moving(sight: Sight, state: SessionState) -> str | None:
+def against_moving(status: MicroscopeStatus, state: SessionState) -> str | None:
     """Return why nothing may be moved by the picture now; None if it may."""
-    if sight.feed.state is not FeedState.LIVE or sight.feed.frame is None:
+    if status.feed.state is not FeedState.LIVE or status.feed.frame is None:
         return translate("microscope", "the picture is not live: {state}").format(
-            state=spoken(sight.feed.state)
+            state=spoken(status.feed.state)
         )
-    if sight.activity is not Activity.NONE:
+    if status.activity is not Activity.NONE:
         return translate("microscope", "{activity} is under way").format(
-            activity=spoken(sight.activity)
+            activity=spoken(status.activity)
         )
     if state.locked is not None:
         return translate("microscope", "motion is locked: {locked}").format(

@@ -20,7 +20,7 @@ from rotemina.app.microscope.calibration_file import (
 from rotemina.app.microscope.calibration_run import CalibrationRun, Phase
 from rotemina.app.microscope.click_run import Visit
 from rotemina.app.microscope.microscope import Microscope
-from rotemina.app.microscope.sight import TipState
+from rotemina.app.microscope.status import TipState
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.cameras.hub import CameraHub
 from rotemina.drivers.cameras.simulated import SimulatedMicroscope
@@ -266,15 +266,15 @@ class Workplace:
 
     def look(self):
         """Have somebody look at the picture from now on."""
-        assert not self.microscope.sight.cameras
+        assert not self.microscope.status.cameras
         self.step(3)
 
     def until(self, done, most=2000):
         for _ in range(most):
             self.step()
-            if done(self.microscope.sight):
-                return self.microscope.sight
-        raise AssertionError(f"still {self.microscope.sight}")
+            if done(self.microscope.status):
+                return self.microscope.status
+        raise AssertionError(f"still {self.microscope.status}")
 
     @property
     def optics(self):
@@ -298,15 +298,15 @@ class Workplace:
             residual_px=0.05,
         )
         for name in (MICRO, NANO):
-            self.microscope.known.keep_stage(name, stage, self.feed.newest.region)
+            self.microscope.setup.keep_stage(name, stage, self.feed.newest.region)
 
     def tracking(self):
         """Track the tip, whose direction is roughly known."""
         body = self.optics.mapping @ np.array([1.0, 0.0, 0.0])
-        self.microscope.known.learn_direction(float(np.arctan2(body[1], body[0])) + 0.03)
+        self.microscope.setup.learn_direction(float(np.arctan2(body[1], body[0])) + 0.03)
         self.microscope.track(True)
         self.step(2)
-        assert self.microscope.sight.tip.state is TipState.TRACKED
+        assert self.microscope.status.tip.state is TipState.TRACKED
         return self
 
 

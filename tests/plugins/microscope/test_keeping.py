@@ -40,8 +40,8 @@ def recorder(name="session"):
 
 
 def test_a_snapshot_is_what_the_camera_gave_and_what_was_seen(microscope, tmp_path):
-    frame = microscope.sight.feed.frame
-    about = circumstances(microscope.sight, STATE, NOW, "a.arrows")
+    frame = microscope.status.feed.frame
+    about = circumstances(microscope.status, STATE, NOW, "a.arrows")
     contrast = Contrast(auto=False, table=Table.INVERTED)
     tiff, png = write_pictures(tmp_path / "pictures", frame, contrast, about, "one")
     with tifffile.TiffFile(tiff) as file:
@@ -49,7 +49,7 @@ def test_a_snapshot_is_what_the_camera_gave_and_what_was_seen(microscope, tmp_pa
         facts = json.loads(file.pages[0].description)
     assert facts["taken"] == "2026-03-04T05:06:07.890+00:00"
     assert (facts["camera"], facts["objective"]) == ("Fake (fake:0)", "20x")
-    assert facts["pixel_m"] == microscope.sight.pixel_m
+    assert facts["pixel_m"] == microscope.status.pixel_m
     assert (facts["command"], facts["measured"]) == ({"x": 0.01}, {"x": 0.0101})
     assert facts["recording"] == "a.arrows"
     with Image.open(png) as image:
@@ -62,10 +62,10 @@ def test_a_snapshot_is_what_the_camera_gave_and_what_was_seen(microscope, tmp_pa
 
 
 def test_a_film_has_every_picture_that_is_told_until_it_ends(microscope, filming, frame_of):
-    path = filming.begin(microscope.sight, STATE, None)
+    path = filming.begin(microscope.status, STATE, None)
     assert path.name == "2026-03-04_05-06-07-890000.tif"
     with pytest.raises(MicroscopeError, match="end it first"):
-        filming.begin(microscope.sight, STATE, None)
+        filming.begin(microscope.status, STATE, None)
     (tell,) = microscope.listeners
     for number in range(5):
         tell(frame_of(number))
@@ -82,20 +82,20 @@ def test_a_film_has_every_picture_that_is_told_until_it_ends(microscope, filming
         filming.end()
     microscope.feed(frame=None)
     with pytest.raises(MicroscopeError, match="no picture"):
-        filming.begin(microscope.sight, STATE, None)
+        filming.begin(microscope.status, STATE, None)
 
 
 def test_a_film_of_a_recording_says_so_and_so_does_the_recording(microscope, filming):
     running = recorder()
-    path = filming.begin(microscope.sight, STATE, running)
+    path = filming.begin(microscope.status, STATE, running)
     assert path.name == "session.tif"
     assert running.notes == ["video session.tif"]
-    microscope.listeners[0](microscope.sight.feed.frame)
+    microscope.listeners[0](microscope.status.feed.frame)
     filming.end().close()
     with tifffile.TiffFile(path) as file:
         facts = json.loads(file.pages[0].description)
     assert (facts["recording"], facts["recording_began_s"]) == ("session.arrows", 2.5)
-    assert filming.begin(microscope.sight, STATE, running).name == "session_2.tif"
+    assert filming.begin(microscope.status, STATE, running).name == "session_2.tif"
 
 
 def test_films_follow_recordings_where_that_is_wanted(microscope, filming):
@@ -103,12 +103,12 @@ def test_films_follow_recordings_where_that_is_wanted(microscope, filming):
     assert filming.due(first) is None  # nobody wants it
     filming.follows = True
     assert filming.due(first) is True
-    filming.begin(microscope.sight, STATE, first)
+    filming.begin(microscope.status, STATE, first)
     assert filming.due(first) is None
     assert filming.due(None) is False
     filming.end().close()
     assert filming.due(None) is None
-    filming.begin(microscope.sight, STATE, None)  # by hand: it goes on beside a recording
+    filming.begin(microscope.status, STATE, None)  # by hand: it goes on beside a recording
     assert filming.due(second) is None
     assert filming.due(second) is None
     assert filming.due(None) is None

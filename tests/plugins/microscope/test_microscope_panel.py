@@ -9,7 +9,7 @@ from PySide6.QtCore import QPointF, Qt
 
 from rotemina.app.cameras.feed import FeedState
 from rotemina.app.microscope.click_run import Visit
-from rotemina.app.microscope.sight import Activity, ScaleSource, TipState
+from rotemina.app.microscope.status import Activity, ScaleSource, TipState
 from rotemina.plugins.microscope.picture_view import Hand
 from rotemina.sim.kinematics.chain import Chain
 from rotemina.sim.kinematics.forward import tip_position
@@ -28,7 +28,7 @@ def open_camera(qtbot, window):
     panel, microscope = shown(window), window.workbench.microscope
     # The simulated microscope is opened by itself, where nobody has chosen a camera.
     qtbot.waitUntil(lambda: panel.view.frame is not None, timeout=LONG_MS)
-    qtbot.waitUntil(lambda: microscope.sight.feed.state is FeedState.LIVE, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: microscope.status.feed.state is FeedState.LIVE, timeout=LONG_MS)
     return panel, microscope
 
 
@@ -72,19 +72,19 @@ def test_calibrate_click_and_the_true_tip_is_there(qtbot, window):
     panel.bar.tools.setCurrentText("Calibrate")
     qtbot.waitUntil(panel.calibration.micro.isEnabled, timeout=LONG_MS)
     qtbot.mouseClick(panel.calibration.micro, LEFT)
-    qtbot.waitUntil(lambda: microscope.sight.activity is Activity.CALIBRATION, timeout=LONG_MS)
-    qtbot.waitUntil(lambda: microscope.sight.activity is Activity.NONE, timeout=LONG_MS)
-    qtbot.waitUntil(lambda: microscope.sight.calibration is not None, timeout=LONG_MS)
-    assert microscope.sight.scale_source is ScaleSource.CALIBRATION
+    qtbot.waitUntil(lambda: microscope.status.activity is Activity.CALIBRATION, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: microscope.status.activity is Activity.NONE, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: microscope.status.calibration is not None, timeout=LONG_MS)
+    assert microscope.status.scale_source is ScaleSource.CALIBRATION
     panel.bar.tools.setCurrentText("Vision")
     qtbot.waitUntil(panel.tip.track.isVisible, timeout=LONG_MS)
-    qtbot.waitUntil(lambda: microscope.sight.tip.state is TipState.TRACKED, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: microscope.status.tip.state is TipState.TRACKED, timeout=LONG_MS)
 
     move = panel.bar.buttons[Hand.MOVE]
     qtbot.waitUntil(move.isEnabled, timeout=LONG_MS)
     qtbot.mouseClick(move, LEFT)
     assert panel.view.hand is Hand.MOVE
-    goal = microscope.sight.tip.pixel + np.array([60.0, -40.0])
+    goal = microscope.status.tip.pixel + np.array([60.0, -40.0])
     view = panel.view
     view._view(view.viewport.zoomed(8.0, view.viewport.to_screen(*goal)))  # to click finely
     place = QPointF(*view.viewport.to_screen(*goal)).toPoint()
@@ -92,12 +92,12 @@ def test_calibrate_click_and_the_true_tip_is_there(qtbot, window):
     qtbot.mouseClick(view, LEFT, pos=place)
     qtbot.waitUntil(
         lambda: (
-            microscope.sight.visiting is not None
-            and microscope.sight.visiting.visit is not Visit.UNDER_WAY
+            microscope.status.visiting is not None
+            and microscope.status.visiting.visit is not Visit.UNDER_WAY
         ),
         timeout=LONG_MS,
     )
-    assert microscope.sight.visiting.visit is Visit.ARRIVED, microscope.sight.visiting.reason
+    assert microscope.status.visiting.visit is Visit.ARRIVED, microscope.status.visiting.reason
     chain = Chain.of(session.robot)
     true = tip_position(chain, chain.joints_of(np.array(session.driver.true_positions)))
     seen = microscope.camera.camera.scene.optics.pixel_of(true)

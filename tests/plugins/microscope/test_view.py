@@ -7,7 +7,7 @@ from PySide6.QtGui import QColor, QWheelEvent
 
 from rotemina.app.cameras.feed import FeedState
 from rotemina.app.microscope.errors import MicroscopeError
-from rotemina.app.microscope.sight import TipSeen, TipState
+from rotemina.app.microscope.status import TipSeen, TipState
 from rotemina.app.microscope.targets import Target
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.requests import Requests
@@ -29,7 +29,7 @@ def view(qtbot, microscope):
     made = PictureView(DARK)
     qtbot.addWidget(made)
     made.resize(260, 206)  # two screen pixels a pixel
-    made.show_sight(microscope.sight)
+    made.show_status(microscope.status)
     made.show()
     return made
 
@@ -83,13 +83,13 @@ def test_the_newest_picture_is_painted_where_it_belongs(qtbot, view, microscope)
     view.set_contrast(Contrast(auto=False))
     with qtbot.waitSignal(view.painted, check_params_cb=lambda frame: frame is taken):
         microscope.feed(frame=taken)
-        view.show_sight(microscope.sight)
+        view.show_status(microscope.status)
     image = view.grab().toImage()
     for column, row, level in ((31, 41, 255), (49, 59, 255), (29, 50, 0), (51, 50, 0), (40, 39, 0)):
         place = at(view, column, row)
         assert QColor(image.pixel(place.x(), place.y())).red() == level
     microscope.feed(state=FeedState.FROZEN, reason="the same again")
-    view.show_sight(microscope.sight)
+    view.show_status(microscope.status)
     veiled = view.grab().toImage()
     corner = QPoint(250, 200)
     assert QColor(image.pixel(corner)).red() == 0
@@ -151,7 +151,7 @@ def test_nothing_moves_unless_the_mode_is_on(qtbot, view, microscope, hands):
 def test_a_click_plans_shows_and_goes_and_a_drag_follows(qtbot, view, microscope, hands):
     hands.choose(Hand.MOVE)
     qtbot.mousePress(view, LEFT, pos=at(view, 80, 40))
-    assert microscope.sight.planned is not None  # the ghost, before anything has moved
+    assert microscope.status.planned is not None  # the ghost, before anything has moved
     assert names(microscope) == ["plan"]
     qtbot.mouseMove(view, at(view, 90, 45))
     qtbot.mouseRelease(view, LEFT, pos=at(view, 90, 45))
@@ -190,9 +190,9 @@ def test_what_ends_the_mode_forgets_the_move(qtbot, view, microscope, hands, ses
         microscope.feed(state=FeedState.FROZEN)
     else:
         hands.choose(Hand.PAN)
-    hands.refresh(microscope.sight)
+    hands.refresh(microscope.status)
     assert view.hand is Hand.PAN
-    assert microscope.sight.planned is None
+    assert microscope.status.planned is None
     assert hands.asked[-1] == ""
     hands.answer(True)
     assert "go" not in names(microscope)
@@ -207,7 +207,7 @@ def test_what_speaks_against_a_move_is_said_and_nothing_is_planned(
     assert names(microscope) == []
     assert "nothing is moved: the tip is not tracked" in hands.said[-1]
     hands.choose(Hand.MARK)
-    against = hands.against(microscope.sight, session.state)
+    against = hands.against(microscope.status, session.state)
     assert "tip is not tracked" in against[Hand.MOVE]
     assert against[Hand.MARK] is None
     hands.choose(Hand.MOVE)

@@ -18,7 +18,7 @@ from rotemina.app.microscope.calibration_file import (
 from rotemina.app.microscope.camera_in_use import SIMULATED
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.optics import as_simulated, nominal_pixel_m, objective_of, pipette_of
-from rotemina.app.microscope.sight import ScaleSource
+from rotemina.app.microscope.status import ScaleSource
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.cameras.camera import Camera
 from rotemina.drivers.cameras.frame import Region
@@ -31,7 +31,7 @@ from rotemina.sim.vision.pipette import Pipette
 _EDGE = 9  # places along each side of the nano stage's field
 
 
-class Known:
+class OpticalSetup:
     """Reads and keeps calibrations; one for each camera behind each objective.
 
     Parameters

@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rotemina.app.microscope.measurements import tip_in_plane
-from rotemina.app.microscope.sight import (
+from rotemina.app.microscope.status import (
     CellSeen,
     Measured,
-    Sight,
+    MicroscopeStatus,
     TipSeen,
 )
 from rotemina.app.microscope.tip_tracker import Tracked
@@ -19,23 +19,23 @@ if TYPE_CHECKING:
     from rotemina.app.microscope.microscope import Microscope
 
 
-def sight_of(microscope: "Microscope") -> Sight:
+def build_status(microscope: "Microscope") -> MicroscopeStatus:
     """Return this moment."""
-    known, tracked = microscope.known, microscope.tracker.tracked
+    setup, tracked = microscope.setup, microscope.tracker.tracked
     view, camera = microscope.camera.view, microscope.camera.camera
-    pixel_m, source = known.scale
+    pixel_m, source = setup.scale
     visits, adjustments = microscope.visits, microscope.adjustments
     calibrating, focusing = adjustments.calibrating, adjustments.focusing
     tip = microscope.tracker.tip
-    return Sight(
+    return MicroscopeStatus(
         cameras=microscope.camera.cameras,
         camera_problems=microscope.camera.problems,
         camera=None if camera is None else camera.identity,
         feed=view,
-        objective=known.objective,
-        objectives=known.objectives,
-        calibration=known.calibration,
-        calibration_problem=known.problem,
+        objective=setup.objective,
+        objectives=setup.objectives,
+        calibration=setup.calibration,
+        calibration_problem=setup.problem,
         pixel_m=pixel_m,
         scale_source=source,
         activity=microscope.runs.activity,
@@ -49,12 +49,12 @@ def sight_of(microscope: "Microscope") -> Sight:
         cell=_cell(microscope, tip, pixel_m),
         measured=_measured(microscope, tip, pixel_m),
         targets=tuple(visits.tour.targets),
-        nano_limits=known.nano_limits(None if tip is None else tip.pixel),
+        nano_limits=setup.nano_limits(None if tip is None else tip.pixel),
         focus_places=adjustments.focus_places,
         drift=microscope.jobs.drift,
         background=tracked.ground,
-        frames_looked_at=tracked.looked_at,
-        frames_passed_over=tracked.passed_over,
+        frames_processed=tracked.processed,
+        frames_skipped=tracked.skipped,
         truth=microscope.camera.truth,
     )
 
@@ -66,7 +66,7 @@ def _tip(microscope: "Microscope", tracked: Tracked) -> TipSeen:
     if track is None:
         return TipSeen(tracked.state, reason=tracked.reason, frame_number=number, host_time_s=at_s)
     place = sigma = None
-    kept = microscope.known.calibration
+    kept = microscope.setup.calibration
     if kept is not None and kept.micro is not None:
         place, spread = tip_in_plane(track.pixel, track.covariance, kept.micro)
         sigma = np.sqrt(np.diag(spread))

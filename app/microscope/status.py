@@ -161,7 +161,7 @@ class DriftSeen:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Sight:
+class MicroscopeStatus:
     """All that a view shows. Pixels are (column, row) of the picture in ``feed``.
 
     Attributes
@@ -202,7 +202,7 @@ class Sight:
     drift : DriftSeen
     background : bool
         Whether tracking has a picture of what lies beneath the tip.
-    frames_looked_at, frames_passed_over : int
+    frames_processed, frames_skipped : int
         By the tracker since it was switched on: it takes the newest one, and never a backlog.
     truth : str
         Why the simulated microscope cannot show this machine; empty where it can, or is not used.
@@ -233,6 +233,6 @@ class Sight:
     focus_places: tuple[FocusPlace, ...] = ()
     drift: DriftSeen = field(default_factory=DriftSeen)
     background: bool = False
-    frames_looked_at: int = 0
-    frames_passed_over: int = 0
+    frames_processed: int = 0
+    frames_skipped: int = 0
     truth: str = ""
