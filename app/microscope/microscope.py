@@ -18,8 +18,8 @@ from rotemina.app.microscope.picture_jobs import PictureJobs
 from rotemina.app.microscope.runs import Runs
 from rotemina.app.microscope.status import Activity, MicroscopeStatus, TipState
 from rotemina.app.microscope.status_builder import build_status
+from rotemina.app.microscope.tip_positioning import TipPositioning
 from rotemina.app.microscope.tip_tracker import Pressing, TipTracker
-from rotemina.app.microscope.visits import Visits
 from rotemina.app.motion.penetration.status import Phase as PenetrationPhase
 from rotemina.app.motion.recording.session_recorder import SessionRecorder
 from rotemina.app.motion.session import MotionSession
@@ -94,7 +94,7 @@ class Microscope:
         memory = CameraMemory(settings)
         self.camera = CameraInUse(hub, lambda: session.driver, made, memory)
         self.setup = OpticalSetup(session, folder / FOLDER, lambda: self.camera.camera)
-        self.recording = FrameRecording(recorder, self.setup.calibration)
+        self.recording = FrameRecording(recorder, lambda: self.setup.calibration)
         self.tracker = TipTracker(
             lambda: self.camera.view,
             self.setup.pipette,
@@ -103,8 +103,12 @@ class Microscope:
             self.recording.tip,
         )
         self.jobs = PictureJobs(lambda: self.camera.newest)
-        self.runs = Runs(session, lambda: self.camera.view, lambda what: self.visits.doubt(what))
-        self.visits = Visits(session, self.camera, self.setup, self.tracker, self.runs, clock)
+        self.runs = Runs(
+            session, lambda: self.camera.view, lambda what: self.positioning.doubt(what)
+        )
+        self.positioning = TipPositioning(
+            session, self.camera, self.setup, self.tracker, self.runs, clock
+        )
         self.adjustments = Adjustments(
             session, self.camera, self.setup, self.tracker, self.runs, clock, told
         )
@@ -190,7 +194,7 @@ class Microscope:
     def choose_objective(self, name: str) -> None:
         """Say which objective is in; raises MicroscopeError without a name, or in a run."""
         self._refuse_under_way()
-        self.visits.planned = None
+        self.positioning.planned = None
         self.setup.choose_objective(name)
 
     # --- what moves; one at a time ----------------------------------------------------------------
@@ -241,11 +245,11 @@ class Microscope:
         InputError
             As :meth:`ClickToMove.plan`.
         """
-        return self.visits.plan(pixel, stage)
+        return self.positioning.plan(pixel, stage)
 
     def cancel_plan(self) -> None:
         """Forget the planned move."""
-        self.visits.planned = None
+        self.positioning.planned = None
 
     def go(self, *, confirmed: bool = False, permit: Permit | None = None) -> None:
         """Make the planned move, look, and correct until the tip is there.
@@ -259,7 +263,7 @@ class Microscope:
         InputError
             As :meth:`ClickToMove.go` and :meth:`Runs.begin`.
         """
-        self.visits.go(confirmed=confirmed, permit=permit or self.session.permit())
+        self.positioning.go(confirmed=confirmed, permit=permit or self.session.permit())
 
     def go_back(self) -> None:
         """Return to where the machine rested before its latest move; raises as ``undo``."""
@@ -275,15 +279,15 @@ class Microscope:
 
     def mark_target(self, pixel: FloatArray) -> None:
         """Add a target behind the others."""
-        self.visits.tour.mark(np.asarray(pixel, dtype=np.float64))
+        self.positioning.sequence.mark(np.asarray(pixel, dtype=np.float64))
 
     def remove_target(self, index: int) -> None:
         """Forget a target; raises MicroscopeError if there is none such, or on the way to one."""
-        self.visits.tour.remove(index)
+        self.positioning.sequence.remove(index)
 
     def clear_targets(self) -> None:
         """Forget all targets; raises MicroscopeError on the way to one."""
-        self.visits.tour.clear()
+        self.positioning.sequence.clear()
 
     def visit_next(self, *, confirmed: bool = False, permit: Permit | None = None) -> None:
         """Go to the next target; ``permit`` as in :meth:`go`.
@@ -295,7 +299,7 @@ class Microscope:
         InputError
             As :meth:`go`.
         """
-        self.visits.next(confirmed=confirmed, permit=permit or self.session.permit())
+        self.positioning.next(confirmed=confirmed, permit=permit or self.session.permit())
 
     # --- vision -----------------------------------------------------------------------------------
 

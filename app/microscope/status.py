@@ -23,7 +23,7 @@ class Activity(StrEnum):
     NONE = "none"
     CALIBRATION = "calibration"
     CLICK = "click"
-    TOUR = "visit of a target"
+    TARGETS = "visit of a target"
     AUTOFOCUS = "autofocus"
 
 
@@ -128,14 +128,14 @@ class Measured:
 
 
 @dataclass(frozen=True, slots=True)
-class FocusPlace:
+class FocusAxis:
     """Something that can be focused with: the microscope's drive, or an axis of the machine.
 
     Attributes
     ----------
     name : str
         ``focus`` for the drive, else the axis.
-    place : float or None
+    position : float or None
         m.
     low, high : float
         How far it goes, m.
@@ -144,7 +144,7 @@ class FocusPlace:
     """
 
     name: str
-    place: float | None
+    position: float | None
     low: float
     high: float
     sharpest: float | None = None
@@ -198,7 +198,7 @@ class MicroscopeStatus:
     targets : tuple of Target
     nano_limits : (n, 2) or None
         Closed polygon of where the nano stage can bring the tip, px; None without calibration.
-    focus_places : tuple of FocusPlace
+    focus_axes : tuple of FocusAxis
     drift : DriftSeen
     background : bool
         Whether tracking has a picture of what lies beneath the tip.
@@ -230,7 +230,7 @@ class MicroscopeStatus:
     measured: Measured | None = None
     targets: tuple[Target, ...] = ()
     nano_limits: FloatArray | None = None
-    focus_places: tuple[FocusPlace, ...] = ()
+    focus_axes: tuple[FocusAxis, ...] = ()
     drift: DriftSeen = field(default_factory=DriftSeen)
     background: bool = False
     frames_processed: int = 0

@@ -24,7 +24,7 @@ def build_status(microscope: "Microscope") -> MicroscopeStatus:
     setup, tracked = microscope.setup, microscope.tracker.tracked
     view, camera = microscope.camera.view, microscope.camera.camera
     pixel_m, source = setup.scale
-    visits, adjustments = microscope.visits, microscope.adjustments
+    positioning, adjustments = microscope.positioning, microscope.adjustments
     calibrating, focusing = adjustments.calibrating, adjustments.focusing
     tip = microscope.tracker.tip
     return MicroscopeStatus(
@@ -40,17 +40,17 @@ def build_status(microscope: "Microscope") -> MicroscopeStatus:
         scale_source=source,
         activity=microscope.runs.activity,
         calibrating=None if calibrating is None else calibrating.status,
-        visiting=None if visits.run is None else visits.run.status,
+        visiting=None if positioning.run is None else positioning.run.status,
         focusing=None if focusing is None else focusing.status,
         stopped=microscope.runs.stopped,
-        planned=visits.planned,
+        planned=positioning.planned,
         path=microscope.tracker.path,
         tip=_tip(microscope, tracked),
         cell=_cell(microscope, tip, pixel_m),
         measured=_measured(microscope, tip, pixel_m),
-        targets=tuple(visits.tour.targets),
+        targets=tuple(positioning.sequence.targets),
         nano_limits=setup.nano_limits(None if tip is None else tip.pixel),
-        focus_places=adjustments.focus_places,
+        focus_axes=adjustments.focus_axes,
         drift=microscope.jobs.drift,
         background=tracked.ground,
         frames_processed=tracked.processed,

@@ -122,9 +122,9 @@ class TargetSection(Section):
         chosen = (
             None if self.list.currentRow() >= 0 else translate("microscope", "no target is chosen")
         )
-        touring = status.activity is Activity.TOUR
+        visiting = status.activity is Activity.TARGETS
         under_way = (
-            translate("microscope", "the tip is on its way to a target") if touring else None
+            translate("microscope", "the tip is on its way to a target") if visiting else None
         )
         allow(
             self.remove,

@@ -161,12 +161,12 @@ class FocusSection(Section):
     def refresh(self, status: MicroscopeStatus, state: SessionState) -> None:
         """Show what can be focused with, and how the search goes."""
         self._status = status
-        names = [one.name for one in status.focus_places]
+        names = [one.name for one in status.focus_axes]
         if names != [self.place.itemData(row) for row in range(self.place.count())]:
             self.place.clear()
             for name in names:
                 self.place.addItem(name, name)
-        for row, one in enumerate(status.focus_places):
+        for row, one in enumerate(status.focus_axes):
             self.place.setItemText(row, focus_name(one))
         none = (
             None
@@ -198,16 +198,16 @@ class FocusSection(Section):
 
     def _autofocus(self) -> None:
         name = self.place.currentData()
-        chosen = next((one for one in self._status.focus_places if one.name == name), None)
+        chosen = next((one for one in self._status.focus_axes if one.name == name), None)
 
         def begin() -> None:
             reach_m = _micrometres(translate("microscope", "how far to search"), self.reach.text())
-            if chosen is None or chosen.place is None:
+            if chosen is None or chosen.position is None:
                 self._microscope.autofocus(name)
                 return
             low, high = (
-                max(chosen.place - reach_m, chosen.low),
-                min(chosen.place + reach_m, chosen.high),
+                max(chosen.position - reach_m, chosen.low),
+                min(chosen.position + reach_m, chosen.high),
             )
             self._microscope.autofocus(name, low, high)
 

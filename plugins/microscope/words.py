@@ -10,7 +10,7 @@ from rotemina.app.microscope.click_run import Visit, VisitStatus
 from rotemina.app.microscope.focus_run import FocusStatus, Search
 from rotemina.app.microscope.status import (
     DriftSeen,
-    FocusPlace,
+    FocusAxis,
     MicroscopeStatus,
     TipSeen,
     TipState,
@@ -195,11 +195,11 @@ def focus_text(status: FocusStatus | None) -> str:
     )
 
 
-def focus_name(place: FocusPlace) -> str:
+def focus_name(axis: FocusAxis) -> str:
     """Return something that can be focused with, by name and place."""
     name = (
         translate("microscope", "focus drive")
-        if place.name == "focus"
-        else translate("microscope", "axis {name}").format(name=place.name)
+        if axis.name == "focus"
+        else translate("microscope", "axis {name}").format(name=axis.name)
     )
-    return name if place.place is None else f"{name}: {readable(place.place, 'm')}"
+    return name if axis.position is None else f"{name}: {readable(axis.position, 'm')}"

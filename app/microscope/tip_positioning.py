@@ -9,7 +9,7 @@ from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.optical_setup import OpticalSetup
 from rotemina.app.microscope.runs import Runs
 from rotemina.app.microscope.status import Activity
-from rotemina.app.microscope.targets import Tour
+from rotemina.app.microscope.targets import TargetSequence
 from rotemina.app.microscope.tip_tracker import TipTracker
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.clock import Clock
@@ -21,7 +21,7 @@ from rotemina.sim.vision.image import grey
 LOST_S = 1.0  # that a tip may be lost on its way to a click
 
 
-class Visits:
+class TipPositioning:
     """Brings the tracked tip to pixels, one run at a time.
 
     Parameters
@@ -49,7 +49,9 @@ class Visits:
         #: The present visit, or the latest one.
         self.run: ClickRun | None = None
         self._permit: Permit | None = None  # of the visit that is being begun
-        self.tour = Tour(lambda pixel: self._visit(self._thought(pixel, None), confirmed=True))
+        self.sequence = TargetSequence(
+            lambda pixel: self._visit(self._thought(pixel, None), confirmed=True)
+        )
 
     def plan(self, pixel: FloatArray, stage: str | None) -> PlannedMove:
         """Think a click through; nothing moves. Raises as :meth:`ClickToMove.plan`."""
@@ -86,22 +88,22 @@ class Visits:
         InputError
             As :meth:`go`.
         """
-        waiting = next((one for one in self.tour.targets if one.visit is None), None)
+        waiting = next((one for one in self.sequence.targets if one.visit is None), None)
         if waiting is not None and not confirmed:
             self._clicks().check(self._thought(waiting.pixel, None))
 
         self._permit = permit
 
-        def make() -> Tour:
-            self.tour.next()
-            return self.tour
+        def make() -> TargetSequence:
+            self.sequence.next()
+            return self.sequence
 
-        self._runs.begin(Activity.TOUR, make)
+        self._runs.begin(Activity.TARGETS, make)
 
     def doubt(self, activity: Activity) -> str:
         """Return why what is tracked must not be moved by any more."""
         tracked = self._tracker.tracked
-        if activity not in (Activity.CLICK, Activity.TOUR) or tracked.lost_since_s is None:
+        if activity not in (Activity.CLICK, Activity.TARGETS) or tracked.lost_since_s is None:
             return ""
         if tracked.frame is None or tracked.frame.host_time_s - tracked.lost_since_s < LOST_S:
             return ""
