@@ -29,8 +29,9 @@ from rotemina.plugins.gap.actions import Actions
 from rotemina.plugins.gap.advice import check_title, readiness
 from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.blind_page import BlindPage
+from rotemina.plugins.gap.causes_view import CausesView
 from rotemina.plugins.gap.diagnosing import Diagnosing
-from rotemina.plugins.gap.far import FarView
+from rotemina.plugins.gap.distribution_view import DistributionView
 from rotemina.plugins.gap.headline_view import Headline
 from rotemina.plugins.gap.hidden import Hiding
 from rotemina.plugins.gap.hint import hint
@@ -40,10 +41,9 @@ from rotemina.plugins.gap.proof_view import ProofView
 from rotemina.plugins.gap.records import RecordChoice
 from rotemina.plugins.gap.robots import RobotChoice
 from rotemina.plugins.gap.running import RunningView
+from rotemina.plugins.gap.shrinkage_view import ShrinkageView
 from rotemina.plugins.gap.tips import tip
 from rotemina.plugins.gap.using import Using, against, candidate
-from rotemina.plugins.gap.where import WhereView
-from rotemina.plugins.gap.which import WhichView
 from rotemina.plugins.gap.words import stage_name
 from rotemina.sim.gap.suggestion import suggestion
 
@@ -133,11 +133,22 @@ class GapPanel(Panel):
 
     def _make_views(self) -> None:
         theme = self.workbench.theme
-        self.where, self.which, self.far = WhereView(theme), WhichView(theme), FarView(theme)
+        self.distribution, self.causes, self.shrinkage = (
+            DistributionView(theme),
+            CausesView(theme),
+            ShrinkageView(theme),
+        )
         self.proof, self.running = ProofView(theme), RunningView(theme)
         self.hint = hint(readiness(0))
         self.views = QStackedWidget()
-        for view in (self.where, self.which, self.far, self.proof, self.running, self.hint):
+        for view in (
+            self.distribution,
+            self.causes,
+            self.shrinkage,
+            self.proof,
+            self.running,
+            self.hint,
+        ):
             self.views.addWidget(view)
         self.tabs = QTabBar()
         self.tabs.setAccessibleName(translate("gap", "What is shown"))
@@ -281,7 +292,7 @@ class GapPanel(Panel):
         for name in answer.diagnosis.axes:
             self.axis.addItem(label(name), name)
         self.axis.setCurrentIndex(self.axis.findData(answer.first_axis))
-        self.where.show_answer(answer)
+        self.distribution.show_answer(answer)
         self.proof.show_proof(None)
         self._show_axis()
         self.headline.show_answer(answer, None)
@@ -383,11 +394,11 @@ class GapPanel(Panel):
     def _show_axis(self) -> None:
         if self.answer is not None:
             axis = self.axis.currentData()
-            self.which.show_axis(self.answer, axis)
-            self.far.show_axis(self.answer, axis)
+            self.causes.show_axis(self.answer, axis)
+            self.shrinkage.show_axis(self.answer, axis)
 
     def _use_theme(self, theme: Theme) -> None:
-        for view in (self.where, self.which, self.far, self.proof, self.running):
+        for view in (self.distribution, self.causes, self.shrinkage, self.proof, self.running):
             view.set_theme(theme)
 
     # --- what is played ---------------------------------------------------------------------------

@@ -44,7 +44,7 @@ class Listed:
 
 
 @dataclass(frozen=True, slots=True)
-class Left:
+class Unfinished:
     """A recording that nobody has ended; ``busy`` if a program records it still."""
 
     path: Path
@@ -57,7 +57,7 @@ class Found:
     """What a look into the folder has found, newest recordings first."""
 
     recordings: tuple[Listed, ...] = ()
-    left: tuple[Left, ...] = ()
+    unfinished: tuple[Unfinished, ...] = ()
 
 
 def look(folder: Path, own: frozenset[Path], known: Mapping[Path, Listed]) -> Found:
@@ -81,7 +81,7 @@ def look(folder: Path, own: frozenset[Path], known: Mapping[Path, Listed]) -> Fo
                 folder=folder, reason=error.strerror or error
             )
         ) from error
-    left = tuple(Left(path, _size(path), being_recorded(path)) for path in parts)
+    left = tuple(Unfinished(path, _size(path), being_recorded(path)) for path in parts)
     listed = sorted((one for one in found if one is not None), key=_age, reverse=True)
     return Found(tuple(listed), left)
 

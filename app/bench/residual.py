@@ -14,7 +14,7 @@ from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
 
 
-class Left(NamedTuple):
+class Residual(NamedTuple):
     """Rms of gap, of signal and of the noise floor at a tap, over all axes and records; SI."""
 
     gap: float
@@ -27,7 +27,7 @@ class Left(NamedTuple):
         return self.gap / self.signal
 
 
-def left_of(robot: Robot, records: Sequence[Record], tap: Tap) -> Left:
+def residual_of(robot: Robot, records: Sequence[Record], tap: Tap) -> Residual:
     """Return what a model leaves of records.
 
     Of positions the mean is taken off, and what each record remembers from before its first row is
@@ -44,7 +44,7 @@ def left_of(robot: Robot, records: Sequence[Record], tap: Tap) -> Left:
     if len(squares) == 0:
         raise GapError(f"no test record measures {tap}; name another tap in truth.toml")
     gap, signal, floor, rows = squares.sum(axis=0)
-    return Left(*np.sqrt(np.array([gap, signal, floor]) / rows).tolist())
+    return Residual(*np.sqrt(np.array([gap, signal, floor]) / rows).tolist())
 
 
 def _squares(

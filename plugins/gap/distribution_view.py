@@ -49,7 +49,7 @@ _DECADES = 3.0  # from the coldest to the warmest
 _STRENGTH = 170  # of the warmest colour, of 255
 
 
-class WhereView(QSplitter):
+class DistributionView(QSplitter):
     """Places of the gap on the left; on the right band by regime, or what is behind a cell."""
 
     def __init__(self, theme: Theme) -> None:

@@ -48,7 +48,7 @@ _TIPS = (
 )
 
 
-class WhichView(QSplitter):
+class CausesView(QSplitter):
     """The ranking on the left, sentences on the right."""
 
     def __init__(self, theme: Theme) -> None:

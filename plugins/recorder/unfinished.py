@@ -1,4 +1,4 @@
-"""What a crash has left, and the button that makes recordings of it."""
+"""What a crash left unfinished, and the button that makes recordings of it."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -8,11 +8,11 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton
 
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.plugins.recorder.listing import Left, recovered
-from rotemina.plugins.recorder.words import left_text, listed
+from rotemina.plugins.recorder.listing import Unfinished, recovered
+from rotemina.plugins.recorder.words import listed, unfinished_text
 
 
-class LeftBox(QFrame):
+class UnfinishedBox(QFrame):
     """Names what was not ended; unseen where there is nothing.
 
     Signals
@@ -42,11 +42,11 @@ class LeftBox(QFrame):
         row.addWidget(self.recover)
         self.hide()
 
-    def show_left(self, left: Sequence[Left]) -> None:
+    def show_unfinished(self, unfinished: Sequence[Unfinished]) -> None:
         """Show what was left."""
-        self._waiting = tuple(one.path for one in left if not one.busy)
-        self.text.setText(left_text(left))
-        self.setVisible(bool(left))
+        self._waiting = tuple(one.path for one in unfinished if not one.busy)
+        self.text.setText(unfinished_text(unfinished))
+        self.setVisible(bool(unfinished))
         self._show()
 
     def _show(self) -> None:

@@ -5,8 +5,8 @@ from typing import Self
 from rotemina.app.shell.language import translate
 
 
-class Told(str):
-    """A marked template, filled: itself is the English text; :func:`shown` tells the other."""
+class FilledTemplate(str):
+    """A marked template, filled: itself is the English text; :func:`localized` tells the other."""
 
     __slots__ = ("template", "values")
     template: str
@@ -19,11 +19,11 @@ class Told(str):
         return made
 
 
-def shown(text: str) -> str:
+def localized(text: str) -> str:
     """Return a text, a marked or a filled one or anybody's, in the language of the window."""
-    if isinstance(text, Told):
+    if isinstance(text, FilledTemplate):
         filled = {
-            name: shown(value) if isinstance(value, str) else value
+            name: localized(value) if isinstance(value, str) else value
             for name, value in text.values.items()
         }
         return translate("identification", text.template).format(**filled)

@@ -3,7 +3,7 @@
 import pytest
 from PySide6.QtCore import QTranslator
 
-from rotemina.plugins.identification.told import Told, shown
+from rotemina.plugins.identification.filled_template import FilledTemplate, localized
 
 
 class Loud(QTranslator):
@@ -20,8 +20,8 @@ def loud(qapp):
 
 
 def test_a_text_stays_english_until_it_is_shown(loud):
-    text = Told("{n} steps: {what}", n=3, what="rise")
+    text = FilledTemplate("{n} steps: {what}", n=3, what="rise")
     assert text == "3 steps: rise"
-    assert shown(text) == "3 STEPS: RISE"
-    assert shown("median") == "MEDIAN"
-    assert shown("") == ""
+    assert localized(text) == "3 STEPS: RISE"
+    assert localized("median") == "MEDIAN"
+    assert localized("") == ""

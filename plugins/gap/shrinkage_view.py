@@ -23,7 +23,7 @@ TIP = marked(
 )
 
 
-class FarView(QSplitter):
+class ShrinkageView(QSplitter):
     """The waterfall on the left, the gap of one record on the right."""
 
     def __init__(self, theme: Theme) -> None:
