@@ -79,7 +79,7 @@ class CalibrationRun:
             return self._record
 
     def start(self, *, permit: Permit | None = None) -> None:
-        """Begin, once; ``permit`` is that of the wish, where it was made before this call.
+        """Begin, once; ``permit`` is that of the request, where it was made before this call.
 
         Raises
         ------

@@ -66,7 +66,7 @@ class ClickRun:
     clear : bool
         Whether ``before`` shows the goal without the tip for certain.
     permit : Permit, optional
-        Of the wish; every move goes with it.
+        Of the request; every move goes with it.
 
     Raises
     ------

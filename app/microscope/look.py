@@ -64,7 +64,7 @@ class Looking:
     settle_s : float
         From rest to the first of them.
     permit : Permit, optional
-        Of the wish that led here; drawn now without it.
+        Of the request that led here; drawn now without it.
     """
 
     def __init__(

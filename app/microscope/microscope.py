@@ -254,7 +254,7 @@ class Microscope:
     def go(self, *, confirmed: bool = False, permit: Permit | None = None) -> None:
         """Make the planned move, look, and correct until the tip is there.
 
-        ``permit`` is that of the wish, where it waited for a yes.
+        ``permit`` is that of the request, where it waited for a yes.
 
         Raises
         ------

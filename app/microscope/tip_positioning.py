@@ -62,7 +62,7 @@ class TipPositioning:
     def go(self, *, confirmed: bool, permit: Permit) -> None:
         """Make the planned move, look, and correct until the tip is there.
 
-        ``permit`` is that of the wish: no stop that came after it lets anything move.
+        ``permit`` is that of the request: no stop that came after it lets anything move.
 
         Raises
         ------

@@ -11,7 +11,7 @@ _LIFT = "z"
 def safe_way(
     robot: Robot, now: Mapping[str, float], goal: Mapping[str, float]
 ) -> tuple[dict[str, float], ...]:
-    """Return the legs of a way that lifts the tip above both ends, goes across, and comes down.
+    """Return the segments of a way that lifts the tip above both ends, goes across, and comes down.
 
     Whatever stood between the two when one of them was left may still stand there.
 

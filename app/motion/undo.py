@@ -38,7 +38,7 @@ class Undo:
         self._places.clear()
 
     def back(self, now: Mapping[str, float]) -> tuple[dict[str, float], ...]:
-        """Return the legs of the way back to the latest place that is not here, and drop it.
+        """Return the segments of the way back to the latest place that is not here, and drop it.
 
         Raises
         ------

@@ -130,7 +130,7 @@ class Worker:
         if failure is not None:  # a later stop that succeeds does not mend what this one found
             self._stop_failure = failure
         self._stops_to_tell.append(request)
-        self._mailbox.bell.set()
+        self._mailbox.wake_event.set()
 
     def run_once(self) -> None:
         """Do one cycle. Whatever the driver raises ends in the failed state, never in here."""
@@ -208,12 +208,12 @@ class Worker:
             self._trust.confirm()  # another device vouches for itself
 
     def _cycle(self) -> None:
-        wish = self._mailbox.take_wish()
-        if wish is not None:
-            if wish.driver is not self.driver:
+        request = self._mailbox.take_connection_request()
+        if request is not None:
+            if request.driver is not self.driver:
                 self._let_go()
-            if wish.driver is not None:
-                self._use(wish.driver)
+            if request.driver is not None:
+                self._use(request.driver)
                 self._connect()
         if self._next.connection is not Connection.CONNECTED:
             return
@@ -274,7 +274,7 @@ class Worker:
         if not len(samples) and since_s < _PORTION_S:
             return
         status = self.driver.status()
-        news = status.state is not self._next.activity and not self._executor.between_legs
+        news = status.state is not self._next.activity and not self._executor.between_segments
         # A cycle that has just read a portion leaves the work to the next one, which has the time.
         if news or since_s >= _LATEST_S or (since_s >= _PORTION_S and not len(samples)):
             self._worked_up_s = now_s
@@ -328,7 +328,7 @@ class Worker:
         """Free the axes when nothing moves and nobody waits."""
         if (
             status.state in (DeviceState.IDLE, DeviceState.FAULT)
-            and not self._executor.between_legs
+            and not self._executor.between_segments
         ):
             self._executor.rested()
             self.ownership.release(lambda: len(self._mailbox) > 0)
@@ -339,10 +339,10 @@ class Worker:
             fault = status.fault or "the device reports a fault"
         if self._next.activity is DeviceState.HOMING and status.state is DeviceState.IDLE:
             self._trust.homed(self._executor.sought - set(status.unhomed))
-        between_legs = self._executor.between_legs and status.state is DeviceState.IDLE
+        between_segments = self._executor.between_segments and status.state is DeviceState.IDLE
         state = replace(
             self._next,
-            activity=DeviceState.MOVING if between_legs else status.state,
+            activity=DeviceState.MOVING if between_segments else status.state,
             progress=status.progress,
             fault=fault,
             unhomed=status.unhomed,

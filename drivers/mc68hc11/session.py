@@ -132,7 +132,7 @@ class Session:
                 encoded(Frame(address, 0xFF, SetTelemetry.TYPE, SetTelemetry(0, 0).packed()))
                 for address in link.dialogues
             ]
-            link.farewell(last)
+            link.close_with(last)
 
     def stopped(self) -> None:
         """Follow up a stop: nothing that was asked before is said any more."""
@@ -140,7 +140,7 @@ class Session:
             self.player.give_up()
             self.player = None
         for link in self.links:
-            link.hush()
+            link.cancel_pending()
         for board in self.boards:
             board.stop()
         self.trust.cut_off()

@@ -157,7 +157,7 @@ class IdentificationPanel(Panel):
             return
         record = steady(run.record, motion) if run.completed else run.record
         self.controls.offer(record)
-        self.controls.look_at(motion.wish.axis, VIEWS[motion.wish.wave])
+        self.controls.look_at(motion.request.axis, VIEWS[motion.request.wave])
         self.take_record(run.name, record)
         # After the window, which brings the comparison up: here the answer is on this page.
         QTimer.singleShot(0, self, self._come_forward)

@@ -1,4 +1,4 @@
-"""The course of a penetration: what each phase does, and how one leads to the next.
+"""The sequence of a penetration: what each phase does, and how one leads to the next.
 
 A stop, a fault or a lost link *holds* the tip where it is: nothing here moves it again.
 """
@@ -37,7 +37,7 @@ _CAPTURE_HZ = 2000.0
 _SAME = 1e-9  # m
 
 
-class Course:
+class PenetrationSequence:
     """The phases of a run, from the approach to the end of the retraction.
 
     Each is stepped until it says which one comes next. What is asked of a run from outside, and

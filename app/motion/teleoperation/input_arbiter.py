@@ -1,4 +1,4 @@
-"""The operator's desk: from the readings of all input devices to one intent.
+"""The input arbiter: from the readings of all input devices to one intent.
 
 It has neither threads nor a clock: whoever reads the devices tells it what came in and the time.
 """
@@ -18,8 +18,13 @@ from rotemina.app.motion.teleoperation.mapping import (
     check_profile,
     missing,
 )
-from rotemina.app.motion.teleoperation.profile import DeviceMapping, Profile, ProfileError, Seat
-from rotemina.app.motion.teleoperation.takeover import SeatState, Takeover
+from rotemina.app.motion.teleoperation.profile import (
+    DeviceMapping,
+    OperatorRole,
+    Profile,
+    ProfileError,
+)
+from rotemina.app.motion.teleoperation.takeover import RoleState, Takeover
 from rotemina.drivers.inputs.device import InputReading
 
 
@@ -30,7 +35,7 @@ class DeviceView:
     Attributes
     ----------
     device : PluggedDevice
-    seat : Seat or None
+    seat : OperatorRole or None
         None if the profile has nothing for it.
     drives : bool
         Whether it is of the seat that drives.
@@ -44,7 +49,7 @@ class DeviceView:
     """
 
     device: PluggedDevice
-    seat: Seat | None
+    seat: OperatorRole | None
     drives: bool
     problem: str | None
     axes: tuple[AxisView, ...]
@@ -59,7 +64,7 @@ class DeviceView:
         return frozenset(compress(self.device.buttons, said))
 
 
-class OperatorDesk:
+class InputArbiter:
     """Ties calibration, trust, mapping and takeover together.
 
     Parameters
@@ -192,7 +197,7 @@ class OperatorDesk:
         )
 
     @property
-    def driving(self) -> Seat:
+    def driving(self) -> OperatorRole:
         """The seat that drives."""
         return self._takeover.driving
 
@@ -263,7 +268,7 @@ class OperatorDesk:
     def _drives(self, device: MappedDevice) -> bool:
         return device.mapping is not None and device.mapping.seat is self.driving
 
-    def _of(self, seat: Seat) -> tuple[MappedDevice, ...]:
+    def _of(self, seat: OperatorRole) -> tuple[MappedDevice, ...]:
         return tuple(
             device
             for device in self._devices.values()
@@ -271,16 +276,18 @@ class OperatorDesk:
         )
 
     def _hand_over(self) -> None:
-        reason = self._takeover.decide(self._state(Seat.TRAINER), self._state(Seat.TRAINEE))
+        reason = self._takeover.decide(
+            self._state(OperatorRole.TRAINER), self._state(OperatorRole.TRAINEE)
+        )
         if reason is not None:
             self._lost.append(reason)
             for device in self._of(self.driving):
                 device.distrust(f"{reason}: let go of it first")
 
-    def _state(self, seat: Seat) -> SeatState:
+    def _state(self, seat: OperatorRole) -> RoleState:
         devices = self._of(seat)
         deflections = [abs(d) for device in devices for d in device.deflections.values()]
-        return SeatState(
+        return RoleState(
             present=any(device.problem is None for device in devices),
             asks=any(Action.TAKE_OVER in device.pressed for device in devices),
             most=max(deflections, default=0.0),

@@ -1,4 +1,4 @@
-"""Conversations with the desk: readings at 100 Hz in, intents out."""
+"""Conversations with the arbiter: readings at 100 Hz in, intents out."""
 
 from math import nan
 
@@ -11,16 +11,16 @@ from rotemina.app.motion.teleoperation.calibration import (
     Calibration,
     CalibrationError,
 )
+from rotemina.app.motion.teleoperation.input_arbiter import InputArbiter
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.mapping import PluggedDevice
-from rotemina.app.motion.teleoperation.operator_desk import OperatorDesk
 from rotemina.app.motion.teleoperation.profile import (
     ActionMapping,
     AxisMapping,
     DeviceMapping,
+    OperatorRole,
     Profile,
     ProfileError,
-    Seat,
 )
 from rotemina.drivers.inputs.device import InputIdentity, InputReading
 
@@ -41,7 +41,7 @@ def stick(key, streams=False, axes=("X", "Y"), buttons=BUTTONS):
     return PluggedDevice(InputIdentity(key, f"stick {key}", "hid"), axes, buttons, streams)
 
 
-def mapping(key, seat=Seat.TRAINER, without=(Action.DEAD_MAN,), drives=("x", "y")):
+def mapping(key, seat=OperatorRole.TRAINER, without=(Action.DEAD_MAN,), drives=("x", "y")):
     axes = tuple(
         AxisMapping(control=control, drives=target)
         for control, target in zip("XY", drives, strict=False)
@@ -59,14 +59,14 @@ def profile(*devices):
 
 
 class Bench:
-    """A desk, what its devices say at present, and the time."""
+    """A arbiter, what its devices say at present, and the time."""
 
     def __init__(self, *mappings, devices=("a",), streams=False, calibration=None):
-        self.desk = OperatorDesk(ROBOT, profile(*(mappings or [mapping("a")])))
+        self.arbiter = InputArbiter(ROBOT, profile(*(mappings or [mapping("a")])))
         self.now_s = 0.0
         self.state = {}
         for key in devices:
-            self.desk.plug(stick(key, streams), calibration)
+            self.arbiter.plug(stick(key, streams), calibration)
             self.state[key] = (REST, ())
 
     def say(self, key="a", axes=None, held=()):
@@ -74,7 +74,7 @@ class Bench:
         self.state[key] = (axes or self.state[key][0], held)
         return self
 
-    def hush(self, key="a"):
+    def silence(self, key="a"):
         """Let a device say nothing any more."""
         del self.state[key]
 
@@ -85,14 +85,14 @@ class Bench:
             key: [InputReading(self.now_s, axes, tuple(name in held for name in BUTTONS))]
             for key, (axes, held) in self.state.items()
         }
-        return self.desk.step(readings, self.now_s)
+        return self.arbiter.step(readings, self.now_s)
 
     def run(self, seconds):
         """Return the intents of a while."""
         return [self.step() for _ in range(round(seconds / STEP_S))]
 
     def reasons(self, key="a"):
-        views = {view.device.identity.key: view for view in self.desk.views}
+        views = {view.device.identity.key: view for view in self.arbiter.views}
         return [axis.reason for axis in views[key].axes]
 
 
@@ -144,24 +144,24 @@ def test_numbers_that_are_none_move_nothing(raw):
     bench.run(0.2)
     assert set(bench.say(axes=(raw, 0.5)).step().deflections) == {"y"}
     assert bench.reasons()[0] is not None
-    assert bench.desk.views[0].axes[0].deflection in (0.0, 1.0)
+    assert bench.arbiter.views[0].axes[0].deflection in (0.0, 1.0)
 
 
 def test_a_swapped_stick_with_other_controls_is_refused_where_it_is_mapped():
     bench = Bench()
     bench.run(0.2)
-    bench.desk.unplug("a")
-    bench.desk.plug(stick("a", axes=("X", "Rz")))
+    bench.arbiter.unplug("a")
+    bench.arbiter.plug(stick("a", axes=("X", "Rz")))
     assert bench.run(1.0)[-1].deflections == {}
-    assert "has no axis 'Y'; it has X, Rz" in bench.desk.problems[0]
-    assert bench.desk.views[0].problem == bench.desk.problems[0]
+    assert "has no axis 'Y'; it has X, Rz" in bench.arbiter.problems[0]
+    assert bench.arbiter.views[0].problem == bench.arbiter.problems[0]
 
 
 def test_readings_of_another_shape_move_nothing():
     bench = Bench()
     bench.run(0.2)
     reading = InputReading(bench.now_s, (1.0,), ())
-    assert bench.desk.step({"a": [reading]}, bench.now_s).deflections == {}
+    assert bench.arbiter.step({"a": [reading]}, bench.now_s).deflections == {}
     assert "a reading of 1 axes and 0 buttons" in bench.reasons()[0]
     assert bench.run(0.2)[-1].deflections == {"x": 0.0, "y": 0.0}
 
@@ -174,12 +174,12 @@ def test_a_device_whose_readings_stop_matching_is_lost_once_and_wants_the_centre
     for _ in range(3):
         bench.now_s += STEP_S
         reading = InputReading(bench.now_s, (1.0,), ())
-        intents.append(bench.desk.step({"a": [reading]}, bench.now_s))
+        intents.append(bench.arbiter.step({"a": [reading]}, bench.now_s))
     [why] = lost(intents)
     assert why.startswith("stick a: a reading of 1 axes and 0 buttons came from a device with 2")
     assert intents[0].lost == why
     assert intents[0].held == frozenset()
-    [view] = bench.desk.views
+    [view] = bench.arbiter.views
     assert why.endswith(view.problem)
     assert view.newest is None
     assert bench.run(0.5)[-1].deflections == {"y": 0.0}  # it is still deflected
@@ -189,19 +189,19 @@ def test_a_device_whose_readings_stop_matching_is_lost_once_and_wants_the_centre
 def test_that_a_device_streams_may_turn_out_while_it_is_open():
     bench = Bench()
     bench.run(0.2)
-    bench.hush()
+    bench.silence()
     assert lost(bench.run(1.0)) == []
     bench.state["a"] = (REST, ())
     bench.run(0.2)
-    bench.desk.inform("a", streams=True)
-    bench.hush()
+    bench.arbiter.inform("a", streams=True)
+    bench.silence()
     assert len(lost(bench.run(1.0))) == 1
 
 
 def test_a_view_has_what_was_said_and_the_buttons_that_are_down():
     bench = Bench()
     bench.say(axes=(0.5, 0.0), held=("fine", "take")).run(0.1)
-    [view] = bench.desk.views
+    [view] = bench.arbiter.views
     assert view.lit == {"fine", "take"}
     assert view.newest.axes == (0.5, 0.0)
     assert view.calibration == Calibration(device="a")
@@ -211,12 +211,12 @@ def test_unplugging_is_said_once_and_replugging_wants_the_centre():
     bench = Bench()
     bench.run(0.2)
     bench.say(axes=(1.0, 0.0)).run(0.1)
-    bench.desk.unplug("a")
+    bench.arbiter.unplug("a")
     intents = bench.run(0.2)
     assert lost(intents) == ["stick a: unplugged"]
     assert intents[0].lost is not None
     assert all(not intent.deflections for intent in intents)
-    bench.desk.plug(stick("a"))
+    bench.arbiter.plug(stick("a"))
     assert "x" not in bench.run(0.5)[-1].deflections
     assert bench.say(axes=REST).run(0.2)[-1].deflections["x"] == 0.0
 
@@ -224,7 +224,7 @@ def test_unplugging_is_said_once_and_replugging_wants_the_centre():
 def test_plugging_in_what_is_there_already_is_a_replug():
     bench = Bench()
     bench.say(axes=REST).run(0.2)
-    bench.desk.plug(stick("a"))
+    bench.arbiter.plug(stick("a"))
     assert lost(bench.say(axes=(0.5, 0.0)).run(0.1)) == ["stick a: replugged"]
     assert bench.run(0.5)[-1].deflections == {"y": 0.0}
 
@@ -233,7 +233,7 @@ def test_a_stick_that_streams_is_lost_when_it_falls_silent_and_drops_what_it_hel
     bench = Bench(streams=True)
     bench.run(0.2)
     bench.say(axes=(1.0, 0.0), held=("fine",)).run(0.1)
-    bench.hush()
+    bench.silence()
     intents = bench.run(1.0)
     [why] = lost(intents)
     assert why.startswith("stick a: silent, though it streams")
@@ -250,7 +250,7 @@ def test_one_that_speaks_only_of_changes_may_be_silent():
     bench = Bench()
     bench.run(0.2)
     intent = bench.say(axes=(1.0, 0.0), held=("fine",)).step()
-    bench.hush()
+    bench.silence()
     intents = bench.run(10.0)
     assert lost(intents) == []
     assert intents[-1].deflections == intent.deflections
@@ -262,15 +262,15 @@ def test_a_calibration_acts_at_once_and_wants_the_centre():
     bench = Bench()
     bench.say(axes=(0.5, 0.0)).run(0.2)
     axis = AxisCalibration(low=-0.9, centre=0.5, high=1.0, dead_zone=0.05, travel_m=0.02)
-    bench.desk.calibrate("a", Calibration(device="a", axes={"X": axis}))
+    bench.arbiter.calibrate("a", Calibration(device="a", axes={"X": axis}))
     assert lost([bench.step()]) == ["stick a: calibrated anew"]
     assert bench.run(0.2)[-1].deflections == {"x": 0.0, "y": 0.0}
     assert bench.say(axes=(1.0, 0.0)).step().deflections["x"] == 1.0
-    assert (bench.desk.travel_m("x"), bench.desk.travel_m("y")) == (0.02, None)
+    assert (bench.arbiter.travel_m("x"), bench.arbiter.travel_m("y")) == (0.02, None)
     with pytest.raises(CalibrationError, match="'b' is not plugged in"):
-        bench.desk.calibrate("b", Calibration(device="b"))
+        bench.arbiter.calibrate("b", Calibration(device="b"))
     with pytest.raises(CalibrationError, match="of 'b' is not for 'a'"):
-        bench.desk.calibrate("a", Calibration(device="b"))
+        bench.arbiter.calibrate("a", Calibration(device="b"))
 
 
 def test_a_mapping_may_turn_an_axis_round():
@@ -300,7 +300,7 @@ def test_a_press_between_two_steps_is_not_missed():
         InputReading(bench.now_s + after_s, REST, (False, down, False, False, False))
         for after_s, down in downs
     ]
-    intent = bench.desk.step({"a": readings}, bench.now_s + 0.01)
+    intent = bench.arbiter.step({"a": readings}, bench.now_s + 0.01)
     assert intent.pressed == {Action.STAGE}
 
 
@@ -332,12 +332,12 @@ def test_a_dead_man_on_another_device_that_is_missing_holds_all_back():
     )
     bench = Bench(mapping("a"), pedal)
     assert bench.say(held=("dead",)).run(1.0)[-1].deflections == {}
-    assert "is for pedal, not plugged in; plugged in: stick a (a)" in bench.desk.problems[0]
-    bench.desk.plug(stick("pedal"))
+    assert "is for pedal, not plugged in; plugged in: stick a (a)" in bench.arbiter.problems[0]
+    bench.arbiter.plug(stick("pedal"))
     bench.state["pedal"] = (REST, ())
     bench.run(0.2)
     assert bench.say("pedal", held=("dead",)).step().deflections == {"x": 0.0, "y": 0.0}
-    assert bench.desk.problems == ()
+    assert bench.arbiter.problems == ()
 
 
 def test_losing_the_pedal_of_a_seat_stops_its_stick():
@@ -345,7 +345,7 @@ def test_losing_the_pedal_of_a_seat_stops_its_stick():
     bench = Bench(mapping("a"), pedal, devices=("a", "p"))
     bench.run(0.2)
     bench.say(axes=(1.0, 0.0)).step()
-    bench.desk.unplug("p")
+    bench.arbiter.unplug("p")
     intents = bench.run(0.5)
     assert lost(intents) == ["stick p: unplugged"]
     assert "x" not in intents[-1].deflections
@@ -355,7 +355,7 @@ def test_a_device_without_a_part_may_come_and_go():
     bench = Bench(devices=("a", "spare"))
     bench.run(0.2)
     bench.say(axes=(1.0, 0.0)).step()
-    bench.desk.unplug("spare")
+    bench.arbiter.unplug("spare")
     assert lost(bench.run(0.1)) == []
     assert bench.step().deflections["x"] == 1.0
 
@@ -390,23 +390,23 @@ def test_while_mappings_are_made_nothing_is_sent_but_stops():
     bench = Bench()
     bench.run(0.2)
     bench.say(axes=(1.0, 0.0)).step()
-    bench.desk.open_mapping()
-    assert bench.desk.mapping_open
+    bench.arbiter.open_mapping()
+    assert bench.arbiter.mapping_open
     intents = bench.run(0.2) + bench.say(held=("stage", "fine")).run(0.1)
     assert lost(intents) == ["input devices are being set up"]
     assert all((i.deflections, i.pressed, i.held) == ({}, set(), set()) for i in intents)
     intents = bench.say(held=("stop",)).run(0.1)
     assert pressed(intents) == [Action.STOP]
     assert intents[-1].held == {Action.STOP}
-    assert bench.desk.views[0].axes[0].raw == 1.0
+    assert bench.arbiter.views[0].axes[0].raw == 1.0
 
 
 def test_afterwards_sticks_and_buttons_must_be_let_go_of():
     bench = Bench()
     bench.run(0.2)
-    bench.desk.open_mapping()
+    bench.arbiter.open_mapping()
     bench.say(axes=(1.0, 0.0), held=("stage",)).run(0.2)
-    bench.desk.close_mapping()
+    bench.arbiter.close_mapping()
     intents = bench.run(0.5)
     assert "x" not in intents[-1].deflections
     assert pressed(intents) == []
@@ -419,23 +419,23 @@ def test_afterwards_sticks_and_buttons_must_be_let_go_of():
 def test_one_that_speaks_only_of_changes_is_remembered_when_all_begins_anew(raw, acts):
     bench = Bench()
     bench.say(axes=(raw, 0.0), held=("stage", "stop")).run(0.2)
-    bench.hush()
-    bench.desk.open_mapping()
+    bench.silence()
+    bench.arbiter.open_mapping()
     bench.step()
-    bench.desk.close_mapping()
-    bench.desk.use(profile(mapping("a")))
+    bench.arbiter.close_mapping()
+    bench.arbiter.use(profile(mapping("a")))
     intents = bench.run(0.5)
     assert ("x" in intents[-1].deflections) is acts
     assert intents[-1].held == {Action.STOP}
-    assert bench.desk.views[0].axes[0].raw == raw
+    assert bench.arbiter.views[0].axes[0].raw == raw
 
 
 def test_what_a_silent_stream_said_is_not_remembered():
     bench = Bench(streams=True)
     bench.run(0.2)
-    bench.hush()
+    bench.silence()
     bench.run(0.5)
-    bench.desk.use(profile(mapping("a", drives=("thx", "thy"))))
+    bench.arbiter.use(profile(mapping("a", drives=("thx", "thy"))))
     assert bench.run(0.1)[-1].deflections == {}
 
 
@@ -444,15 +444,15 @@ def test_another_profile_acts_after_the_centre_and_a_bad_one_not_at_all():
     bench.run(0.2)
     bench.say(axes=(1.0, 0.0)).step()
     with pytest.raises(ProfileError, match="two owners"):
-        bench.desk.use(profile(mapping("a", drives=("z", "zn"))))
+        bench.arbiter.use(profile(mapping("a", drives=("z", "zn"))))
     with pytest.raises(ProfileError, match="has no button 'nine'"):
-        bench.desk.use(
+        bench.arbiter.use(
             profile(
                 DeviceMapping(key="*", actions=(ActionMapping(control="nine", action=Action.STOP),))
             )
         )
     assert bench.step().deflections == {"x": 1.0, "y": 0.0}
-    bench.desk.use(profile(mapping("a", drives=("thx", "thy"))))
+    bench.arbiter.use(profile(mapping("a", drives=("thx", "thy"))))
     assert lost([bench.step()]) == ["another profile is used"]
     assert bench.step().deflections == {}
     assert bench.say(axes=REST).run(0.2)[-1].deflections == {"thx": 0.0, "thy": 0.0}
@@ -461,26 +461,26 @@ def test_another_profile_acts_after_the_centre_and_a_bad_one_not_at_all():
 def test_a_profile_for_another_device_drives_nothing_and_says_so():
     bench = Bench(mapping("hid:046d:*"))
     assert bench.run(1.0)[-1].deflections == {}
-    assert bench.desk.problems == (
+    assert bench.arbiter.problems == (
         "profile 'Bench' is for hid:046d:*, not plugged in; plugged in: stick a (a). Plug it in, "
         "or choose or make a profile for what is there",
     )
 
 
 def test_without_a_profile_nothing_is_driven_and_a_bad_one_is_refused_at_once():
-    desk = OperatorDesk(ROBOT)
-    desk.plug(stick("a"))
-    intent = desk.step({"a": [InputReading(0.0, REST, (True,) * 5)]}, 0.0)
+    arbiter = InputArbiter(ROBOT)
+    arbiter.plug(stick("a"))
+    intent = arbiter.step({"a": [InputReading(0.0, REST, (True,) * 5)]}, 0.0)
     assert (intent.deflections, intent.pressed, intent.device) == ({}, set(), "")
-    assert "no profile" in desk.problems[0]
+    assert "no profile" in arbiter.problems[0]
     with pytest.raises(ProfileError):
-        OperatorDesk(("x",), profile(mapping("a", drives=("phi",))))
+        InputArbiter(("x",), profile(mapping("a", drives=("phi",))))
 
 
 def test_readings_of_a_device_that_has_gone_are_passed_over():
     bench = Bench()
-    bench.desk.unplug("a")
-    bench.desk.unplug("a")
+    bench.arbiter.unplug("a")
+    bench.arbiter.unplug("a")
     assert bench.run(0.1)[-1].deflections == {}
 
 
@@ -490,7 +490,7 @@ def test_readings_of_a_device_that_has_gone_are_passed_over():
 @pytest.fixture
 def school():
     """Return a bench at which trainer ``a`` drives, and trainee ``b`` looks on."""
-    bench = Bench(mapping("a"), mapping("b", Seat.TRAINEE), devices=("a", "b"))
+    bench = Bench(mapping("a"), mapping("b", OperatorRole.TRAINEE), devices=("a", "b"))
     bench.run(0.2)
     return bench
 
@@ -515,7 +515,7 @@ def test_the_trainee_takes_over_by_the_button_and_from_rest(school):
     school.say("b", axes=REST).run(0.2)
     intent = school.say("b", axes=(0.0, 1.0)).step()
     assert (intent.deflections, intent.device) == ({"x": 0.0, "y": 1.0}, "b")
-    assert [view.drives for view in school.desk.views] == [False, True]
+    assert [view.drives for view in school.arbiter.views] == [False, True]
 
 
 @pytest.mark.parametrize("how", [{"axes": (0.4, 0.0)}, {"held": ("take",)}])
@@ -526,7 +526,7 @@ def test_the_trainer_takes_over_at_once_by_moving_or_by_the_button(school, how):
     assert intent.lost == "the trainer has taken over"
     assert "x" not in intent.deflections or how.get("held")
     assert 1.0 not in intent.deflections.values()
-    assert school.desk.driving is Seat.TRAINER
+    assert school.arbiter.driving is OperatorRole.TRAINER
     assert school.say("a", axes=REST).run(0.2)[-1].deflections == {"x": 0.0, "y": 0.0}
 
 
@@ -540,12 +540,12 @@ def test_a_trainer_who_takes_over_by_moving_drives_from_rest_only(school):
 def test_a_touch_of_the_trainers_stick_does_not_take_over(school):
     give_to_the_trainee(school)
     assert lost(school.say("a", axes=(0.2, 0.0)).run(0.5)) == []
-    assert school.desk.driving is Seat.TRAINEE
+    assert school.arbiter.driving is OperatorRole.TRAINEE
 
 
 def test_the_trainer_never_gives_the_drive_away_by_the_same_button(school):
     school.say("a", held=("take",)).run(0.1)
-    assert school.desk.driving is Seat.TRAINER
+    assert school.arbiter.driving is OperatorRole.TRAINER
 
 
 def test_the_trainee_does_not_get_it_while_the_trainer_moves(school):
@@ -559,13 +559,13 @@ def test_the_trainee_does_not_get_it_back_by_moving(school):
     school.say("a", held=("take",)).run(0.1)
     school.say("a").run(0.1)
     assert lost(school.say("b", axes=(1.0, 1.0)).run(0.5)) == []
-    assert school.desk.driving is Seat.TRAINER
+    assert school.arbiter.driving is OperatorRole.TRAINER
 
 
 def test_without_the_trainer_the_trainee_does_not_drive(school):
     give_to_the_trainee(school)
     school.say("b", axes=(1.0, 0.0)).step()
-    school.desk.unplug("a")
+    school.arbiter.unplug("a")
     intents = school.run(0.2)
     assert "the trainee does not drive alone" in lost(intents)[0]
     assert intents[-1].deflections == {}
@@ -573,7 +573,7 @@ def test_without_the_trainer_the_trainee_does_not_drive(school):
 
 
 def test_a_dead_man_guards_its_own_seat_only():
-    trainer, trainee = mapping("a"), mapping("b", Seat.TRAINEE, without=())
+    trainer, trainee = mapping("a"), mapping("b", OperatorRole.TRAINEE, without=())
     bench = Bench(trainer, trainee, devices=("a", "b"))
     bench.run(0.2)
     assert bench.step().deflections == {"x": 0.0, "y": 0.0}
@@ -583,11 +583,11 @@ def test_a_dead_man_guards_its_own_seat_only():
 
 
 def test_the_drive_does_not_change_while_mappings_are_made(school):
-    school.desk.open_mapping()
+    school.arbiter.open_mapping()
     school.say("b", held=("take",)).run(0.1)
-    school.desk.close_mapping()
+    school.arbiter.close_mapping()
     school.run(0.1)
-    assert school.desk.driving is Seat.TRAINER
+    assert school.arbiter.driving is OperatorRole.TRAINER
 
 
 # Whatever happens
@@ -610,7 +610,7 @@ def test_what_no_conversation_can_bring_about(events, streams):
     """No deflection without trust, dead-man and a closed mapping; a stop is always heard."""
     bench = Bench(
         mapping("a", without=()),
-        mapping("b", Seat.TRAINEE),
+        mapping("b", OperatorRole.TRAINEE),
         devices=("a", "b"),
         streams=streams,
     )
@@ -618,18 +618,18 @@ def test_what_no_conversation_can_bring_about(events, streams):
         if name == "say":
             bench.say(*details)
         elif name == "plug":
-            bench.desk.plug(stick(details[0], streams))
+            bench.arbiter.plug(stick(details[0], streams))
         else:
-            getattr(bench.desk, name)(*details)
+            getattr(bench.arbiter, name)(*details)
         for intent in bench.run(steps * STEP_S):
             assert intent.pressed <= intent.held
-        views = bench.desk.views
+        views = bench.arbiter.views
         said = [bench.state[view.device.identity.key] for view in views]
         if steps == 20:
             assert (Action.STOP in intent.held) is any("stop" in held for _, held in said)
         if intent.deflections:
-            assert not bench.desk.mapping_open
-            assert bench.desk.driving is Seat.TRAINEE or Action.DEAD_MAN in intent.held
+            assert not bench.arbiter.mapping_open
+            assert bench.arbiter.driving is OperatorRole.TRAINEE or Action.DEAD_MAN in intent.held
             (view,) = (view for view in views if view.drives)
             assert set(intent.deflections) == {axis.drives for axis in view.axes if not axis.reason}
             assert all(abs(value) <= 1.0 for value in intent.deflections.values())
