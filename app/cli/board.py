@@ -20,7 +20,7 @@ from rotemina.app.cli.options import add_robot, robot_of
 from rotemina.drivers.mc68hc11.axes import board_axes
 from rotemina.drivers.mc68hc11.budget import BAUDS
 from rotemina.drivers.virtual_board.boards import VirtualBoards
-from rotemina.drivers.virtual_board.faults import FaultCommandError, Mishaps, inject
+from rotemina.drivers.virtual_board.faults import FaultCommandError, RandomFaults, inject
 from rotemina.sim.errors import InputError
 from rotemina.sim.robot.model import Robot
 
@@ -180,7 +180,7 @@ class _Server:
     ) -> None:
         self._boards = boards
         self._ends = list(zip(ports, boards.lines, strict=True))
-        self._mishaps = Mishaps(boards, options.mishaps, options.seed)
+        self._mishaps = RandomFaults(boards, options.mishaps, options.seed)
         self._until_stdin = options.until_stdin_closes
         self._ears = _Ears(ports)
         self._met: set[str] = set()

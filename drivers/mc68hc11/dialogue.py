@@ -174,7 +174,7 @@ class Dialogue:
         self._sent = _SentRequest(request, number, frame, now_s, now_s + out_s + self.answer_s)
         return Offered(frame, request.permit)
 
-    def heard(self, message: Message, now_s: float) -> bool:
+    def receive(self, message: Message, now_s: float) -> bool:
         """Take a message as the answer if it is one; return whether it was."""
         said = self._sent
         if said is None:

@@ -264,8 +264,8 @@ class Link:
             return
         self._awaited.discard(frame.address)
         window = self.windows.get(frame.address)
-        if not dialogue.heard(message, now_s) and window is not None:
-            window.heard(message, now_s)
+        if not dialogue.receive(message, now_s) and window is not None:
+            window.receive(message, now_s)
         self._handle(frame.address, message, now_s)
 
     def _count_load(self, now_s: float) -> None:

@@ -80,7 +80,7 @@ class Session:
                     [board.address for board in own],
                     latency_s,
                     clock,
-                    self._heard,
+                    self._receive,
                     partial(self._to_poll, own),
                 )
                 self.links += (link,)
@@ -307,16 +307,16 @@ class Session:
         if wanted_ms != board.telemetry_ms and not dialogue.has(Urgency.BACKGROUND):
             self._telemetry(board, wanted_ms)
 
-    def _heard(self, address: int, message: Message, now_s: float) -> None:
+    def _receive(self, address: int, message: Message, now_s: float) -> None:
         board = self.boards[address - 1]
-        board.heard(message, now_s)
+        board.receive(message, now_s)
         capturing = self.capturing
         if capturing is None or capturing.board is not board:
             return
         if isinstance(message, Telemetry):
             capturing.sampled()
         elif isinstance(message, Captured):
-            capturing.heard(message)
+            capturing.receive(message)
 
     def _to_poll(self, boards: Sequence[Board], now_s: float) -> int | None:
         """Return which of the boards on a bus has a sample that was not told yet, or both."""

@@ -8,7 +8,7 @@ import numpy as np
 from rotemina.drivers.samples import Samples
 from rotemina.drivers.simulator.compensating import Compensating, Rest
 from rotemina.drivers.simulator.homing import Homing
-from rotemina.drivers.simulator.playing import Chunk, Playing, told
+from rotemina.drivers.simulator.playing import Chunk, Playing, selected
 from rotemina.drivers.simulator.profile_motion import ProfileMotion
 from rotemina.drivers.simulator.regulating import Regulating
 from rotemina.drivers.simulator.setpoints import SetpointGenerator, SetpointLimits
@@ -416,4 +416,4 @@ class SimulatedDevice:
         noise = self._laser_rms * self._laser.standard_normal(motion.position.shape)
         seen = motion.position + noise
         samples = Samples(chunk.time_s, chunk.command, motion.reading, inputs, chunk.row, seen)
-        return told(samples, chunk.told)
+        return selected(samples, chunk.told)

@@ -55,7 +55,7 @@ class _Chance(Chance):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Beyond:
+class _Prediction:
     """What follows expected commands: the state before and after, and how many have come."""
 
     before: PlantState
@@ -64,7 +64,7 @@ class _Beyond:
     after: PlantState
     used: int
 
-    def foresaw(self, commands: FloatArray) -> bool:
+    def predicted(self, commands: FloatArray) -> bool:
         """Return whether these come next, as far as was looked."""
         seen = self.commands[self.used : self.used + len(commands)]
         return np.array_equal(commands[: len(seen)], seen)
@@ -78,7 +78,7 @@ class PlantRun:
         self._tick_s = tick_s
         self._chance = _Chance(np.random.default_rng(seed))
         self._state = plant.at_rest(0.0, position)
-        self._beyond: _Beyond | None = None
+        self._prediction: _Prediction | None = None
 
     def advance(self, commands: FloatArray, expected: Expected) -> Response:
         """Return the response to commands (ticks, axes), at least one; others are expected then.
@@ -89,8 +89,8 @@ class PlantRun:
             If the motion leaves what a number can hold.
         """
         parts = []
-        if self._beyond is not None and self._beyond.foresaw(commands):
-            parts.append(self._use(self._beyond, len(commands)))
+        if self._prediction is not None and self._prediction.predicted(commands):
+            parts.append(self._use(self._prediction, len(commands)))
             commands = commands[len(parts[0].position) :]
         if len(commands):
             self._settle()
@@ -110,19 +110,19 @@ class PlantRun:
         self._settle()
         self._plant, self._state = plant, state
 
-    def _use(self, beyond: _Beyond, ticks: int) -> Response:
+    def _use(self, beyond: _Prediction, ticks: int) -> Response:
         """Return what was found ahead of the next ticks, as far as it goes."""
         end = min(beyond.used + ticks, len(beyond.response.position))
         found = Response(*(part[beyond.used : end] for part in beyond.response))
         if end == len(beyond.response.position):
-            self._state, self._beyond = beyond.after, None
+            self._state, self._prediction = beyond.after, None
         else:
-            self._beyond = replace(beyond, used=end)
+            self._prediction = replace(beyond, used=end)
         return found
 
     def _settle(self) -> None:
         """Come back from beyond the present."""
-        beyond, self._beyond = self._beyond, None
+        beyond, self._prediction = self._prediction, None
         if beyond is None:
             return
         self._chance.take_back(len(beyond.response.position))
@@ -134,7 +134,7 @@ class PlantRun:
         before, ticks = self._state, len(commands)
         both = np.concatenate((commands, ahead))
         found = self._run(both)
-        self._beyond = _Beyond(before, both, found, self._state, ticks)
+        self._prediction = _Prediction(before, both, found, self._state, ticks)
         return Response(*(part[:ticks] for part in found))
 
     def _run(self, commands: FloatArray) -> Response:

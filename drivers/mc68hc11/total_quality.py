@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from rotemina.drivers.link import LinkQuality
 
 
-def joined(lines: Sequence[LinkQuality]) -> LinkQuality:
+def total_quality(lines: Sequence[LinkQuality]) -> LinkQuality:
     """Return the sums of all counts, and the worst of all times and loads."""
     trips = [one.round_trip_s for one in lines if one.round_trip_s is not None]
     return LinkQuality(

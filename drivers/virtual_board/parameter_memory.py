@@ -11,7 +11,7 @@ _MOST = 1 << 23  # steps: what telemetry has room for
 _MS = 1e3
 
 
-class KeptParameters:
+class ParameterMemory:
     """Eight whole numbers of each axis of a board; they outlive its resets."""
 
     def __init__(self, robot: Robot, axes: Sequence[BoardAxis]) -> None:

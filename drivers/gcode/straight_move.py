@@ -1,4 +1,4 @@
-"""A straight way, told piece by piece: what has not been said ends with a line that is torn.
+"""A straight move, sent piece by piece: what has not been sent ends with a line that is torn.
 
 A G-code controller has no watchdog: it goes on to the end of what it was told. So it is never told
 more than it needs in order not to brake: the way of `_AHEAD_S`, and that of its braking.
@@ -15,7 +15,7 @@ _PIECE_S = 0.1
 
 
 @dataclass(slots=True)
-class Way:
+class StraightMove:
     """A straight way from where the axes rest.
 
     Attributes
@@ -28,7 +28,7 @@ class Way:
         How long it takes without speeding up and braking.
     braking_s : float
         How long braking takes.
-    told : float
+    sent : float
         The share that the controller knows of.
     """
 
@@ -37,7 +37,7 @@ class Way:
     end: tuple[float, ...]
     seconds: float
     braking_s: float
-    told: float = 0.0
+    sent: float = 0.0
 
     @classmethod
     def of(
@@ -52,7 +52,7 @@ class Way:
         for axis in axes:
             if axis.name not in targets:
                 continue
-            end = axis.told(targets[axis.name])
+            end = axis.rounded(targets[axis.name])
             way = abs(end - position[axis.number])
             if way == 0.0:
                 continue
@@ -66,22 +66,22 @@ class Way:
         return cls(names, starts, ends, seconds, braking_s)
 
     @property
-    def wholly_told(self) -> bool:
+    def fully_sent(self) -> bool:
         """Whether the controller knows all of it."""
-        return self.told >= 1.0
+        return self.sent >= 1.0
 
     def line(self, position: Sequence[float]) -> str | None:
         """Return the next piece as a jog, where the controller needs it by now; None before."""
-        if self.wholly_told:
+        if self.fully_sent:
             return None
-        ahead_s = (self.told - self._share(position)) * self.seconds
+        ahead_s = (self.sent - self._share(position)) * self.seconds
         least_s = _AHEAD_S + self.braking_s
         if ahead_s >= least_s:
             return None
-        share = self.told + (least_s - ahead_s + _PIECE_S) / self.seconds
-        self.told = 1.0 if share > 1.0 - 0.5 * _PIECE_S / self.seconds else share
+        share = self.sent + (least_s - ahead_s + _PIECE_S) / self.seconds
+        self.sent = 1.0 if share > 1.0 - 0.5 * _PIECE_S / self.seconds else share
         words = [
-            f"{axis.letter}{start + self.told * (end - start):.4f}"
+            f"{axis.letter}{start + self.sent * (end - start):.4f}"
             for axis, start, end in zip(self.axes, self.start, self.end, strict=True)
         ]
         whole = {

@@ -1,4 +1,4 @@
-"""What a board does with the frames that ask, and with those that change what it keeps."""
+"""How a board handles frames that ask, and those that change the parameters it keeps."""
 
 from collections.abc import Callable
 from typing import Any
