@@ -157,11 +157,13 @@ class CompensatedRequests(DeviceRequests, ABC):
         commands, live = trajectory.commands, self.compensates_all
         if live:
             commands = on_ticks(commands, self.setpoint_period_s)
-        sent = sent_for(self.robot, commands, used, self.setpoint_period_s, preview=not live)
+        sent = compensated_trajectory(
+            self.robot, commands, used, self.setpoint_period_s, preview=not live
+        )
         return (None if live else sent), names
 
 
-def sent_for(
+def compensated_trajectory(
     robot: Robot,
     trajectory: Record,
     inverses: Mapping[str, NamedInverse],

@@ -10,7 +10,7 @@ from datetime import datetime
 from rotemina.app.motion.command_memory import CommandMemory
 from rotemina.app.motion.heartbeat import Heartbeat
 from rotemina.app.motion.history import LiveHistory
-from rotemina.app.motion.live_models import Answers, PreparedModel
+from rotemina.app.motion.live_models import ModelOutputs, PreparedModel
 from rotemina.app.motion.mailbox import (
     Ask,
     ConnectionRequest,
@@ -396,7 +396,7 @@ class DeviceSession:
             except Exception:  # a subscriber's mistake must not stop the machine's worker
                 _LOG.exception("a subscriber failed on %s", type(event).__name__)
 
-    def _tell_samples(self, samples: Samples, answers: Answers) -> None:
+    def _tell_samples(self, samples: Samples, answers: ModelOutputs) -> None:
         with self._lock:
             taps = tuple(self._taps.items())
         for callback, failed in taps:

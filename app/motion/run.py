@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from rotemina.app.motion.carried_model import CarriedModel
+from rotemina.app.motion.bracketed_model import BracketedModel
 from rotemina.app.motion.command_memory import CommandMemory
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.motion.recorder import RunAnswers
@@ -142,7 +142,7 @@ def _answers_anew(
     rows = np.repeat(command[before][-1:], len(record.time_s), axis=0)
     for axis in record.axes:
         rows[:, order.index(axis)] = record.signal(axis, Tap.CMD)
-    run = CarriedModel(model.robot, model.offsets)
+    run = BracketedModel(model.robot, model.offsets)
     run.answer(time_s[before], command[before])
     in_use, doubt = run.answer(told.began_s + record.time_s - record.time_s[0], rows)
     own = [order.index(axis) for axis in told.axes]

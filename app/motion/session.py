@@ -17,7 +17,7 @@ from rotemina.app.motion.mailbox import (
 )
 from rotemina.app.motion.ownership import HOMING, OPERATOR, PLAYBACK
 from rotemina.app.motion.regulation import RegulatedRequests
-from rotemina.app.motion.safe_way import safe_way
+from rotemina.app.motion.safe_path import safe_path
 from rotemina.app.motion.state import (
     SessionState,
 )
@@ -181,7 +181,7 @@ class MotionSession(RegulatedRequests):
             for axis, position in goal.items():
                 check_target(self.robot, axis, position)
             self._check_seen(goal)
-            ways = safe_way(self.robot, dict(self._worker.state.command), goal)
+            ways = safe_path(self.robot, dict(self._worker.state.command), goal)
             segments = tuple(segment.no_faster(speeds) for segment in self._segments(ways))
             with self._worker.ownership.claimed(_axes(segments), OPERATOR):
                 self._note_rest()

@@ -4,7 +4,7 @@ from collections import deque
 from collections.abc import Mapping
 
 from rotemina.app.motion.mailbox import RefusedError
-from rotemina.app.motion.safe_way import safe_way
+from rotemina.app.motion.safe_path import safe_path
 from rotemina.sim.robot.model import Robot
 
 _KEPT = 50
@@ -50,4 +50,4 @@ class Undo:
         if not self._places:
             raise RefusedError("there is no move to take back")
         goal = self._places.pop()
-        return safe_way(self._robot, now, goal)
+        return safe_path(self._robot, now, goal)

@@ -12,7 +12,7 @@ from types import MappingProxyType
 
 from rotemina.app.motion.executor import Executor
 from rotemina.app.motion.history import LiveHistory
-from rotemina.app.motion.live_models import Answers, LiveModels, PreparedModel
+from rotemina.app.motion.live_models import LiveModels, ModelOutputs, PreparedModel
 from rotemina.app.motion.lock_reasons import NOT_CONNECTED, lock_reason
 from rotemina.app.motion.mailbox import (
     ClearFault,
@@ -55,7 +55,7 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 
 #: Called with samples and what the models say of them.
-Tap = Callable[[Samples, Answers], None]
+Tap = Callable[[Samples, ModelOutputs], None]
 
 
 class Worker:
@@ -333,7 +333,9 @@ class Worker:
             self._executor.rested()
             self.ownership.release(lambda: len(self._mailbox) > 0)
 
-    def _updated(self, samples: Samples, answers: Answers, status: DeviceStatus) -> SessionState:
+    def _updated(
+        self, samples: Samples, answers: ModelOutputs, status: DeviceStatus
+    ) -> SessionState:
         fault = self._next.fault
         if status.state is DeviceState.FAULT:
             fault = status.fault or "the device reports a fault"

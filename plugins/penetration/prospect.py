@@ -5,7 +5,7 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from rotemina.app.motion.penetration.arming import planned, room
+from rotemina.app.motion.penetration.arming import planned, travel_margin
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.thrust import ThrustPlan, ThrustTrace
 from rotemina.app.motion.session import MotionSession
@@ -60,7 +60,7 @@ class Prospect:
         plan, p = self.plan, self.parameters
         if plan is None:
             return (UNKNOWN,) * 5
-        taken = room(robot, p, plan, 0.0 if start is None else start)
+        taken = travel_margin(robot, p, plan, 0.0 if start is None else start)
         return (
             speed_text(plan.average_speed),
             speed_text(plan.peak_speed),

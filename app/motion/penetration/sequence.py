@@ -19,7 +19,7 @@ from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.app.motion.penetration.feed import AxisFeed, AxisSamples, joined
 from rotemina.app.motion.penetration.run_log import PenetrationRun, Verdict
 from rotemina.app.motion.penetration.status import PenetrationStatus, Phase
-from rotemina.app.motion.penetration.thrust import followed, traced
+from rotemina.app.motion.penetration.thrust import thrust_response, thrust_trace
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import CommandRefused, Event, SessionState
 from rotemina.drivers.abilities import Capturer
@@ -309,8 +309,8 @@ class PenetrationSequence:
         if not attempt.captured:
             time_s, measured = slow.time_s, slow.measured
         begin_s = attempt.triggered_s
-        attempt.thrust = followed(attempt.plan, time_s, measured, begin_s)
-        trace = traced(attempt.plan, time_s, measured, begin_s, attempt.thrust.delay_s)
+        attempt.thrust = thrust_response(attempt.plan, time_s, measured, begin_s)
+        trace = thrust_trace(attempt.plan, time_s, measured, begin_s, attempt.thrust.delay_s)
         self._status = replace(self._status, trace=trace)
         return True
 

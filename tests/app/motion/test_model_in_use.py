@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotemina.app.motion.carried_model import CarriedModel
+from rotemina.app.motion.bracketed_model import BracketedModel
 from rotemina.app.motion.command_memory import CommandMemory
 from rotemina.app.motion.deviation import DeviationWatch
 from rotemina.app.motion.live_model import LiveModel
@@ -238,7 +238,7 @@ def test_the_truth_lies_within_the_doubt():
     before = np.interp(time_s, [0.0, 1.0, 3.0, 4.0], [way[0], 0.9 * high, 0.2 * high, way[0]])
     truth = LiveModel(robot)
     truth.follow(samples(time_s - 5.0, before))
-    told, doubt = CarriedModel(robot).answer(time_s, samples(time_s, way).command)
+    told, doubt = BracketedModel(robot).answer(time_s, samples(time_s, way).command)
     error = np.abs(truth.follow(samples(time_s, way)) - told)[:, -1]
     assert (error <= doubt[:, -1] + 1e-10).all()
     assert error.max() > 3.0 * FLOOR
@@ -246,7 +246,7 @@ def test_the_truth_lies_within_the_doubt():
 
 def test_a_model_without_memory_has_no_doubt():
     gain = AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.02})
-    model = CarriedModel(replace(ROBOT, effects=(gain,)), {"zn": 3e-7})
+    model = BracketedModel(replace(ROBOT, effects=(gain,)), {"zn": 3e-7})
     still = samples(np.arange(5) * 1e-3, 3e-5)
     told, doubt = model.answer(still.device_time_s, still.command)
     nominal = LiveModel(ROBOT).follow(still)

@@ -7,7 +7,7 @@ from types import FrameType
 
 
 @contextmanager
-def told_to_end() -> Iterator[Callable[[], bool]]:
+def termination_requested() -> Iterator[Callable[[], bool]]:
     """Tell whether somebody wants an end, rather than be interrupted."""
     received: list[int] = []
 

@@ -13,7 +13,7 @@ _SETTLED = 0.5  # of a noise floor: a doubt below that is none
 _SETTLED_S = 1.0  # for which it must have been
 
 
-class CarriedModel:
+class BracketedModel:
     """Two runs of a model, one from a rise and one from a fall long ago; the truth lies between.
 
     The first is the answer, as it is where a diagnosis begins a record, and their difference the

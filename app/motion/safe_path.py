@@ -8,7 +8,7 @@ CLEARANCE = 1e-3  # m above both ends, where the range allows
 _LIFT = "z"
 
 
-def safe_way(
+def safe_path(
     robot: Robot, now: Mapping[str, float], goal: Mapping[str, float]
 ) -> tuple[dict[str, float], ...]:
     """Return the segments of a way that lifts the tip above both ends, goes across, and comes down.
