@@ -8,7 +8,7 @@ import numpy as np
 from rotemina.app.microscope.calibration_file import NANO
 from rotemina.app.microscope.click_to_move import ClickToMove, PlannedMove
 from rotemina.app.microscope.errors import MicroscopeError
-from rotemina.app.microscope.look import Look, Looking, Newest
+from rotemina.app.microscope.settled_frame import Newest, SettledFrame, SettledFrameGrabber
 from rotemina.drivers.gate import Permit
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
@@ -93,7 +93,7 @@ class ClickRun:
         self._track, self._ghost, self._before = track, move.ghost, before
         self._clear = clear
         self._tolerance_px, self._corrections = tolerance_px, corrections
-        self._looking = Looking(clicks.session, newest, permit=permit)
+        self._looking = SettledFrameGrabber(clicks.session, newest, permit=permit)
         clicks.go(move, confirmed=confirmed, permit=self._looking.permit)
         self._looking.begin(now_s)
         self.status = VisitStatus(Visit.UNDER_WAY)
@@ -121,7 +121,7 @@ class ClickRun:
             self._clicks.session.stop(reason)
             self.status = replace(self.status, visit=Visit.FAILED, reason=reason)
 
-    def _judge(self, look: Look, now_s: float) -> None:
+    def _judge(self, look: SettledFrame, now_s: float) -> None:
         tip = self._seen(look)
         miss = self._goal - tip
         self.status = replace(self.status, miss=miss)
@@ -153,7 +153,7 @@ class ClickRun:
             self._goal, stage=NANO if self._stage == NANO else None, tip_px=tip
         )
 
-    def _seen(self, look: Look) -> FloatArray:
+    def _seen(self, look: SettledFrame) -> FloatArray:
         """Find the tip about where it should be."""
         track = self._track
         middle = np.rint(self._ghost).astype(int)

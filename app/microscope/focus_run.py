@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from rotemina.app.microscope.look import Looking, Newest
+from rotemina.app.microscope.settled_frame import Newest, SettledFrameGrabber
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.gate import Permit
 from rotemina.sim.errors import InputError
@@ -69,7 +69,7 @@ class FocusRun:
     ) -> None:
         self._session, self._move, self._part = session, move, part
         self._autofocus = Autofocus.over(low, high)
-        self._looking = Looking(session, newest)
+        self._looking = SettledFrameGrabber(session, newest)
         self.status = FocusStatus(Search.UNDER_WAY)
         self._go(now_s)
 

@@ -21,7 +21,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.plot import SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.compensation.learning import Learned
-from rotemina.plugins.compensation.trial import Help, Trial
+from rotemina.plugins.compensation.trial import Aid, Trial
 from rotemina.plugins.compensation.words import HEAD, NOTHING, judged, reasons
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.tuning.objectives import Against
@@ -169,7 +169,7 @@ class LiveView(QWidget):
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
-        names = zip(Help, ("quiet", "accent", "warning", "good"), strict=True)
+        names = zip(Aid, ("quiet", "accent", "warning", "good"), strict=True)
         roles = {one.value: role for one, role in names}
         self.loop = Curves(
             theme,

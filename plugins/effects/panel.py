@@ -25,7 +25,7 @@ from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.effects.chain import Chain, with_formulation, with_value
 from rotemina.plugins.effects.editor import Editor
 from rotemina.plugins.effects.field import tip
-from rotemina.plugins.effects.live import Effects, LiveEffects, Standing
+from rotemina.plugins.effects.live import ApplyState, Effects, LiveEffects
 from rotemina.plugins.effects.menu import fill
 from rotemina.plugins.effects.table import EffectTable
 from rotemina.plugins.effects.words import effect_title, spoken
@@ -376,22 +376,22 @@ class EffectsPanel(Panel):
         self._mark_fields()
         if self._real:
             self._say(translate("effects", REAL_MACHINE))
-        elif self.live.standing is Standing.REFUSED:
+        elif self.live.apply_state is ApplyState.REFUSED:
             self._say(
                 translate("effects", "Not applied: {reason}").format(reason=self.live.reason),
                 bad=True,
             )
-        elif self.live.standing is Standing.PREPARING:
+        elif self.live.apply_state is ApplyState.PREPARING:
             self._say(translate("effects", "preparing …"))
         else:
             self._say(self._count())
 
     def _mark_fields(self) -> None:
         """Mark the parameter that was tuned last while the simulator does not take it."""
-        if self.live.standing is Standing.APPLIED:
+        if self.live.apply_state is ApplyState.APPLIED:
             for field in self.editor.fields.values():
                 field.settle()
-        elif self.live.standing is Standing.REFUSED and self._last is not None:
+        elif self.live.apply_state is ApplyState.REFUSED and self._last is not None:
             place, name = self._last
             if place == self.place and name in self.editor.fields:
                 self.editor.fields[name].set_not_applied(True)

@@ -12,8 +12,8 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.plugins.microscope.feed_notice import against_moving
 from rotemina.plugins.microscope.section import Section, button, show_text
-from rotemina.plugins.microscope.standing import against_moving
 from rotemina.plugins.microscope.words import (
     ENDED,
     calibration_text,

@@ -12,9 +12,9 @@ from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.microscope.engine_words import spoken
+from rotemina.plugins.microscope.feed_notice import against_clicking
 from rotemina.plugins.microscope.overlays import ghost_text
 from rotemina.plugins.microscope.section import Section, SteadyChoice, button, show_text
-from rotemina.plugins.microscope.standing import against_clicking
 from rotemina.plugins.microscope.words import target_text, visit_text
 
 STAGES = (

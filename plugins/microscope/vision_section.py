@@ -11,8 +11,8 @@ from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.microscope.engine_words import spoken
+from rotemina.plugins.microscope.feed_notice import against_moving
 from rotemina.plugins.microscope.section import Section, SteadyChoice, button, show_text
-from rotemina.plugins.microscope.standing import against_moving
 from rotemina.plugins.microscope.words import (
     cell_text,
     drift_text,

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from rotemina.app.cameras.feed import FeedState, FeedView
-from rotemina.app.cameras.watch import Showing, Watch
+from rotemina.app.cameras.frame_check import FrameCheck, PictureState
 from rotemina.app.microscope.calibration_file import (
     MICRO,
     NANO,
@@ -183,7 +183,7 @@ class SteppedFeed:
         self.camera = camera
         self.view = FeedView()
         self._listeners = []
-        self._watch = Watch()
+        self._watch = FrameCheck()
         self.spoil = lambda frame: frame
 
     @property
@@ -219,7 +219,7 @@ class SteppedFeed:
             return
         frame = self.spoil(frame)
         showing = self._watch.judge(frame)
-        state = {Showing.FROZEN: FeedState.FROZEN, Showing.BLACK: FeedState.BLACK}
+        state = {PictureState.FROZEN: FeedState.FROZEN, PictureState.BLACK: FeedState.BLACK}
         self.view = FeedView(state.get(showing, FeedState.LIVE), f"it is {showing}", frame)
         for tell in self._listeners:
             tell(frame)

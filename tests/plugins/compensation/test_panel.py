@@ -10,7 +10,7 @@ from shiboken6 import isValid
 from rotemina.app.motion.state import PlaybackFinished
 from rotemina.app.shell.workbench import Run
 from rotemina.plugins.compensation.learning import Learned, learned_from
-from rotemina.plugins.compensation.trial import NAME, Help, trial_motion, trial_of
+from rotemina.plugins.compensation.trial import NAME, Aid, trial_motion, trial_of
 from rotemina.plugins.compensation.words import (
     KINDS,
     REASONS,
@@ -126,17 +126,17 @@ def test_learn_put_on_and_take_off(qtbot, panel, tmp_path, monkeypatch):
     motion = trial_motion(ROBOT, "zn")
     on = {"compensation zn": "PI"}, {"feedback zn": "zn.toml"}
     for metadata, state in (
-        ({}, Help.NONE),
-        (on[0], Help.INVERSE),
-        (on[1], Help.LOOP),
-        (on[0] | on[1], Help.BOTH),
+        ({}, Aid.NONE),
+        (on[0], Aid.INVERSE),
+        (on[1], Aid.LOOP),
+        (on[0] | on[1], Aid.BOTH),
     ):
         wanted = motion.signal("zn", Tap.CMD)
         signals = {("zn", Tap.CMD): wanted, ("zn", Tap.MEAS): 1.01 * wanted}
         said = {"trajectory": motion.metadata["name"], **metadata}
         played = Record.from_signals(motion.time_s, signals, {"zn": "m"}, said)
         panel._happened.emit(PlaybackFinished(played, True))
-        assert state in panel.acting.trials
+        assert state in panel.actuation.trials
     for told in controls.residuals.values():
         qtbot.waitUntil(lambda told=told: "rms, mean" in told.text(), timeout=LONG_MS)
 
@@ -186,7 +186,7 @@ def test_a_search_is_stopped_and_a_point_of_its_front_tried_kept_applied_and_tak
     search.tuning = replace(search.tuning, points=(bad,), chosen=0, recommended=0)
     told = []
     panel.workbench.noticed.connect(lambda *notice: told.append(notice))
-    panel.acting.apply(search.tuning, "bad.toml")
+    panel.actuation.apply(search.tuning, "bad.toml")
     qtbot.waitUntil(lambda: any("nothing was applied" in str(one) for one in told), timeout=LONG_MS)
     assert session.regulated == {}
 
@@ -214,25 +214,25 @@ def test_before_and_after_on_the_simulated_machine(qtbot, panel):
     controls.axis.setCurrentIndex(2)
     panel.learn_simulated()
     qtbot.waitUntil(lambda: panel.learned is not None, timeout=4 * LONG_MS)
-    for by in (Help.NONE, Help.INVERSE):
-        if by is Help.INVERSE:
+    for by in (Aid.NONE, Aid.INVERSE):
+        if by is Aid.INVERSE:
             qtbot.waitUntil(controls.switch.isEnabled, timeout=LONG_MS)
             controls.switch.click()
             qtbot.waitUntil(lambda: "zn" in session.compensated, timeout=LONG_MS)
         qtbot.waitUntil(controls.trial.isEnabled, timeout=LONG_MS)
         controls.trial.click()
-        qtbot.waitUntil(lambda by=by: by in panel.acting.trials, timeout=LONG_MS)
-    trials = panel.acting.trials
-    assert trials[Help.INVERSE].rms < 0.15 * trials[Help.NONE].rms
-    mean = trials[Help.INVERSE].offset
+        qtbot.waitUntil(lambda by=by: by in panel.actuation.trials, timeout=LONG_MS)
+    trials = panel.actuation.trials
+    assert trials[Aid.INVERSE].rms < 0.15 * trials[Aid.NONE].rms
+    mean = trials[Aid.INVERSE].offset
     qtbot.waitUntil(controls.sweep.isEnabled, timeout=LONG_MS)
     controls.sweep.click()
     qtbot.waitUntil(lambda: not controls.trial.isEnabled(), timeout=LONG_MS)
     qtbot.waitUntil(controls.trial.isEnabled, timeout=LONG_MS)
-    panel.acting.forget()
+    panel.actuation.forget()
     controls.trial.click()
-    qtbot.waitUntil(lambda: Help.INVERSE in trials, timeout=LONG_MS)
-    assert abs(trials[Help.INVERSE].offset) < max(abs(mean), 0.2e-6)
+    qtbot.waitUntil(lambda: Aid.INVERSE in trials, timeout=LONG_MS)
+    assert abs(trials[Aid.INVERSE].offset) < max(abs(mean), 0.2e-6)
 
 
 def test_a_window_that_closes_right_after_a_trial_leaves_nothing_behind(qtbot, panel):
@@ -262,7 +262,7 @@ def test_a_trial_is_told_from_other_plays():
     said = {"trajectory": "compensation trial"}
     trial = trial_of(Record.from_signals(motion.time_s, signals, {"zn": "m"}, said), "zn")
     assert trial is not None
-    assert trial.by is Help.NONE
+    assert trial.by is Aid.NONE
     assert (trial.rms, trial.offset) == pytest.approx((0.0, 2e-7), abs=1e-12)
     assert trial_of(Record.from_signals(motion.time_s, signals, {"zn": "m"}), "zn") is None
     assert trial_of(Record.from_signals(motion.time_s, signals, {"zn": "m"}, said), "thx") is None

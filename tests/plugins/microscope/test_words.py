@@ -22,10 +22,10 @@ from rotemina.drivers.cameras.frame import Frame, Region
 from rotemina.drivers.cameras.settings import CameraSettings, PixelType, Trigger
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.microscope.camera_form import CameraTexts, settings_of, texts_of
+from rotemina.plugins.microscope.feed_notice import against_clicking, feed_notice
 from rotemina.plugins.microscope.overlays import Cross, Layer, Look, Ring, Stroke, shapes
 from rotemina.plugins.microscope.readout import cursor_text, measured_text
 from rotemina.plugins.microscope.scale_bar import scale_bar
-from rotemina.plugins.microscope.standing import against_clicking, standing
 from rotemina.plugins.microscope.words import stage_text, target_text, tip_text
 from rotemina.sim.vision.cell import CellOutline, MembraneAhead
 from rotemina.sim.vision.tip_fit import Depth
@@ -58,20 +58,20 @@ def feed(status, **changes):
 def test_every_state_of_the_camera_is_said_and_an_old_picture_is_veiled(
     status, state, title, veiled
 ):
-    said = standing(feed(status, state=state, reason="why").feed)
+    said = feed_notice(feed(status, state=state, reason="why").feed)
     assert (said.title, said.veiled) == (title, veiled)
     assert said.badge
     if veiled:
         assert said.reason == ("why" if state is not FeedState.CLOSED else said.reason)
-    none = standing(feed(status, state=FeedState.LIVE, frame=None, age_s=None).feed)
+    none = feed_notice(feed(status, state=FeedState.LIVE, frame=None, age_s=None).feed)
     assert none.title == "Waiting for the first picture"
 
 
 def test_the_age_of_a_live_picture_is_told(status):
-    assert standing(status.feed).badge == "live · 30 Hz · 12 ms old"
-    assert standing(feed(status, rate_hz=0.0).feed).badge == "live · 12 ms old"  # the first one
+    assert feed_notice(status.feed).badge == "live · 30 Hz · 12 ms old"
+    assert feed_notice(feed(status, rate_hz=0.0).feed).badge == "live · 12 ms old"  # the first one
     old = feed(status, state=FeedState.STALLED, age_s=3.21)
-    assert standing(old.feed).badge == "stalled · 3.2 s old"
+    assert feed_notice(old.feed).badge == "stalled · 3.2 s old"
 
 
 def test_clicks_move_only_by_a_live_calibrated_picture_with_a_tracked_tip(status):

@@ -29,7 +29,7 @@ class Curve(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Prospect:
+class PlanPreview:
     """A plan, or why there is none.
 
     Attributes

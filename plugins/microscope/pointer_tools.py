@@ -12,14 +12,14 @@ from rotemina.app.shell.language import translate
 from rotemina.app.shell.pending import Pending
 from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.gate import Permit
+from rotemina.plugins.microscope.feed_notice import against_aiming, against_clicking
 from rotemina.plugins.microscope.overlays import ghost_text
-from rotemina.plugins.microscope.picture_view import Hand, PictureView
-from rotemina.plugins.microscope.standing import against_aiming, against_clicking
+from rotemina.plugins.microscope.picture_view import PictureView, PointerTool
 
 _LEAST_LINE = 2.0  # px; shorter is no line but a click
 
 
-class Hands(QObject):
+class PointerTools(QObject):
     """The mode, and the moves that it asks for: nothing moves unless the mode is Move.
 
     Signals
@@ -43,25 +43,27 @@ class Hands(QObject):
         view.pressed.connect(self._press)
         view.dragged.connect(self._drag)
         view.released.connect(self._release)
-        view.left.connect(lambda: self.choose(Hand.PAN))
+        view.left.connect(lambda: self.choose(PointerTool.PAN))
 
-    def choose(self, hand: Hand) -> None:
+    def choose(self, tool: PointerTool) -> None:
         """Have the left button do something else; a move that was only planned is forgotten."""
         self._forget()
-        if hand is not self._view.hand:
-            self._view.set_hand(hand)
+        if tool is not self._view.tool:
+            self._view.set_tool(tool)
             self.changed.emit()
 
-    def against(self, status: MicroscopeStatus, state: SessionState) -> dict[Hand, str | None]:
+    def against(
+        self, status: MicroscopeStatus, state: SessionState
+    ) -> dict[PointerTool, str | None]:
         """Return why a mode cannot be switched on now; one that is on can be switched off."""
         none = (
             None
             if status.feed.frame is not None
             else translate("microscope", "there is no picture")
         )
-        reasons = dict.fromkeys(Hand, none)
-        reasons[Hand.MOVE] = against_clicking(status, state)
-        reasons[self._view.hand] = None
+        reasons = dict.fromkeys(PointerTool, none)
+        reasons[PointerTool.MOVE] = against_clicking(status, state)
+        reasons[self._view.tool] = None
         return reasons
 
     def refresh(self, status: MicroscopeStatus) -> None:
@@ -71,8 +73,8 @@ class Hands(QObject):
         doubtful = against_aiming(status) is not None
         if stopped or (doubtful and self._planned.what):
             self._forget()
-        if self._view.hand is Hand.MOVE and (stopped or doubtful):
-            self.choose(Hand.PAN)
+        if self._view.tool is PointerTool.MOVE and (stopped or doubtful):
+            self.choose(PointerTool.PAN)
 
     def visit_next(self) -> None:
         """Go to the first target that was not visited; a large move is asked about first."""
@@ -93,29 +95,29 @@ class Hands(QObject):
 
     def _press(self, column: float, row: float) -> None:
         place = np.array([column, row])
-        hand, ask, microscope = self._view.hand, self._workbench.ask, self._microscope
+        tool, ask, microscope = self._view.tool, self._workbench.ask, self._microscope
         self._begin = (column, row)
-        if hand is Hand.MOVE:
+        if tool is PointerTool.MOVE:
             self._plan(column, row)
-        elif hand is Hand.MARK:
+        elif tool is PointerTool.MARK:
             ask(lambda: microscope.mark_target(place))
-        elif hand is Hand.TIP:
+        elif tool is PointerTool.TIP:
             ask(lambda: microscope.track(True, near=place))
-        elif hand is Hand.CELL:
+        elif tool is PointerTool.CELL:
             ask(lambda: microscope.outline_cell(place))
 
     def _drag(self, column: float, row: float) -> None:
-        if self._view.hand is Hand.MOVE and self._planned.what:
+        if self._view.tool is PointerTool.MOVE and self._planned.what:
             self._plan(column, row)
-        elif self._view.hand is Hand.MEASURE:
+        elif self._view.tool is PointerTool.MEASURE:
             self._view.line = (self._begin, (column, row))
             self._view.update()
 
     def _release(self, column: float, row: float) -> None:
         microscope = self._microscope
-        if self._view.hand is Hand.MOVE and self._planned.what:
+        if self._view.tool is PointerTool.MOVE and self._planned.what:
             self._go(microscope.go)
-        elif self._view.hand is Hand.MEASURE:
+        elif self._view.tool is PointerTool.MEASURE:
             self._view.line = None
             begin, end = np.array(self._begin), np.array([column, row])
             if float(np.linalg.norm(end - begin)) >= _LEAST_LINE:

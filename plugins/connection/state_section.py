@@ -12,7 +12,7 @@ from rotemina.plugins.connection import reasons
 from rotemina.plugins.connection.section import Section, button
 
 
-class StandingSection(Section):
+class StateSection(Section):
     """The phase in one word, and the reason why motion is locked."""
 
     def __init__(self, workbench: Workbench) -> None:

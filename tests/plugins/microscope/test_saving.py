@@ -13,8 +13,8 @@ from PIL import Image
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.motion.state import SessionState
 from rotemina.plugins.microscope.contrast import Contrast, Table
-from rotemina.plugins.microscope.keeping import (
-    Filming,
+from rotemina.plugins.microscope.saving import (
+    VideoCapture,
     circumstances,
     progress,
     summary,
@@ -27,7 +27,7 @@ STATE = SessionState(command={"x": 0.01}, measured={"x": 0.0101})
 
 @pytest.fixture
 def filming(microscope, tmp_path):
-    made = Filming(microscope, tmp_path / "videos", lambda _: None, now=lambda: NOW)
+    made = VideoCapture(microscope, tmp_path / "videos", lambda _: None, now=lambda: NOW)
     yield made
     if made.video is not None:
         made.end().close()

@@ -8,8 +8,8 @@ from rotemina.app.motion.penetration.thrust import ThrustTrace, plan_thrust
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.plugins.penetration.cells import cells_text, with_cell, without_cell
-from rotemina.plugins.penetration.prospect import (
-    Prospect,
+from rotemina.plugins.penetration.plan_preview import (
+    PlanPreview,
     commanded_curve,
     measured_curve,
     wanted_curve,
@@ -33,16 +33,16 @@ def plan(**parameters):
 
 
 def test_figures_are_those_of_the_plan_and_the_place(session):
-    prospect = Prospect.of(session, PenetrationParameters())
-    assert prospect.figures(ROBOT, 32.5e-6) == (
+    preview = PlanPreview.of(session, PenetrationParameters())
+    assert preview.figures(ROBOT, 32.5e-6) == (
         "556 µm/s",
         "815 µm/s",
         "50.00 µm",
         "62.00 µm",
         "32.50 µm",
     )
-    assert prospect.figures(ROBOT, None)[-1] == "–"
-    up = Prospect.of(session, PenetrationParameters(direction="up"))
+    assert preview.figures(ROBOT, None)[-1] == "–"
+    up = PlanPreview.of(session, PenetrationParameters(direction="up"))
     assert up.figures(ROBOT, 10e-6)[-1] == "55.00 µm"
 
 
@@ -56,10 +56,10 @@ def test_figures_are_those_of_the_plan_and_the_place(session):
     ],
 )
 def test_without_a_plan_it_says_why_and_gives_no_figures(session, parameters, said):
-    prospect = Prospect.of(session, PenetrationParameters(**parameters))
-    assert prospect.plan is None
-    assert said in prospect.problem
-    assert set(prospect.figures(ROBOT, 0.0)) == {"–"}
+    preview = PlanPreview.of(session, PenetrationParameters(**parameters))
+    assert preview.plan is None
+    assert said in preview.problem
+    assert set(preview.figures(ROBOT, 0.0)) == {"–"}
 
 
 @pytest.mark.parametrize("direction", ["down", "up"])

@@ -15,7 +15,7 @@ _STRIDE = 8  # rows and columns between the pixels that are looked at
 _ROWS = 4
 
 
-class Showing(StrEnum):
+class PictureState(StrEnum):
     """What is to be thought of the pictures."""
 
     LIVE = "live"
@@ -23,7 +23,7 @@ class Showing(StrEnum):
     BLACK = "black"
 
 
-class Watch:
+class FrameCheck:
     """Looks at every picture; a real camera's noise never gives the same one twice."""
 
     def __init__(self) -> None:
@@ -31,7 +31,7 @@ class Watch:
         self._same = 0
         self._since_s = 0.0
 
-    def judge(self, frame: Frame) -> Showing:
+    def judge(self, frame: Frame) -> PictureState:
         """Return what the pictures up to this one show."""
         # Whole rows: an image that is still alive differs somewhere in a quarter of its pixels.
         rows = np.ascontiguousarray(frame.pixels[::_ROWS])
@@ -40,11 +40,11 @@ class Watch:
         else:
             self._rows, self._same, self._since_s = rows, 0, frame.host_time_s
         if _black(frame):
-            return Showing.BLACK
+            return PictureState.BLACK
         lasts_s = frame.host_time_s - self._since_s
         if self._same >= _FROZEN_FRAMES and lasts_s >= FROZEN_S:
-            return Showing.FROZEN
-        return Showing.LIVE
+            return PictureState.FROZEN
+        return PictureState.LIVE
 
 
 def _black(frame: Frame) -> bool:

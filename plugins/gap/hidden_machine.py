@@ -18,7 +18,7 @@ RIGHT, PLAYED = "hidden.right", "hidden.played"  # of the score, in the preferen
 _SEEDS = 1 << 30
 
 
-class Hiding(QObject):
+class HiddenMachineTrial(QObject):
     """Puts a hidden machine in the simulator's place, and tells in the end what it has."""
 
     def __init__(self, workbench: Workbench, parent: QWidget) -> None:

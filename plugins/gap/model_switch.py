@@ -16,7 +16,7 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Tap
 
 
-class Using(QObject):
+class ModelSwitch(QObject):
     """Puts the model of an answer to use, after a question where something speaks against it."""
 
     def __init__(self, workbench: Workbench, parent: QWidget) -> None:

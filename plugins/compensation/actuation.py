@@ -12,7 +12,7 @@ from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.compensation.controls import Controls
 from rotemina.plugins.compensation.learning import Learned
-from rotemina.plugins.compensation.trial import Help, Trial, trial_motion, trial_of
+from rotemina.plugins.compensation.trial import Aid, Trial, trial_motion, trial_of
 from rotemina.plugins.compensation.views import LiveView
 from rotemina.plugins.compensation.words import (
     APPLY,
@@ -30,7 +30,7 @@ from rotemina.sim.records.record import Record
 from rotemina.sim.tuning.result import Tuning
 
 
-class Acting:
+class Actuation:
     """Puts on and takes off, and tries.
 
     Parameters
@@ -43,7 +43,7 @@ class Acting:
 
     def __init__(self, workbench: Workbench, controls: Controls, live: LiveView) -> None:
         self._workbench, self._controls, self._live = workbench, controls, live
-        self.trials: dict[Help, Trial] = {}
+        self.trials: dict[Aid, Trial] = {}
 
     def switch(self, learned: Learned | None, source: str) -> None:
         """Put the chosen inverse on its axis, or take off what is on."""

@@ -31,7 +31,7 @@ TITLES = {
 
 
 @dataclass(frozen=True, slots=True)
-class Standing:
+class FeedNotice:
     """What is said of the picture.
 
     Attributes
@@ -53,11 +53,11 @@ class Standing:
     veiled: bool = False
 
 
-def standing(view: FeedView) -> Standing:
+def feed_notice(view: FeedView) -> FeedNotice:
     """Return what is to be said of a camera's moment."""
     state, tone = view.state, TONES[view.state]
     if state is FeedState.LIVE and view.frame is None:
-        return Standing(
+        return FeedNotice(
             "busy",
             translate("microscope", "opened"),
             translate("microscope", "Waiting for the first picture"),
@@ -68,18 +68,18 @@ def standing(view: FeedView) -> Standing:
             translate("microscope", "live"),
             *([f"{view.rate_hz:.0f} Hz"] if view.rate_hz > 0.0 else []),
         ]
-        return Standing(tone, " · ".join((*parts, age(view.age_s))))
+        return FeedNotice(tone, " · ".join((*parts, age(view.age_s))))
     badge = spoken(state)
     if view.frame is not None:
         badge = f"{badge} · {age(view.age_s)}"
     if state is FeedState.WAITING:
         title = "" if view.frame is not None else translate("microscope", TITLES[state])
-        return Standing(tone, badge, title)
+        return FeedNotice(tone, badge, title)
     reason = spoken(view.reason)
     if state is FeedState.CLOSED:
         reason = translate("microscope", "Choose a camera under Tools, Camera, and open it.")
     title = translate("microscope", TITLES[state])
-    return Standing(tone, badge, title, reason, veiled=state is not FeedState.OPENING)
+    return FeedNotice(tone, badge, title, reason, veiled=state is not FeedState.OPENING)
 
 
 def age(age_s: float | None) -> str:

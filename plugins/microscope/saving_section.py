@@ -12,22 +12,22 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.plugins.microscope.keeping import (
+from rotemina.plugins.microscope.picture_view import PictureView
+from rotemina.plugins.microscope.saving import (
     STAMP,
-    Filming,
+    VideoCapture,
     circumstances,
     progress,
     summary,
     write_pictures,
 )
-from rotemina.plugins.microscope.picture_view import PictureView
 from rotemina.plugins.microscope.section import Section, button, show_text
 from rotemina.sim.errors import InputError
 
 FOLLOWS = "microscope.video_with_recording"
 
 
-class KeepingSection(Section):
+class SavingSection(Section):
     """Snapshot and video; what is slow is done in the background."""
 
     _told = Signal(str)
@@ -38,7 +38,7 @@ class KeepingSection(Section):
         data = workbench.operation.data
         self._pictures = data / "pictures"
         self._told.connect(lambda text: workbench.notify(Level.WARNING, text, about=self))
-        self.filming = Filming(microscope, data / "videos", self._told.emit)
+        self.filming = VideoCapture(microscope, data / "videos", self._told.emit)
         self.snapshot = button(translate("microscope", "Snapshot"), self._snap)
         self.record = button(translate("microscope", "● Video"), self._toggle)
         self.add_row(self.snapshot, self.record)

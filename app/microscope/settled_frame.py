@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotemina.app.cameras.watch import Showing, Watch
+from rotemina.app.cameras.frame_check import FrameCheck, PictureState
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import Connection, SessionState
@@ -29,7 +29,7 @@ REST_PATIENCE_S = 30.0  # with a machine
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Look:
+class SettledFrame:
     """What was seen of a machine at rest.
 
     Attributes
@@ -51,7 +51,7 @@ class Look:
     host_time_s: float
 
 
-class Looking:
+class SettledFrameGrabber:
     """Waits for one look at a time; somebody calls :meth:`step` at about the camera's rate.
 
     Parameters
@@ -92,7 +92,7 @@ class Looking:
         self._begun_s = now_s
         self._restart()
 
-    def step(self, now_s: float) -> Look | None:
+    def step(self, now_s: float) -> SettledFrame | None:
         """Return the look as soon as there is one.
 
         Raises
@@ -141,7 +141,7 @@ class Looking:
 
     def _restart(self) -> None:
         self._rested_s = None
-        self._watch = Watch()
+        self._watch = FrameCheck()
         self._images: list[Image] = []
         self._commands: list[FloatArray] = []
         self._measured: list[FloatArray] = []
@@ -163,7 +163,7 @@ class Looking:
                 "began; keep its settings and begin again"
             )
         self._region = frame.region
-        if self._watch.judge(frame) is Showing.BLACK:
+        if self._watch.judge(frame) is PictureState.BLACK:
             raise MicroscopeError(
                 "the picture is black; look at lamp, shutter and exposure. Nothing is moved"
             )
@@ -175,10 +175,10 @@ class Looking:
         self._commands.append(np.array([state.command[axis] for axis in axes]))
         self._measured.append(np.array([state.measured[axis] for axis in axes]))
 
-    def _seen(self) -> Look:
+    def _seen(self) -> SettledFrame:
         assert self._latest is not None
         assert self._region is not None
-        return Look(
+        return SettledFrame(
             image=np.mean(self._images, axis=0, dtype=np.float32),
             command=np.mean(self._commands, axis=0),
             measured=np.mean(self._measured, axis=0),

@@ -60,7 +60,7 @@ def write_pictures(
     return tiff, png
 
 
-class Filming:
+class VideoCapture:
     """At most one film of the camera in use; begun by hand, or with the session's recording.
 
     Parameters

@@ -7,7 +7,7 @@ from rotemina.app.motion.teleoperation.calibration import UNCALIBRATED
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.inputs.pad import Pad
-from rotemina.plugins.teleoperation.hand import Hand, Key
+from rotemina.plugins.teleoperation.virtual_stick import Key, VirtualStick
 
 
 class Told:
@@ -16,7 +16,7 @@ class Told:
     def __init__(self):
         self.clock = VirtualClock(3.0)
         self.pad = Pad("pad", buttons=PAD_BUTTONS, lease_s=PAD_LEASE_S, clock=self.clock)
-        self.hand = Hand(self.pad)
+        self.stick = VirtualStick(self.pad)
         self._device = self.pad.open(self.pad.identity)
         self._last = self._device.read()[-1]
 
@@ -46,79 +46,79 @@ def told():
     ],
 )
 def test_a_key_is_a_full_deflection_until_it_is_let_go_of(told, key, ways):
-    told.hand.press(key)
+    told.stick.press(key)
     assert told.now == (ways, set())
-    told.hand.let_go(key)
+    told.stick.let_go(key)
     assert told.now == ((0, 0, 0), set())
-    assert not told.hand.busy
+    assert not told.stick.busy
 
 
 def test_keys_against_each_other_are_none(told):
-    told.hand.press(Key.LEFT)
-    told.hand.press(Key.RIGHT)
-    told.hand.press(Key.AWAY)
+    told.stick.press(Key.LEFT)
+    told.stick.press(Key.RIGHT)
+    told.stick.press(Key.AWAY)
     assert told.now == ((0, 1, 0), set())
-    told.hand.let_go(Key.LEFT)
+    told.stick.let_go(Key.LEFT)
     assert told.now == ((1, 1, 0), set())
 
 
 @pytest.mark.parametrize("most", [0.1, 0.25, 1.0])
 def test_the_deflection_is_what_was_chosen_in_spite_of_the_dead_zone(told, most):
-    told.hand.most = most
-    told.hand.press(Key.RIGHT)
+    told.stick.most = most
+    told.stick.press(Key.RIGHT)
     assert told.now == ((most, 0, 0), set())
-    told.hand.let_go(Key.RIGHT)
-    told.hand.drag(x=-0.5, y=7.0)
+    told.stick.let_go(Key.RIGHT)
+    told.stick.drag(x=-0.5, y=7.0)
     assert told.now == ((-0.5 * most, most, 0), set())
 
 
 def test_the_pointer_springs_back(told):
-    told.hand.drag(z=0.4)
-    assert told.hand.dragging
+    told.stick.drag(z=0.4)
+    assert told.stick.dragging
     assert told.now == ((0, 0, 0.4), set())
-    told.hand.drop()
+    told.stick.drop()
     assert told.now == ((0, 0, 0), set())
 
 
 def test_the_clutch_is_held_with_a_direction(told):
-    told.hand.press(Key.RIGHT)
-    told.hand.press(Key.CLUTCH)
+    told.stick.press(Key.RIGHT)
+    told.stick.press(Key.CLUTCH)
     assert told.now == ((1, 0, 0), {Action.CLUTCH})
 
 
 def test_another_scale_ends_what_moves(told):
-    told.hand.modify(fine=True, coarse=False)
-    told.hand.press(Key.RIGHT)
-    told.hand.modify(fine=True, coarse=False)  # said again
+    told.stick.modify(fine=True, coarse=False)
+    told.stick.press(Key.RIGHT)
+    told.stick.modify(fine=True, coarse=False)  # said again
     assert told.now == ((1, 0, 0), {Action.FINE})
-    told.hand.modify(fine=False, coarse=False)
+    told.stick.modify(fine=False, coarse=False)
     assert told.now == ((0, 0, 0), set())
-    told.hand.drag(x=1.0)
-    told.hand.modify(fine=False, coarse=True)
+    told.stick.drag(x=1.0)
+    told.stick.modify(fine=False, coarse=True)
     assert told.now == ((0, 0, 0), {Action.COARSE})
 
 
 def test_all_is_let_go_of_at_once(told):
-    told.hand.modify(fine=True, coarse=True)
-    told.hand.press(Key.RAISE)
-    told.hand.press(Key.CLUTCH)
-    told.hand.take_over(True)
-    told.hand.drag(x=1.0)
-    told.hand.release_all()
+    told.stick.modify(fine=True, coarse=True)
+    told.stick.press(Key.RAISE)
+    told.stick.press(Key.CLUTCH)
+    told.stick.take_over(True)
+    told.stick.drag(x=1.0)
+    told.stick.release_all()
     assert told.now == ((0, 0, 0), set())
-    assert not told.hand.busy
-    told.hand.press(Key.RAISE)  # and what comes then is told anew
+    assert not told.stick.busy
+    told.stick.press(Key.RAISE)  # and what comes then is told anew
     assert told.now == ((0, 0, 1), set())
 
 
 def test_a_screen_that_hung_finds_everything_let_go_of(told):
-    told.hand.press(Key.RIGHT)
+    told.stick.press(Key.RIGHT)
     for _ in range(5):
         told.clock.advance(0.8 * PAD_LEASE_S)
-        told.hand.renew()
+        told.stick.renew()
     assert told.now == ((1, 0, 0), set())
     told.clock.advance(1.1 * PAD_LEASE_S)
     assert told.now == ((0, 0, 0), set())
-    told.hand.renew()
-    assert not told.hand.busy
+    told.stick.renew()
+    assert not told.stick.busy
     assert told.now == ((0, 0, 0), set())

@@ -34,7 +34,7 @@ _MOVES = {
 }
 
 
-class Hand:
+class VirtualStick:
     """Keys and pointer on a pad; two keys against each other are none.
 
     Parameters

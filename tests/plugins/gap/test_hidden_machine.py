@@ -6,13 +6,13 @@ import pytest
 from PySide6.QtWidgets import QMessageBox
 
 from rotemina.app.blind.hidden_machine import HiddenMachine, Secret
-from rotemina.plugins.gap import hidden
+from rotemina.plugins.gap import hidden_machine
 from rotemina.plugins.gap.answer import Answer
 
 LONG_MS = 60_000
 
 
-class Told(Secret):
+class ToldSecret(Secret):
     """A secret of which the causes are said."""
 
     __slots__ = ("_causes",)
@@ -28,13 +28,13 @@ class Told(Secret):
 
 @pytest.fixture
 def hiding(qtbot, window, monkeypatch):
-    monkeypatch.setattr(hidden, "draw_secret", lambda *_: Told({("thx", "creep")}))
+    monkeypatch.setattr(hidden_machine, "draw_secret", lambda *_: ToldSecret({("thx", "creep")}))
     panel = window.panel
-    panel.hiding.begin(1)
+    panel.hidden_trial.begin(1)
     session = window.workbench.session
-    qtbot.waitUntil(lambda: panel.hiding.secret is not None, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: panel.hidden_trial.secret is not None, timeout=LONG_MS)
     qtbot.waitUntil(lambda: session.snapshot().locked is None, timeout=LONG_MS)
-    return panel.hiding
+    return panel.hidden_trial
 
 
 def boxes(window):
