@@ -12,7 +12,7 @@ from rotemina.app.microscope.settled_frame import Newest, SettledFrame, SettledF
 from rotemina.drivers.gate import Permit
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
-from rotemina.sim.vision.image import Image, over
+from rotemina.sim.vision.image import Image, relative_to
 from rotemina.sim.vision.tip import likeliest, plausible
 from rotemina.sim.vision.tip_fit import fit_tip
 from rotemina.sim.vision.tracking import TipTrack
@@ -176,7 +176,7 @@ class ClickRun:
         if before is None or before[window].shape != part.shape:
             return part
         if self._clear:
-            return over(part, before[window])
+            return relative_to(part, before[window])
         corner = np.array([window[1].start, window[0].start])
         covered = track.pipette.drawn(track.pixel - corner, track.depth.distance, part.shape)[0]
-        return part if covered.max() > _COVERED else over(part, before[window])
+        return part if covered.max() > _COVERED else relative_to(part, before[window])

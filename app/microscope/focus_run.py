@@ -68,7 +68,7 @@ class FocusRun:
         part: tuple[slice, slice] = (slice(None), slice(None)),
     ) -> None:
         self._session, self._move, self._part = session, move, part
-        self._autofocus = Autofocus.over(low, high)
+        self._autofocus = Autofocus.between(low, high)
         self._looking = SettledFrameGrabber(session, newest)
         self.status = FocusStatus(Search.UNDER_WAY)
         self._go(now_s)
@@ -85,7 +85,7 @@ class FocusRun:
                 peak = self._autofocus.peak
                 self.status = replace(self.status, search=Search.DONE, peak=peak)
                 return self.status
-            self._autofocus = self._autofocus.told(sharpness(look.image[self._part]))
+            self._autofocus = self._autofocus.with_sharpness(sharpness(look.image[self._part]))
             found = self._autofocus
             self.status = replace(self.status, places=found.places, values=found.values)
             self._looking.check()

@@ -101,7 +101,7 @@ class Executor:
         permit = self._permit
         assert permit is not None, "a move is under way"
         try:
-            self._next_leg(permit)
+            self._next_segment(permit)
         except OvertakenError:
             self._route.clear()
         except Exception:
@@ -129,7 +129,7 @@ class Executor:
         if isinstance(command, Move):
             self._route.clear()
             self._route.extend(command.segments)
-            self._next_leg(permit)
+            self._next_segment(permit)
         elif isinstance(command, Drive):
             self._drive(command, permit)
         elif isinstance(command, Play):
@@ -181,7 +181,7 @@ class Executor:
         self.forget()
         self.targets = command.targets
 
-    def _next_leg(self, permit: Permit) -> None:
+    def _next_segment(self, permit: Permit) -> None:
         segment = self._route.popleft()
         self._driver.move_to(segment.targets, segment.speeds, permit=permit)
         self.targets = MappingProxyType({**self.targets, **segment.targets})

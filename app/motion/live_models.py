@@ -65,7 +65,7 @@ class PreparedModel(NamedTuple):
 
     def catch_up(self, memory: CommandMemory) -> None:
         """Follow what was commanded since."""
-        time_s, command = memory.told()
+        time_s, command = memory.history()
         for run in self.runs:
             later = time_s > run.time_s
             if later.any():

@@ -134,7 +134,7 @@ def _answers_anew(
     """Return what another model says of a record; None where nothing is known of before."""
     if not model.corrected:
         return replace(told, in_use=told.nominal, doubt=np.zeros(told.nominal.shape))
-    time_s, command = memory.told()
+    time_s, command = memory.history()
     before = time_s < told.began_s
     if memory.number != told.memory or not before.any():
         return None

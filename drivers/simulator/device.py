@@ -14,7 +14,7 @@ from rotemina.drivers.simulator.regulating import Regulating
 from rotemina.drivers.simulator.setpoints import SetpointGenerator, SetpointLimits
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.errors import CompensationError
-from rotemina.sim.compensate.inverse import Beyond
+from rotemina.sim.compensate.inverse import Exceedance
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.feedback.regulation import Regulation
 from rotemina.sim.plant.chance import Chance
@@ -120,7 +120,7 @@ class SimulatedDevice:
         return self._sent.copy()
 
     @property
-    def compensated(self) -> dict[int, Beyond]:
+    def compensated(self) -> dict[int, Exceedance]:
         """In what each axis, by its number, has gone beyond its inverse; of those that have one."""
         return self._compensating.beyond
 

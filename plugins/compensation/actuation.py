@@ -20,9 +20,9 @@ from rotemina.plugins.compensation.words import (
     NO_FRONT,
     SWEEP,
     SWITCH,
-    beyond,
-    left,
-    owned,
+    exceedance_text,
+    owners_text,
+    residual_text,
 )
 from rotemina.sim.compensate.conditioning import conditioning
 from rotemina.sim.compensate.judgement import NAMES
@@ -114,11 +114,11 @@ class Actuation:
         """Show what is on and was left, and what can be done; ``other``: why no inverse is."""
         controls, session, axis = self._controls, self._workbench.session, self._controls.chosen
         for one, told in controls.residuals.items():
-            told.setText(left(self.trials.get(one), self._unit))
+            told.setText(residual_text(self.trials.get(one), self._unit))
         inverse_on, loop_on = axis in session.compensated, axis in session.regulated
         controls.switch.setText(translate("compensation", SWITCH[inverse_on]))
         controls.apply.setText(translate("compensation", APPLY[loop_on]))
-        said = beyond(session.beyond_inverse(axis))
+        said = exceedance_text(session.beyond_inverse(axis))
         at_limit = (
             translate("compensation", AT_A_LIMIT) if axis in session.regulation_limited else ""
         )
@@ -127,7 +127,7 @@ class Actuation:
             None if state.activity is DeviceState.IDLE else translate("compensation", "it moves")
         )
         locked = spoken(state.locked) if state.locked else None
-        still = locked or moves or owned(state.owners)
+        still = locked or moves or owners_text(state.owners)
         no_axis = None if axis else translate("compensation", "the robot has no piezo in open loop")
         allow(controls.switch, still or (None if inverse_on else other), self._switch_tip())
         no_loop = session.no_regulation or self._no_point(tuning)

@@ -35,7 +35,7 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.robot.writing import write_robot
-from rotemina.sim.trajectory.demonstration import wear
+from rotemina.sim.trajectory.demonstration import worn_effects
 
 REAL_MACHINE = marked(
     "effects",
@@ -164,9 +164,10 @@ class EffectsPanel(Panel):
             translate("effects", "As the robot file says"), lambda: self.use_effects(robot.effects)
         )
         worn = menu.addAction(
-            translate("effects", "Worn, to demonstrate with"), lambda: self.use_effects(wear(robot))
+            translate("effects", "Worn, to demonstrate with"),
+            lambda: self.use_effects(worn_effects(robot)),
         )
-        worn.setEnabled(bool(wear(robot)))
+        worn.setEnabled(bool(worn_effects(robot)))
         self.machine.setMenu(menu)
 
     def _connect(self) -> None:

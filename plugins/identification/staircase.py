@@ -39,7 +39,7 @@ def step_findings(question: Question) -> Findings:
         levels, ramp_s = jumped(record, axis, question.drive)
         found = step_metrics(levels, axis, question.answer, drive=question.drive)
     except InputError as error:
-        course = _course(question, time_s, driven, answer)
+        course = _response_picture(question, time_s, driven, answer)
         return Findings(question, (course,), notices=(str(error),))
     nominal, absent = _modelled(question)
     beside = () if nominal is None else _measured(question, nominal)
@@ -47,7 +47,7 @@ def step_findings(question: Question) -> Findings:
     return Findings(
         question,
         (
-            _course(question, time_s, driven, answer, nominal),
+            _response_picture(question, time_s, driven, answer, nominal),
             _closest(question, found, answer, nominal),
         ),
         HEAD,
@@ -131,7 +131,7 @@ def _figures(
     return tuple(figures)
 
 
-def _course(
+def _response_picture(
     question: Question,
     time_s: FloatArray,
     driven: FloatArray,

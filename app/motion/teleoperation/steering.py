@@ -32,7 +32,7 @@ class _SteeredCoordinate:
     deflection: float = 0.0  # the latest one that counted
     held: bool = False  # the stick moves without it: clutch, distrust
 
-    def told(self, deflections: Mapping[str, float]) -> float | None:
+    def deflection_in(self, deflections: Mapping[str, float]) -> float | None:
         """Return the deflection for it: that of its own axis, or of its degree of freedom."""
         name = self.coordinate.name
         own = name in deflections and name not in DEGREES_OF_FREEDOM
@@ -121,10 +121,10 @@ class Steering:
         """Whether every stick was in the middle when it was last looked at."""
         return all(one.engaged and one.deflection == 0.0 for one in self._steered.values())
 
-    def told(self, name: str, deflections: Mapping[str, float]) -> float | None:
+    def deflection_of(self, name: str, deflections: Mapping[str, float]) -> float | None:
         """Return the deflection of a coordinate's stick, in the coordinate's direction, if any."""
         one = self._steered[name]
-        told = one.told(deflections)
+        told = one.deflection_in(deflections)
         return None if told is None else one.sign * told
 
     def begin(
@@ -135,7 +135,7 @@ class Steering:
     ) -> None:
         """Go on from a motion of the coordinates, with the sticks where they are."""
         for name, one in self._steered.items():
-            told = self.told(name, deflections)
+            told = self.deflection_of(name, deflections)
             seen = 0.0 if told is None else told
             if not one.engaged:
                 seen = 0.0
@@ -159,7 +159,7 @@ class Steering:
     ) -> Step:
         """Go on for ``dt`` s; without ``free`` the sticks move and the machine does not."""
         for name, one in self._steered.items():
-            told = self.told(name, deflections) if free else None
+            told = self.deflection_of(name, deflections) if free else None
             one.step(told, dt, reactions.get(name, 0.0), indexed=self._indexed)
         return self.now()
 

@@ -261,12 +261,12 @@ def test_a_rest_takes_two_rows_of_the_memory_and_a_motion_all_of_its_own():
     for first in range(0, 10_000, 16):
         part = slice(first, first + 16)
         memory.add(samples(time_s[part], way[part]))
-    kept_s, command = memory.told()
+    kept_s, command = memory.history()
     assert 1000 < len(kept_s) < 1300
     assert (kept_s[0], kept_s[-1]) == (time_s[0], time_s[-1])
     np.testing.assert_allclose(np.interp(time_s, kept_s, command[:, -1]), way, atol=1e-12)
     memory.clear()
-    assert not len(memory.told()[0])
+    assert not len(memory.history()[0])
 
 
 def test_the_memory_is_bounded():
@@ -274,7 +274,7 @@ def test_the_memory_is_bounded():
     for first in range(0, 2000, 100):
         time_s = np.arange(first, first + 100) * 1e-3
         memory.add(samples(time_s, time_s * 1e-6))
-    assert len(memory.told()[0]) <= 601
+    assert len(memory.history()[0]) <= 601
 
 
 # --- of one machine ---------------------------------------------------------------------------

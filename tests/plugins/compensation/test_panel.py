@@ -15,16 +15,16 @@ from rotemina.plugins.compensation.words import (
     KINDS,
     REASONS,
     WHY,
-    beyond,
+    exceedance_text,
     judged,
-    left,
     micro,
+    residual_text,
 )
 from rotemina.sim.comparison.comparison import compare
 from rotemina.sim.compensate import anfis
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.file import Provenance, write_trained
-from rotemina.sim.compensate.inverse import Beyond
+from rotemina.sim.compensate.inverse import Exceedance
 from rotemina.sim.compensate.judgement import NAMES, Residual, recommended
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.compensate.training import Trained
@@ -287,10 +287,10 @@ def test_words():
     rows = judged(learned.trained)
     assert rows[0] == ("Prandtl–Ishlinskii ◂", "50 nm", "0.2 µm", "0.08%")
     assert rows[1][0] == "linear"
-    assert left(None, "m") == "–"
+    assert residual_text(None, "m") == "–"
     assert micro(-1.5e-6, "rad") == "-1.5 µrad"
-    assert beyond(Beyond(0)) == ""
-    assert beyond(Beyond.FAST | Beyond.COMMAND) == (
+    assert exceedance_text(Exceedance(0)) == ""
+    assert exceedance_text(Exceedance.FAST | Exceedance.COMMAND) == (
         "It has been faster than it saw, at an end of the machine's range (clamped)."
     )
 

@@ -12,7 +12,7 @@ _RELATED = 0.5  # correlation of neighbours from which the means of blocks wande
 _OVER = 4.0  # times what the scatter within blocks explains
 
 
-def wandering(runs: list[Run], remainders: list[FloatArray], unit: str) -> list[str]:
+def zero_drifts(runs: list[Run], remainders: list[FloatArray], unit: str) -> list[str]:
     """Say whether what the model leaves (n,) of each run wanders with time.
 
     The means of blocks of rows, without what repeats at the same positions, scatter by chance as
