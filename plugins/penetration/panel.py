@@ -50,7 +50,7 @@ class PenetrationPanel(Panel):
         self._operation = workbench.operation
         self._penetration = self._operation.penetration
         self._why_not: str | None = None
-        self._looked_at: object = ()
+        self._last_inputs: object = ()
         self._problem = ""
         self.bar = RunBar(workbench)
         self.message = QLabel()
@@ -251,7 +251,7 @@ class PenetrationPanel(Panel):
         session = self.workbench.session
         if session.driver is not self._planned_for:  # another one may hold its set-points longer
             self._plan()
-        looked_at = (
+        inputs = (
             self.plan_preview,
             self.form.complaint,
             status.phase,
@@ -262,9 +262,9 @@ class PenetrationPanel(Panel):
             dict(state.owners),
             session.keep_out,
         )
-        if looked_at == self._looked_at:
+        if inputs == self._last_inputs:
             return
-        self._looked_at = looked_at
+        self._last_inputs = inputs
         self.readouts.show_plan(self.plan_preview, state)
         if self.form.complaint or self.plan_preview.plan is None:
             self._why_not = self.form.complaint or self.plan_preview.problem
