@@ -9,7 +9,7 @@ from enum import StrEnum
 from rotemina.app.motion.recording.backlog import RecordedEvent
 
 
-class Weight(StrEnum):
+class Severity(StrEnum):
     """How much an event matters to somebody who looks for what happened."""
 
     GRAVE = "grave"
@@ -19,31 +19,31 @@ class Weight(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Happening:
+class TimelineEvent:
     """An event at a time of the recording, s from its begin."""
 
     at_s: float
     word: str
     text: str
-    weight: Weight
+    weight: Severity
 
 
 _KINDS = {
-    "fault": ("Fault", Weight.GRAVE),
-    "stop": ("Stop", Weight.WARNING),
-    "refused": ("Refused", Weight.WARNING),
-    "recorder": ("Recorder", Weight.WARNING),
-    "note": ("Note", Weight.REMARK),
-    "action": ("Action", Weight.REMARK),
-    "playback_begin": ("Playback begins", Weight.REMARK),
-    "playback_end": ("Playback ends", Weight.REMARK),
-    "connection": ("Connection", Weight.REMARK),
-    "state": ("State", Weight.DETAIL),
+    "fault": ("Fault", Severity.GRAVE),
+    "stop": ("Stop", Severity.WARNING),
+    "refused": ("Refused", Severity.WARNING),
+    "recorder": ("Recorder", Severity.WARNING),
+    "note": ("Note", Severity.REMARK),
+    "action": ("Action", Severity.REMARK),
+    "playback_begin": ("Playback begins", Severity.REMARK),
+    "playback_end": ("Playback ends", Severity.REMARK),
+    "connection": ("Connection", Severity.REMARK),
+    "state": ("State", Severity.DETAIL),
 }
 _COMPLAINTS = ("WARNING", "ERROR", "CRITICAL")
 
 
-def happenings(events: Sequence[RecordedEvent], began_s: float) -> tuple[Happening, ...]:
+def timeline_events(events: Sequence[RecordedEvent], began_s: float) -> tuple[TimelineEvent, ...]:
     """Return events in words; what is logged of a fault or refusal beside it is left out."""
     said = {event.text for event in events if event.kind in ("fault", "refused")}
     return tuple(
@@ -53,13 +53,13 @@ def happenings(events: Sequence[RecordedEvent], began_s: float) -> tuple[Happeni
     )
 
 
-def _in_words(event: RecordedEvent, began_s: float) -> Happening:
+def _in_words(event: RecordedEvent, began_s: float) -> TimelineEvent:
     at_s = max(event.host_time_s - began_s, 0.0)
     if event.kind == "log":
-        weight = Weight.WARNING if _complains(event.details) else Weight.DETAIL
-        return Happening(at_s, "Log", event.text, weight)
-    word, weight = _KINDS.get(event.kind, (event.kind, Weight.REMARK))
-    return Happening(at_s, word, event.text, weight)
+        weight = Severity.WARNING if _complains(event.details) else Severity.DETAIL
+        return TimelineEvent(at_s, "Log", event.text, weight)
+    word, weight = _KINDS.get(event.kind, (event.kind, Severity.REMARK))
+    return TimelineEvent(at_s, word, event.text, weight)
 
 
 def _complains(details: str) -> bool:

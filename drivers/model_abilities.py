@@ -15,7 +15,7 @@ from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.robot.model import AxisEffect
 
 if TYPE_CHECKING:  # a board's commands need none of it
-    from rotemina.sim.compensate.inverse import Beyond
+    from rotemina.sim.compensate.inverse import Exceedance
     from rotemina.sim.compensate.model import InverseModel
     from rotemina.sim.feedback.regulation import Regulation
 
@@ -64,7 +64,7 @@ class Compensator(Driver, ABC):
 
     @property
     @abstractmethod
-    def compensated(self) -> "Mapping[str, Beyond]":
+    def compensated(self) -> "Mapping[str, Exceedance]":
         """The axes that are, and in what each has gone beyond since; any thread may ask."""
 
     @final

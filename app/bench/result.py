@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from rotemina.app.bench.left import Left
 from rotemina.app.bench.machine import Machine
+from rotemina.app.bench.residual import Residual
 
 MOST_OVER = 1.1  # of the figure to beat
 LARGEST_SET = 3  # of effects that are not told apart, but for a larger one that is known itself
@@ -15,7 +15,7 @@ LONGEST_S = 60.0
 
 
 @dataclass(frozen=True, slots=True)
-class Named:
+class NamedCause:
     """A cause: effect and axis, with what it cannot be told from."""
 
     axis: str
@@ -39,9 +39,9 @@ class Result:
     machine: Machine
     title: str = ""
     verdict: str = ""
-    causes: tuple[Named, ...] = ()
-    before: Left | None = None
-    after: Left | None = None
+    causes: tuple[NamedCause, ...] = ()
+    before: Residual | None = None
+    after: Residual | None = None
     seconds: float = 0.0
     unit: str = ""
     not_run: str = ""
@@ -77,10 +77,10 @@ class Result:
         """What the model leaves as it was, in the same terms."""
         return self._figure(self.before)
 
-    def _figure(self, left: Left | None) -> float | None:
-        if left is None:
+    def _figure(self, residual: Residual | None) -> float | None:
+        if residual is None:
             return None
-        return left.relative if self.is_relative else left.gap
+        return residual.relative if self.is_relative else residual.gap
 
     @property
     def to_beat(self) -> float | None:
@@ -144,7 +144,7 @@ class Result:
         }
 
 
-def _covers(cause: Named, known: tuple[str, ...]) -> bool:
+def _covers(cause: NamedCause, known: tuple[str, ...]) -> bool:
     """Whether a cause is one of those that are known to stand for each other, or has one in it."""
     among = cause.among
     if cause.effect in known and among <= set(known):

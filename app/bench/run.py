@@ -11,9 +11,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from rotemina.app.bench.left import left_of
 from rotemina.app.bench.machine import Machine, machines
-from rotemina.app.bench.result import Named, Result
+from rotemina.app.bench.residual import residual_of
+from rotemina.app.bench.result import NamedCause, Result
 from rotemina.app.bench.words import line, page
 from rotemina.app.files import json_text
 from rotemina.sim.errors import InputError
@@ -93,13 +93,13 @@ def _tried(machine: Machine, title: str, written: Path, seconds: float) -> Resul
     unit = "V" if tap is Tap.U else next(iter(units), "m")
     if not records:
         return Result(machine, title, verdict, causes, seconds=seconds, unit=unit)
-    before, after = (left_of(one, records, tap) for one in (document.robot, document.corrected))
+    before, after = (residual_of(one, records, tap) for one in (document.robot, document.corrected))
     return Result(machine, title, verdict, causes, before, after, seconds, unit)
 
 
-def _causes(document: dict[str, Any]) -> Iterator[Named]:
+def _causes(document: dict[str, Any]) -> Iterator[NamedCause]:
     for cause in document["causes"]:
-        yield Named(
+        yield NamedCause(
             cause["axis"],
             cause["effect"],
             cause["probability"],

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from rotemina.app.bench.result import LARGEST_SET, LONGEST_S, MOST_OVER, Named, Result
+from rotemina.app.bench.result import LARGEST_SET, LONGEST_S, MOST_OVER, NamedCause, Result
 from rotemina.sim.gap.report.quantities import amount
 
 _HEADER = (
@@ -83,11 +83,11 @@ def _cells(result: Result) -> tuple[str, ...]:
     )
 
 
-def _effect(cause: Named) -> str:
+def _effect(cause: NamedCause) -> str:
     return f"{cause.effect} on {cause.axis} ({100.0 * cause.probability:.0f} %)"
 
 
-def _set(cause: Named) -> str:
+def _set(cause: NamedCause) -> str:
     return "{" + " ".join((cause.effect, *cause.ambiguous_with)) + "}"
 
 

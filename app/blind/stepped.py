@@ -16,7 +16,7 @@ from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.blind import mechanics
 from rotemina.sim.blind.case import Case
 from rotemina.sim.blind.machine import Machine, machine_of
-from rotemina.sim.blind.part import Course, Stage
+from rotemina.sim.blind.part import SimulationRun, Stage
 from rotemina.sim.plant.chance import Chance
 from rotemina.sim.robot.model import Robot
 
@@ -89,13 +89,13 @@ class Going:
         self.axes = machine.axes
         self._every = max(round(tick_s / _FINE_S), 1)
         self._step_s = tick_s / self._every
-        course = Course(self._step_s, self._every, 0, 0)
+        run = SimulationRun(self._step_s, self._every, 0, 0)
         forces = [part for part in machine.parts if part.stage is Stage.LOAD]
         self._bent = [part for part in machine.parts if part.stage is Stage.ACTUATOR]
         assert len(forces) + len(self._bent) == len(machine.parts), "a part that cannot go on"
-        rows = [part.act(np.zeros(0), course, part.size) for part in forces]
+        rows = [part.act(np.zeros(0), run, part.size) for part in forces]
         self._loads = np.array(rows).reshape(-1, mechanics.ROW)
-        self._course, self._structure = course, machine.structure
+        self._run, self._structure = run, machine.structure
         self._steps = mechanics.propagator(machine.structure, self._step_s)
 
     def at_rest(self, position: FloatArray) -> Memory:
@@ -141,7 +141,7 @@ class Going:
         for part in self._bent:
             i = part.axis.index
             signal = np.concatenate([kept[i], commands[:, i]])
-            targets[:, i] = part.act(signal, self._course, part.size)[len(kept[i]) :]
+            targets[:, i] = part.act(signal, self._run, part.size)[len(kept[i]) :]
             kept[i] = turned(kept[i], commands[:, i])
         return targets, tuple(kept)
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.calibration.approaches import found_holds
+from rotemina.sim.calibration.approaches import find_holds
 from rotemina.sim.calibration.calibrating import Figure
 from rotemina.sim.errors import InputError
 from rotemina.sim.identification.errors import IdentificationError
@@ -106,7 +106,7 @@ def _loop(record: Record, axis: str) -> list[Figure]:
 
 def _holds(record: Record, axis: str) -> list[Figure]:
     command, reading = record.signal(axis, Tap.CMD), record.signal(axis, Tap.MEAS)
-    holds = found_holds(record.time_s, command)
+    holds = find_holds(record.time_s, command)
     if not len(holds):
         raise IdentificationError(f"{axis}.cmd rests nowhere after a move")
     unit = record.units[axis]

@@ -4,7 +4,7 @@ import threading
 from dataclasses import dataclass
 from enum import StrEnum
 
-from rotemina.app.motion.live_models import Answers
+from rotemina.app.motion.live_models import ModelOutputs
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.recorder import PlaybackRecorder
 from rotemina.app.motion.session import MotionSession
@@ -79,7 +79,7 @@ class CalibrationRun:
             return self._record
 
     def start(self, *, permit: Permit | None = None) -> None:
-        """Begin, once; ``permit`` is that of the wish, where it was made before this call.
+        """Begin, once; ``permit`` is that of the request, where it was made before this call.
 
         Raises
         ------
@@ -111,7 +111,7 @@ class CalibrationRun:
             self.stop()
         self._detach()
 
-    def _on_samples(self, samples: Samples, _answers: Answers) -> None:
+    def _on_samples(self, samples: Samples, _answers: ModelOutputs) -> None:
         with self._lock:
             if self._state.phase is not Phase.MOVING:
                 return

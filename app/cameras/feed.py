@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from rotemina.app.cameras.watch import FROZEN_S, Showing, Watch
+from rotemina.app.cameras.frame_check import FROZEN_S, FrameCheck, PictureState
 from rotemina.drivers.cameras.camera import Camera
 from rotemina.drivers.cameras.errors import CameraSettingError
 from rotemina.drivers.cameras.frame import Frame
@@ -171,7 +171,7 @@ class CameraFeed:
     # --- on the camera's thread -------------------------------------------------------------------
 
     def _run(self) -> None:
-        watch = Watch()
+        check = FrameCheck()
         try:
             self.camera.open()
             self._publish(
@@ -183,7 +183,7 @@ class CameraFeed:
                 self._obey()
                 frame = self.camera.grab(_GRAB_S)
                 if frame is not None:
-                    self._take(frame, watch.judge(frame))
+                    self._take(frame, check.judge(frame))
         except DriverError as error:
             self._lose(str(error))
         except Exception as error:  # a plugin may raise anything
@@ -224,7 +224,7 @@ class CameraFeed:
             if due:
                 self.camera.trigger()
 
-    def _take(self, frame: Frame, showing: Showing) -> None:
+    def _take(self, frame: Frame, picture_state: PictureState) -> None:
         rate_hz, before = self._latest.rate_hz, self._latest.frame
         if before is not None and frame.host_time_s > before.host_time_s:
             now_hz = 1.0 / (frame.host_time_s - before.host_time_s)
@@ -232,13 +232,13 @@ class CameraFeed:
         state, reason = FeedState.LIVE, ""
         if self.camera.settings.trigger is Trigger.SOFTWARE:
             state = FeedState.WAITING
-        elif showing is Showing.FROZEN:
+        elif picture_state is PictureState.FROZEN:
             state = FeedState.FROZEN
             reason = (
                 f"every picture has been the same for more than {FROZEN_S:g} s; open it again, and "
                 "do not trust what it shows"
             )
-        if showing is Showing.BLACK:
+        if picture_state is PictureState.BLACK:
             state = FeedState.BLACK
             reason = "the picture is black; check lamp, shutter, lens cap and exposure"
         self._publish(frame=frame, rate_hz=rate_hz, state=state, reason=reason)

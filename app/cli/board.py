@@ -15,12 +15,12 @@ from pathlib import Path
 from typing import Literal
 
 from rotemina.app.cli.board_ports import HostPort, PseudoTerminal, Socket
-from rotemina.app.cli.ending import told_to_end
 from rotemina.app.cli.options import add_robot, robot_of
+from rotemina.app.cli.termination import termination_requested
 from rotemina.drivers.mc68hc11.axes import board_axes
 from rotemina.drivers.mc68hc11.budget import BAUDS
 from rotemina.drivers.virtual_board.boards import VirtualBoards
-from rotemina.drivers.virtual_board.faults import FaultCommandError, Mishaps, inject
+from rotemina.drivers.virtual_board.faults import FaultCommandError, RandomFaults, inject
 from rotemina.sim.errors import InputError
 from rotemina.sim.robot.model import Robot
 
@@ -85,7 +85,7 @@ def run(options: argparse.Namespace) -> int:
         for make in _makers(options, count):
             ports.append(make())
             stack.callback(ports[-1].close)
-        ended = stack.enter_context(told_to_end())
+        ended = stack.enter_context(termination_requested())
         _boards(options, robot, count).rehearse()
         for port, line in zip(ports, boards.lines, strict=True):
             who = " and ".join(f"board {number}" for number in line.numbers)
@@ -180,7 +180,7 @@ class _Server:
     ) -> None:
         self._boards = boards
         self._ends = list(zip(ports, boards.lines, strict=True))
-        self._mishaps = Mishaps(boards, options.mishaps, options.seed)
+        self._mishaps = RandomFaults(boards, options.mishaps, options.seed)
         self._until_stdin = options.until_stdin_closes
         self._ears = _Ears(ports)
         self._met: set[str] = set()

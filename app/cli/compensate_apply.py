@@ -34,7 +34,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 
 def run(options: argparse.Namespace) -> int:
     """Compensate, check, write."""
-    from rotemina.app.motion.compensation import sent_for
+    from rotemina.app.motion.compensation import compensated_trajectory
 
     for path in (options.inverse, options.trajectory):
         if options.output.absolute() == path.absolute():
@@ -43,7 +43,7 @@ def run(options: argparse.Namespace) -> int:
     inverse = named_inverse(options.inverse, robot)
     trajectory = read_record(options.trajectory, columns=options.columns, robot=robot)
     axis = inverse.model.axis
-    sent = sent_for(robot, trajectory, {axis: inverse}, SETPOINT_PERIOD_S).commands
+    sent = compensated_trajectory(robot, trajectory, {axis: inverse}, SETPOINT_PERIOD_S).commands
     write_record(sent, options.output)
     print(
         f"{options.output}: {len(sent.time_s)} rows, {sent.duration_s:.6g} s; {axis} through "

@@ -9,8 +9,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from rotemina.app.cli.board_ports import PseudoTerminal
-from rotemina.app.cli.ending import told_to_end
 from rotemina.app.cli.options import add_robot, robot_of
+from rotemina.app.cli.termination import termination_requested
 from rotemina.drivers.gcode.emulator import EmulatedStage
 
 _STDIN = 0
@@ -42,7 +42,7 @@ def run(options: argparse.Namespace) -> int:
     stage = EmulatedStage(robot_of(options), single_homing=not options.all_at_once)
     port = PseudoTerminal(options.port)
     try:
-        with told_to_end() as ended:
+        with termination_requested() as ended:
             print(f"listening on {port.name}", flush=True)
             _serve(stage, port, ended)
     finally:

@@ -20,7 +20,7 @@ from rotemina.sim.feedback.stability import check_stability
 from rotemina.sim.gap.progress import Progress
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.tuning.objectives import Against
+from rotemina.sim.tuning.objectives import SecondObjective
 
 _RATE_HZ = 5000.0
 
@@ -58,8 +58,8 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     )
     parser.add_argument(
         "--against",
-        choices=[str(one) for one in Against],
-        default=str(Against.EFFORT),
+        choices=[str(one) for one in SecondObjective],
+        default=str(SecondObjective.EFFORT),
         help="the second objective beside the tracking error (default: effort)",
     )
     for name, preset in (("generations", 50), ("population", 60), ("seed", 1)):
@@ -97,7 +97,7 @@ def _search(options: argparse.Namespace) -> int:
         generations=options.generations,
         population=options.population,
         seed=options.seed,
-        against=Against(options.against),
+        against=SecondObjective(options.against),
     )
     problem = TuningProblem(
         _robot(options),

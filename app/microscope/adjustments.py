@@ -10,9 +10,9 @@ from rotemina.app.microscope.calibration_run import CalibrationRun, Phase
 from rotemina.app.microscope.camera_in_use import CameraInUse
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.focus_run import FocusRun, Search
-from rotemina.app.microscope.known import Known
+from rotemina.app.microscope.optical_setup import OpticalSetup
 from rotemina.app.microscope.runs import Runs
-from rotemina.app.microscope.sight import Activity, FocusPlace
+from rotemina.app.microscope.status import Activity, FocusAxis
 from rotemina.app.microscope.tip_tracker import TipTracker
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.cameras.camera import FocusDrive
@@ -34,7 +34,7 @@ class Adjustments:
     ----------
     session : MotionSession
     camera : CameraInUse
-    known : Known
+    setup : OpticalSetup
     tracker : TipTracker
     runs : Runs
     clock : callable
@@ -46,41 +46,41 @@ class Adjustments:
         self,
         session: MotionSession,
         camera: CameraInUse,
-        known: Known,
+        setup: OpticalSetup,
         tracker: TipTracker,
         runs: Runs,
         clock: Clock,
         told: Callable[[str], None],
     ) -> None:
-        self._session, self._camera, self._known = session, camera, known
+        self._session, self._camera, self._setup = session, camera, setup
         self._tracker, self._runs, self._clock, self._told = tracker, runs, clock, told
         #: The present ones, or the latest.
         self.calibrating: CalibrationRun | None = None
         self.focusing: FocusRun | None = None
 
     @property
-    def focus_places(self) -> tuple[FocusPlace, ...]:
+    def focus_axes(self) -> tuple[FocusAxis, ...]:
         """What can be focused with."""
-        camera, places = self._camera.camera, []
+        camera, found = self._camera.camera, []
         if isinstance(camera, FocusDrive):
-            places.append(FocusPlace(FOCUS, camera.focus_m, *camera.focus_range_m))
+            found.append(FocusAxis(FOCUS, camera.focus_m, *camera.focus_range_m))
         command, axes = self._session.snapshot().command, self._session.robot.axes
         for axis in _AXES:
             if axis in axes:
                 low, high = axes[axis].range
-                places.append(FocusPlace(axis, command.get(axis), low, high))
-        kept = self._known.calibration
+                found.append(FocusAxis(axis, command.get(axis), low, high))
+        kept = self._setup.calibration
         focus = None if kept is None else kept.focus
         return tuple(
-            FocusPlace(one.name, one.place, one.low, one.high, focus.sharpest, focus.uncertainty)
+            FocusAxis(one.name, one.position, one.low, one.high, focus.sharpest, focus.uncertainty)
             if focus is not None and focus.axis == one.name
             else one
-            for one in places
+            for one in found
         )
 
     def calibrate(self, stage: str, *, whole_picture: bool) -> None:
         """Begin the calibration of a stage; raises as :class:`CalibrationRun`, `Runs.begin`."""
-        pipette, known = (None, True) if whole_picture else self._known.pipette()
+        pipette, known = (None, True) if whole_picture else self._setup.pipette()
 
         def make() -> CalibrationRun:
             self.calibrating = CalibrationRun(
@@ -97,11 +97,11 @@ class Adjustments:
 
     def autofocus(self, name: str, low: float | None, high: float | None) -> None:
         """Begin a search between two places, m; raises as :class:`FocusRun`, `Runs.begin`."""
-        place = self._focus_place(name)
-        if place.place is None:
+        axis = self._focus_axis(name)
+        if axis.position is None:
             raise MicroscopeError(f"{name}: its place is not known; connect the machine first")
-        begin = max(place.low, place.place - FOCUSED_M) if low is None else low
-        end = min(place.high, place.place + FOCUSED_M) if high is None else high
+        begin = max(axis.low, axis.position - FOCUSED_M) if low is None else low
+        end = min(axis.high, axis.position + FOCUSED_M) if high is None else high
 
         def make() -> FocusRun:
             self.focusing = FocusRun(
@@ -140,11 +140,11 @@ class Adjustments:
 
         return move
 
-    def _focus_place(self, name: str) -> FocusPlace:
-        places = self.focus_places
-        found = next((one for one in places if one.name == name), None)
+    def _focus_axis(self, name: str) -> FocusAxis:
+        axes = self.focus_axes
+        found = next((one for one in axes if one.name == name), None)
         if found is None:
-            known = ", ".join(one.name for one in places) or "nothing"
+            known = ", ".join(one.name for one in axes) or "nothing"
             raise MicroscopeError(f"{name!r} does not focus here; there is: {known}")
         return found
 
@@ -160,10 +160,10 @@ class Adjustments:
         if run is None or frame is None or run.status.phase is not Phase.DONE:
             return
         if run.pipette is not None:
-            self._known.learn_direction(run.pipette.direction)
+            self._setup.learn_direction(run.pipette.direction)
         found = run.status.calibration
         assert found is not None
-        self._keep(lambda: self._known.keep_stage(stage, found, frame.region))
+        self._keep(lambda: self._setup.keep_stage(stage, found, frame.region))
 
     def _focused(self, name: str) -> None:
         run, frame = self.focusing, self._camera.newest
@@ -177,7 +177,7 @@ class Adjustments:
             sharpest=peak.place,
             uncertainty=peak.uncertainty,
         )
-        self._keep(lambda: self._known.keep_focus(found, frame.region))
+        self._keep(lambda: self._setup.keep_focus(found, frame.region))
 
     def _keep(self, keep: Callable[[], None]) -> None:
         try:

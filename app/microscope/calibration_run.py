@@ -15,7 +15,7 @@ import numpy as np
 
 from rotemina.app.microscope.calibration_file import MICRO, NANO, StageCalibration
 from rotemina.app.microscope.errors import MicroscopeError
-from rotemina.app.microscope.look import Look, Looking, Newest
+from rotemina.app.microscope.settled_frame import Newest, SettledFrame, SettledFrameGrabber
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.session import MotionSession
 from rotemina.sim.arrays import FloatArray
@@ -138,9 +138,9 @@ class CalibrationRun:
         joints = np.array([state.command[axis] for axis in JOINTS])
         extent = EXTENT_M[stage] if extent_m is None else extent_m
         self._plan = tuple(self._targets(joints, extent * np.array(way)) for way in _RING)
-        self._looking = Looking(session, newest)
+        self._looking = SettledFrameGrabber(session, newest)
         self._looking.begin(now_s)
-        self._first: tuple[Look, TipFit | None] | None = None
+        self._first: tuple[SettledFrame, TipFit | None] | None = None
         self._status = CalibrationStatus(Phase.LOOKING, 0, len(self._plan) + 1)
 
     @property
@@ -229,7 +229,7 @@ class CalibrationRun:
 
     # --- what is seen -----------------------------------------------------------------------------
 
-    def _observe(self, look: Look) -> None:
+    def _observe(self, look: SettledFrame) -> None:
         if self._first is None:
             self._first = look, self._tip(look.image, None)
             return
@@ -263,7 +263,7 @@ class CalibrationRun:
         found = fit_depths(image, pipette, place + low, (depth,), turning=False)
         return find_tip(image, pipette, turning=False) if found is None else found
 
-    def _expected(self, tip: TipFit, look: Look) -> FloatArray | None:
+    def _expected(self, tip: TipFit, look: SettledFrame) -> FloatArray | None:
         """Return where the tip should be by what was seen so far; None before that tells."""
         seen = self._status.observations
         if len(seen) < 3:
@@ -275,7 +275,7 @@ class CalibrationRun:
         moved = self._tip_m(look)[:2] - self._tip_m(self._first[0])[:2]
         return np.asarray(tip.pixel + moved @ matrix)
 
-    def _tip_m(self, look: Look) -> FloatArray:
+    def _tip_m(self, look: SettledFrame) -> FloatArray:
         """Return the tip (3,), m, by what the moved stage's sensors say, else by command."""
         axes, robot = self._session.driver.axes, self._session.robot
         places = dict(zip(axes, look.command.tolist(), strict=True))

@@ -8,11 +8,11 @@ import numpy as np
 from rotemina.app.microscope.calibration_file import NANO
 from rotemina.app.microscope.click_to_move import ClickToMove, PlannedMove
 from rotemina.app.microscope.errors import MicroscopeError
-from rotemina.app.microscope.look import Look, Looking, Newest
+from rotemina.app.microscope.settled_frame import Newest, SettledFrame, SettledFrameGrabber
 from rotemina.drivers.gate import Permit
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
-from rotemina.sim.vision.image import Image, over
+from rotemina.sim.vision.image import Image, relative_to
 from rotemina.sim.vision.tip import likeliest, plausible
 from rotemina.sim.vision.tip_fit import fit_tip
 from rotemina.sim.vision.tracking import TipTrack
@@ -66,7 +66,7 @@ class ClickRun:
     clear : bool
         Whether ``before`` shows the goal without the tip for certain.
     permit : Permit, optional
-        Of the wish; every move goes with it.
+        Of the request; every move goes with it.
 
     Raises
     ------
@@ -93,7 +93,7 @@ class ClickRun:
         self._track, self._ghost, self._before = track, move.ghost, before
         self._clear = clear
         self._tolerance_px, self._corrections = tolerance_px, corrections
-        self._looking = Looking(clicks.session, newest, permit=permit)
+        self._looking = SettledFrameGrabber(clicks.session, newest, permit=permit)
         clicks.go(move, confirmed=confirmed, permit=self._looking.permit)
         self._looking.begin(now_s)
         self.status = VisitStatus(Visit.UNDER_WAY)
@@ -121,7 +121,7 @@ class ClickRun:
             self._clicks.session.stop(reason)
             self.status = replace(self.status, visit=Visit.FAILED, reason=reason)
 
-    def _judge(self, look: Look, now_s: float) -> None:
+    def _judge(self, look: SettledFrame, now_s: float) -> None:
         tip = self._seen(look)
         miss = self._goal - tip
         self.status = replace(self.status, miss=miss)
@@ -153,7 +153,7 @@ class ClickRun:
             self._goal, stage=NANO if self._stage == NANO else None, tip_px=tip
         )
 
-    def _seen(self, look: Look) -> FloatArray:
+    def _seen(self, look: SettledFrame) -> FloatArray:
         """Find the tip about where it should be."""
         track = self._track
         middle = np.rint(self._ghost).astype(int)
@@ -176,7 +176,7 @@ class ClickRun:
         if before is None or before[window].shape != part.shape:
             return part
         if self._clear:
-            return over(part, before[window])
+            return relative_to(part, before[window])
         corner = np.array([window[1].start, window[0].start])
         covered = track.pipette.drawn(track.pixel - corner, track.depth.distance, part.shape)[0]
-        return part if covered.max() > _COVERED else over(part, before[window])
+        return part if covered.max() > _COVERED else relative_to(part, before[window])

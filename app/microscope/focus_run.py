@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from rotemina.app.microscope.look import Looking, Newest
+from rotemina.app.microscope.settled_frame import Newest, SettledFrameGrabber
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.gate import Permit
 from rotemina.sim.errors import InputError
@@ -68,8 +68,8 @@ class FocusRun:
         part: tuple[slice, slice] = (slice(None), slice(None)),
     ) -> None:
         self._session, self._move, self._part = session, move, part
-        self._autofocus = Autofocus.over(low, high)
-        self._looking = Looking(session, newest)
+        self._autofocus = Autofocus.between(low, high)
+        self._looking = SettledFrameGrabber(session, newest)
         self.status = FocusStatus(Search.UNDER_WAY)
         self._go(now_s)
 
@@ -85,7 +85,7 @@ class FocusRun:
                 peak = self._autofocus.peak
                 self.status = replace(self.status, search=Search.DONE, peak=peak)
                 return self.status
-            self._autofocus = self._autofocus.told(sharpness(look.image[self._part]))
+            self._autofocus = self._autofocus.with_sharpness(sharpness(look.image[self._part]))
             found = self._autofocus
             self.status = replace(self.status, places=found.places, values=found.values)
             self._looking.check()

@@ -13,13 +13,13 @@ from rotemina.app.microscope.camera_memory import CameraMemory
 from rotemina.app.microscope.click_to_move import PlannedMove
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.frame_recording import FrameRecording
-from rotemina.app.microscope.known import Known
+from rotemina.app.microscope.optical_setup import OpticalSetup
 from rotemina.app.microscope.picture_jobs import PictureJobs
 from rotemina.app.microscope.runs import Runs
-from rotemina.app.microscope.sight import Activity, Sight, TipState
-from rotemina.app.microscope.sight_of import sight_of
+from rotemina.app.microscope.status import Activity, MicroscopeStatus, TipState
+from rotemina.app.microscope.status_builder import build_status
+from rotemina.app.microscope.tip_positioning import TipPositioning
 from rotemina.app.microscope.tip_tracker import Pressing, TipTracker
-from rotemina.app.microscope.visits import Visits
 from rotemina.app.motion.penetration.status import Phase as PenetrationPhase
 from rotemina.app.motion.recording.session_recorder import SessionRecorder
 from rotemina.app.motion.session import MotionSession
@@ -50,7 +50,7 @@ class Microscope:
     """What a panel holds; every method may be called from any thread and never waits.
 
     A method raises InputError where what is asked can be refused at once; what goes wrong later is
-    in :attr:`sight`.
+    in :attr:`status`.
 
     Parameters
     ----------
@@ -93,20 +93,24 @@ class Microscope:
         made = feed_of or (lambda camera: CameraFeed(camera, clock=clock))
         memory = CameraMemory(settings)
         self.camera = CameraInUse(hub, lambda: session.driver, made, memory)
-        self.known = Known(session, folder / FOLDER, lambda: self.camera.camera)
-        self.recording = FrameRecording(recorder, lambda: self.known.calibration)
+        self.setup = OpticalSetup(session, folder / FOLDER, lambda: self.camera.camera)
+        self.recording = FrameRecording(recorder, lambda: self.setup.calibration)
         self.tracker = TipTracker(
             lambda: self.camera.view,
-            self.known.pipette,
-            self.known.expected,
+            self.setup.pipette,
+            self.setup.expected,
             self._pressing,
             self.recording.tip,
         )
         self.jobs = PictureJobs(lambda: self.camera.newest)
-        self.runs = Runs(session, lambda: self.camera.view, lambda what: self.visits.doubt(what))
-        self.visits = Visits(session, self.camera, self.known, self.tracker, self.runs, clock)
+        self.runs = Runs(
+            session, lambda: self.camera.view, lambda what: self.positioning.doubt(what)
+        )
+        self.positioning = TipPositioning(
+            session, self.camera, self.setup, self.tracker, self.runs, clock
+        )
         self.adjustments = Adjustments(
-            session, self.camera, self.known, self.tracker, self.runs, clock, told
+            session, self.camera, self.setup, self.tracker, self.runs, clock, told
         )
         self.measured: tuple[FloatArray, FloatArray] | None = None
         self._leave = self.camera.listen(self.recording.frame)
@@ -140,20 +144,20 @@ class Microscope:
     def keep(self, now_s: float) -> None:
         """Mind cameras, calibrations and slow looks at pictures; may take a while."""
         self.camera.step(now_s)
-        self.known.step()
+        self.setup.step()
         self.jobs.step(now_s)
         track = self.tracker.tracked.track
         if track is not None:
-            self.known.learn_direction(track.pipette.direction)
+            self.setup.learn_direction(track.pipette.direction)
 
     @property
-    def sight(self) -> Sight:
+    def status(self) -> MicroscopeStatus:
         """All that a view shows now; to be read once a frame, while somebody looks at it.
 
         Cameras are looked for from the first time on.
         """
         self.camera.watched = True
-        return sight_of(self)
+        return build_status(self)
 
     # --- camera -----------------------------------------------------------------------------------
 
@@ -190,8 +194,8 @@ class Microscope:
     def choose_objective(self, name: str) -> None:
         """Say which objective is in; raises MicroscopeError without a name, or in a run."""
         self._refuse_under_way()
-        self.visits.planned = None
-        self.known.choose_objective(name)
+        self.positioning.planned = None
+        self.setup.choose_objective(name)
 
     # --- what moves; one at a time ----------------------------------------------------------------
 
@@ -241,16 +245,16 @@ class Microscope:
         InputError
             As :meth:`ClickToMove.plan`.
         """
-        return self.visits.plan(pixel, stage)
+        return self.positioning.plan(pixel, stage)
 
     def cancel_plan(self) -> None:
         """Forget the planned move."""
-        self.visits.planned = None
+        self.positioning.planned = None
 
     def go(self, *, confirmed: bool = False, permit: Permit | None = None) -> None:
         """Make the planned move, look, and correct until the tip is there.
 
-        ``permit`` is that of the wish, where it waited for a yes.
+        ``permit`` is that of the request, where it waited for a yes.
 
         Raises
         ------
@@ -259,7 +263,7 @@ class Microscope:
         InputError
             As :meth:`ClickToMove.go` and :meth:`Runs.begin`.
         """
-        self.visits.go(confirmed=confirmed, permit=permit or self.session.permit())
+        self.positioning.go(confirmed=confirmed, permit=permit or self.session.permit())
 
     def go_back(self) -> None:
         """Return to where the machine rested before its latest move; raises as ``undo``."""
@@ -275,15 +279,15 @@ class Microscope:
 
     def mark_target(self, pixel: FloatArray) -> None:
         """Add a target behind the others."""
-        self.visits.tour.mark(np.asarray(pixel, dtype=np.float64))
+        self.positioning.sequence.mark(np.asarray(pixel, dtype=np.float64))
 
     def remove_target(self, index: int) -> None:
         """Forget a target; raises MicroscopeError if there is none such, or on the way to one."""
-        self.visits.tour.remove(index)
+        self.positioning.sequence.remove(index)
 
     def clear_targets(self) -> None:
         """Forget all targets; raises MicroscopeError on the way to one."""
-        self.visits.tour.clear()
+        self.positioning.sequence.clear()
 
     def visit_next(self, *, confirmed: bool = False, permit: Permit | None = None) -> None:
         """Go to the next target; ``permit`` as in :meth:`go`.
@@ -295,7 +299,7 @@ class Microscope:
         InputError
             As :meth:`go`.
         """
-        self.visits.next(confirmed=confirmed, permit=permit or self.session.permit())
+        self.positioning.next(confirmed=confirmed, permit=permit or self.session.permit())
 
     # --- vision -----------------------------------------------------------------------------------
 
@@ -309,7 +313,7 @@ class Microscope:
 
     def outline_cell(self, near: FloatArray) -> None:
         """Look for the outline of the cell about ``near`` (2,), px."""
-        self.jobs.outline(np.asarray(near, dtype=np.float64), self.known.pixel_m)
+        self.jobs.outline(np.asarray(near, dtype=np.float64), self.setup.pixel_m)
 
     def forget_cell(self) -> None:
         """Show no outline any more."""

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from rotemina.app.microscope.sight import DriftSeen
+from rotemina.app.microscope.status import DriftSeen
 from rotemina.drivers.cameras.frame import Frame
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError

@@ -6,7 +6,7 @@ from typing import Protocol
 
 from rotemina.app.cameras.feed import FeedState, FeedView
 from rotemina.app.microscope.errors import MicroscopeError
-from rotemina.app.microscope.sight import Activity
+from rotemina.app.microscope.status import Activity
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.stop_request import PROGRAM
 

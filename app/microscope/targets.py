@@ -26,7 +26,7 @@ class Target:
 
 
 @dataclass(slots=True)
-class Tour:
+class TargetSequence:
     """Targets in the order in which they were marked.
 
     ``begin`` makes the run that goes to a pixel; the next target is gone to when somebody calls

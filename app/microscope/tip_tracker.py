@@ -9,7 +9,7 @@ from enum import StrEnum
 import numpy as np
 
 from rotemina.app.cameras.feed import FeedState, FeedView
-from rotemina.app.microscope.sight import TipState
+from rotemina.app.microscope.status import TipState
 from rotemina.drivers.cameras.frame import Frame
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
@@ -50,7 +50,7 @@ class Tracked:
         In which it was looked for last.
     reason : str
         Why it is not found, or lost.
-    looked_at, passed_over : int
+    processed, skipped : int
         Pictures since tracking was switched on.
     lost_since_s : float or None
         Host time of the first picture that did not show it.
@@ -62,8 +62,8 @@ class Tracked:
     track: TipTrack | None = None
     frame: Frame | None = None
     reason: str = ""
-    looked_at: int = 0
-    passed_over: int = 0
+    processed: int = 0
+    skipped: int = 0
     lost_since_s: float | None = None
     ground: bool = False
 
@@ -160,11 +160,11 @@ class TipTracker:
         if not on or frame is None or frame is before.frame:
             return
         self._mind(frame)
-        passed = before.passed_over
+        passed = before.skipped
         if before.frame is not None:
             passed += max(frame.number - before.frame.number - 1, 0)
         state = replace(
-            before, frame=frame, passed_over=passed, looked_at=before.looked_at + 1, ground=False
+            before, frame=frame, skipped=passed, processed=before.processed + 1, ground=False
         )
         if view.state not in _TRUSTED:
             self._tracked = self._lost(state, f"the camera is {view.state}: {view.reason}")

@@ -53,7 +53,7 @@ class CommandMemory:
                 self._keep(time_s, command)
             self._latest = (time_s[-1:], command[-1:])
 
-    def told(self) -> tuple[FloatArray, FloatArray]:
+    def history(self) -> tuple[FloatArray, FloatArray]:
         """Return times (n,) and commands (n, axes) up to the latest sample, oldest first."""
         with self._lock:
             parts = [*self._parts, *self._end()]

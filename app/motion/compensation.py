@@ -18,7 +18,7 @@ from rotemina.drivers.driver import Driver
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.model_abilities import Compensator
 from rotemina.sim.compensate.errors import CompensationError
-from rotemina.sim.compensate.inverse import Beyond
+from rotemina.sim.compensate.inverse import Exceedance
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.compensate.trajectory import compensated, on_ticks
 from rotemina.sim.records.record import Record
@@ -61,9 +61,9 @@ class CompensatedRequests(DeviceRequests, ABC):
         """Whether every command goes through the inverse, not only those of trajectories."""
         return isinstance(self.driver, Compensator)
 
-    def beyond_inverse(self, axis: str) -> Beyond:
+    def beyond_inverse(self, axis: str) -> Exceedance:
         """Return in what an axis has gone beyond its inverse since that was put on."""
-        return self._on_device.get(axis, Beyond(0))
+        return self._on_device.get(axis, Exceedance(0))
 
     def compensate(self, inverse: NamedInverse, *, permit: Permit | None = None) -> None:
         """Put an inverse on its axis, which stays where it is; no way leads back from there.
@@ -118,7 +118,7 @@ class CompensatedRequests(DeviceRequests, ABC):
         self._inverses = MappingProxyType({})
 
     @property
-    def _on_device(self) -> Mapping[str, Beyond]:
+    def _on_device(self) -> Mapping[str, Exceedance]:
         driver = self.driver
         return driver.compensated if isinstance(driver, Compensator) else {}
 
@@ -157,11 +157,13 @@ class CompensatedRequests(DeviceRequests, ABC):
         commands, live = trajectory.commands, self.compensates_all
         if live:
             commands = on_ticks(commands, self.setpoint_period_s)
-        sent = sent_for(self.robot, commands, used, self.setpoint_period_s, preview=not live)
+        sent = compensated_trajectory(
+            self.robot, commands, used, self.setpoint_period_s, preview=not live
+        )
         return (None if live else sent), names
 
 
-def sent_for(
+def compensated_trajectory(
     robot: Robot,
     trajectory: Record,
     inverses: Mapping[str, NamedInverse],

@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Container, Mapping, Sequence
 from typing import Any
 
-from rotemina.app.motion.guard import Guard, Place
+from rotemina.app.motion.guard import Guard, PositionEnvelope
 from rotemina.app.motion.mailbox import (
     LoadProfile,
     RefusedError,
@@ -146,7 +146,7 @@ class DeviceRequests(ServiceRequests, ABC):
         OutOfLimitsError
             As :meth:`upload_profile`.
         """
-        self._guard.profile(self._place(), axis, ends, speed, thrust=True)
+        self._guard.profile(self._envelope(), axis, ends, speed, thrust=True)
 
     def abort_profile(self) -> None:
         """Halt the profile that runs, without a fault, or forget the one that waits.
@@ -232,8 +232,8 @@ class DeviceRequests(ServiceRequests, ABC):
         targets = {axis: voltage * model.gain}
         with self._lock:
             self._refuse_unless_at_rest("putting out a voltage")
-            legs = self._guard.move(self._place(), targets)
-            if len(legs) > 1 or legs[0].speeds:
+            segments = self._guard.move(self._envelope(), targets)
+            if len(segments) > 1 or segments[0].speeds:
                 raise RefusedError(
                     f"axis {axis}: a voltage acts at once, too fast so close above the tip's "
                     "floor; move it instead"
@@ -276,7 +276,7 @@ class DeviceRequests(ServiceRequests, ABC):
         """Refuse motion while it is locked."""
 
     @abstractmethod
-    def _place(self, driven: Container[str] = ()) -> Place:
+    def _envelope(self, driven: Container[str] = ()) -> PositionEnvelope:
         """Return where the axes may be."""
 
     @abstractmethod
@@ -327,7 +327,7 @@ class DeviceRequests(ServiceRequests, ABC):
             self._check_seen({profile.axis: end})
         fastest = max(segment.greatest_speed() for segment in profile.segments)
         self._guard.profile(
-            self._place(), profile.axis, (low, high), fastest, thrust=self.has_reserved(owner)
+            self._envelope(), profile.axis, (low, high), fastest, thrust=self.has_reserved(owner)
         )
 
 

@@ -10,12 +10,12 @@ from datetime import datetime
 from rotemina.app.motion.command_memory import CommandMemory
 from rotemina.app.motion.heartbeat import Heartbeat
 from rotemina.app.motion.history import LiveHistory
-from rotemina.app.motion.live_models import Answers, PreparedModel
+from rotemina.app.motion.live_models import ModelOutputs, PreparedModel
 from rotemina.app.motion.mailbox import (
     Ask,
+    ConnectionRequest,
     Mailbox,
     RefusedError,
-    Wish,
 )
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.motion.sensor_corrections import SensorCorrections
@@ -115,7 +115,7 @@ class DeviceSession:
         """
         if self._thread is not None:
             raise RefusedError("the session was started before; make another one")
-        self._mailbox.wish(Wish(self.driver))
+        self._mailbox.request_connection(ConnectionRequest(self.driver))
         self._thread = threading.Thread(target=self._run, name="motion session", daemon=True)
         self._thread.start()
 
@@ -125,7 +125,7 @@ class DeviceSession:
         Returns whether the worker ended in time; one that hangs in a device is left behind.
         """
         self._closing.set()
-        self._mailbox.bell.set()
+        self._mailbox.wake_event.set()
         thread = self._thread
         if thread is None:
             self._worker.shut_down()
@@ -146,7 +146,7 @@ class DeviceSession:
 
     def connect(self) -> None:
         """Ask the worker to connect; for a program that steps :meth:`run_once` itself."""
-        self._mailbox.wish(Wish(self.driver))
+        self._mailbox.request_connection(ConnectionRequest(self.driver))
 
     def reconnect(self) -> None:
         """Connect again after a failure; never happens by itself.
@@ -158,12 +158,12 @@ class DeviceSession:
         """
         if self._worker.state.connection in (Connection.CONNECTED, Connection.CONNECTING):
             raise RefusedError("the device is connected")
-        self._mailbox.wish(Wish(self.driver))
+        self._mailbox.request_connection(ConnectionRequest(self.driver))
 
     def disconnect(self) -> None:
         """Stop, and let go of the device; it holds."""
         self.stop("the device is let go of")
-        self._mailbox.wish(Wish(None))
+        self._mailbox.request_connection(ConnectionRequest(None))
 
     def use(self, driver: Driver) -> None:
         """Stop, let go of the device, and connect to another one.
@@ -184,7 +184,7 @@ class DeviceSession:
         self.driver = driver
         self._gate.reconnected()
         self._period_s = driver.service_period_s
-        self._mailbox.wish(Wish(driver))
+        self._mailbox.request_connection(ConnectionRequest(driver))
 
     def run_once(self) -> None:
         """Do one cycle of the worker's; only where no thread was started."""
@@ -396,7 +396,7 @@ class DeviceSession:
             except Exception:  # a subscriber's mistake must not stop the machine's worker
                 _LOG.exception("a subscriber failed on %s", type(event).__name__)
 
-    def _tell_samples(self, samples: Samples, answers: Answers) -> None:
+    def _tell_samples(self, samples: Samples, answers: ModelOutputs) -> None:
         with self._lock:
             taps = tuple(self._taps.items())
         for callback, failed in taps:
@@ -424,7 +424,7 @@ class DeviceSession:
             self._cycle()
             # By the clock, not after the work: what is late once is not late for ever.
             next_s = max(next_s + self._period_s, time.monotonic())
-            self._mailbox.bell.wait(next_s - time.monotonic())
-            self._mailbox.bell.clear()
+            self._mailbox.wake_event.wait(next_s - time.monotonic())
+            self._mailbox.wake_event.clear()
         self.pulse.end()
         self._worker.shut_down()

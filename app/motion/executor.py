@@ -4,7 +4,7 @@ from collections import deque
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from rotemina.app.motion.guard import Leg
+from rotemina.app.motion.guard import PathSegment
 from rotemina.app.motion.mailbox import (
     Ask,
     ClearFault,
@@ -40,7 +40,7 @@ _NO_DRIVES: Mapping[str, Drive] = MappingProxyType({})
 
 
 class Executor:
-    """Hands commands to the driver, and the legs of a move one after the other.
+    """Hands commands to the driver, and the segments of a move one after the other.
 
     ``targets`` is where the device was last sent, of each axis that it has been sent anywhere since
     it last held; ``drives`` the speeds that axes may still go at. Both are replaced as a whole, so
@@ -57,11 +57,11 @@ class Executor:
         self._driver = driver
         self._clock = clock
         self._corrections = corrections
-        self._route: deque[Leg] = deque()  # what is left of a move
+        self._route: deque[PathSegment] = deque()  # what is left of a move
         self._permit: Permit | None = None  # of the command that was handed over last
 
     @property
-    def between_legs(self) -> bool:
+    def between_segments(self) -> bool:
         """Whether a part of a move is still to come."""
         return bool(self._route) and self._permit is not None and self._permit.valid
 
@@ -85,14 +85,14 @@ class Executor:
             self._halt_if_overtaken(permit)
 
     def go_on(self) -> None:
-        """Begin the next leg of a move when the one before has ended.
+        """Begin the next segment of a move when the one before has ended.
 
         Raises
         ------
         InputError, DriverError
             As the driver refuses it, or fails; then nothing of the move is left.
         """
-        if not self.between_legs:
+        if not self.between_segments:
             self._route.clear()
             return
         status = self._driver.status()
@@ -101,7 +101,7 @@ class Executor:
         permit = self._permit
         assert permit is not None, "a move is under way"
         try:
-            self._next_leg(permit)
+            self._next_segment(permit)
         except OvertakenError:
             self._route.clear()
         except Exception:
@@ -128,8 +128,8 @@ class Executor:
         driver = self._driver
         if isinstance(command, Move):
             self._route.clear()
-            self._route.extend(command.legs)
-            self._next_leg(permit)
+            self._route.extend(command.segments)
+            self._next_segment(permit)
         elif isinstance(command, Drive):
             self._drive(command, permit)
         elif isinstance(command, Play):
@@ -181,10 +181,10 @@ class Executor:
         self.forget()
         self.targets = command.targets
 
-    def _next_leg(self, permit: Permit) -> None:
-        leg = self._route.popleft()
-        self._driver.move_to(leg.targets, leg.speeds, permit=permit)
-        self.targets = MappingProxyType({**self.targets, **leg.targets})
+    def _next_segment(self, permit: Permit) -> None:
+        segment = self._route.popleft()
+        self._driver.move_to(segment.targets, segment.speeds, permit=permit)
+        self.targets = MappingProxyType({**self.targets, **segment.targets})
 
     def _drive(self, command: Drive, permit: Permit) -> None:
         driver = self._driver

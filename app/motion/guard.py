@@ -21,7 +21,7 @@ _LIFTING = ("z", "zn")  # axes that move the tip up and down
 _CLOSER = 1e-9  # m by which each axis has to bring the tip nearer to its bounds
 
 
-class Place(NamedTuple):
+class PositionEnvelope(NamedTuple):
     """Where the axes may be just now: bounds (axes,) about all commands that may act.
 
     ``deviation`` (axes,) is by how much readings differ from commands, less what is noise: the tip
@@ -32,12 +32,12 @@ class Place(NamedTuple):
     high: FloatArray
     deviation: FloatArray
 
-    def widened(self, columns: Mapping[int, float]) -> "Place":
+    def widened(self, columns: Mapping[int, float]) -> "PositionEnvelope":
         """Return the bounds with more values of some axes in them."""
         low, high = self.low.copy(), self.high.copy()
         for column, value in columns.items():
             low[column], high[column] = min(low[column], value), max(high[column], value)
-        return Place(low, high, self.deviation)
+        return PositionEnvelope(low, high, self.deviation)
 
     def seen(self) -> Iterator[tuple[FloatArray, FloatArray]]:
         """Yield the bounds about commands, and about readings where these are elsewhere."""
@@ -47,17 +47,17 @@ class Place(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Leg:
+class PathSegment:
     """One part of a move: targets, m or rad, and the axes' greatest speeds on it, where bounded."""
 
     targets: Mapping[str, float]
     speeds: Mapping[str, float]
 
-    def no_faster(self, speeds: Mapping[str, float]) -> "Leg":
-        """Return the leg with its axes bounded by these speeds too."""
+    def no_faster(self, speeds: Mapping[str, float]) -> "PathSegment":
+        """Return the segment with its axes bounded by these speeds too."""
         bounds = {axis: most for axis, most in speeds.items() if axis in self.targets}
         slower = {axis: min(most, self.speeds.get(axis, most)) for axis, most in bounds.items()}
-        return Leg(self.targets, {**self.speeds, **slower})
+        return PathSegment(self.targets, {**self.speeds, **slower})
 
 
 class Guard:
@@ -97,22 +97,26 @@ class Guard:
             raise OutOfLimitsError(f"robot {self._robot.name!r} has no tip that a floor could hold")
         self._zone = self._zone.taught(floor)
 
-    def place(self, deviation: FloatArray | None, *commands: Mapping[str, float]) -> Place:
+    def envelope(
+        self, deviation: FloatArray | None, *commands: Mapping[str, float]
+    ) -> PositionEnvelope:
         """Return bounds about all commands that may act; all axes are in them.
 
         An axis of which nothing is known might be anywhere in its range. ``deviation`` (axes,) is
-        that of the readings, as :attr:`Place.deviation`; None: they say nothing else.
+        that of the readings, as :attr:`PositionEnvelope.deviation`; None: they say nothing else.
         """
         low, high = np.array([axis.range for axis in self._robot.axes.values()]).T
         for column, axis in enumerate(self._axes):
             known = [float(each[axis]) for each in commands if axis in each]
             if known:
                 low[column], high[column] = min(known), max(known)
-        return Place(low, high, np.zeros(len(self._axes)) if deviation is None else deviation)
+        return PositionEnvelope(
+            low, high, np.zeros(len(self._axes)) if deviation is None else deviation
+        )
 
     def move(
-        self, place: Place, targets: Mapping[str, float], *, confirmed: bool = False
-    ) -> tuple[Leg, ...]:
+        self, envelope: PositionEnvelope, targets: Mapping[str, float], *, confirmed: bool = False
+    ) -> tuple[PathSegment, ...]:
         """Return how a move is to be made: at once, or slower close above the floor.
 
         A tip that is out of its bounds, as commanded or as read, moves only if that is
@@ -127,78 +131,84 @@ class Guard:
             check_target(self._robot, axis, position)
         zone = self._zone
         if zone is None or not zone.bounded:
-            return (Leg(targets, {}),)
-        if (out := self._out(zone, place)) is not None:
-            return (self._back_in(zone, place, targets, out, confirmed=confirmed),)
+            return (PathSegment(targets, {}),)
+        if (out := self._out(zone, envelope)) is not None:
+            return (self._back_in(zone, envelope, targets, out, confirmed=confirmed),)
         end = {self._axes.index(axis): at for axis, at in targets.items()}
-        lowest = self._lowest(zone, place.widened(end))
+        lowest = self._lowest(zone, envelope.widened(end))
         top = zone.low + SLOW_HEIGHT
         lowering = {
             axis: at
             for axis, at in targets.items()
-            if axis in _LIFTING and at < place.high[self._axes.index(axis)]
+            if axis in _LIFTING and at < envelope.high[self._axes.index(axis)]
         }
         if lowest >= top or not lowering:
-            return (Leg(targets, {}),)
-        return self._in_two(zone, place, targets, lowering)
+            return (PathSegment(targets, {}),)
+        return self._in_two(zone, envelope, targets, lowering)
 
-    def _lowest(self, zone: KeepOutZone, swept: Place) -> float:
+    def _lowest(self, zone: KeepOutZone, swept: PositionEnvelope) -> float:
         """Return the least height of the tip on a way; refuse one out of the bounds."""
         return min(float(zone.check_sweep(*bounds).low[2]) for bounds in swept.seen())
 
-    def _out(self, zone: KeepOutZone, place: Place) -> Excess | None:
+    def _out(self, zone: KeepOutZone, envelope: PositionEnvelope) -> Excess | None:
         """Return by how much the tip is out of its bounds, where it is."""
-        each = [zone.excess(zone.swept(*bounds)) for bounds in place.seen()]
+        each = [zone.excess(zone.swept(*bounds)) for bounds in envelope.seen()]
         worst = Excess(*np.max(each, axis=0).tolist())
         return worst if worst.any else None
 
-    def _refuse_if_out(self, zone: KeepOutZone, place: Place) -> None:
-        if (out := self._out(zone, place)) is not None:
+    def _refuse_if_out(self, zone: KeepOutZone, envelope: PositionEnvelope) -> None:
+        if (out := self._out(zone, envelope)) is not None:
             raise OutOfLimitsError(_out_text(out))
 
     def _back_in(
         self,
         zone: KeepOutZone,
-        place: Place,
+        envelope: PositionEnvelope,
         targets: Mapping[str, float],
         out: Excess,
         *,
         confirmed: bool,
-    ) -> Leg:
+    ) -> PathSegment:
         """Return the way of a tip that is out of its bounds; refuse what leads anywhere else."""
         if not confirmed:
             raise OutOfLimitsError(_out_text(out))
         end = {self._axes.index(axis): at for axis, at in targets.items()}
         for column, at in end.items():
-            if not _nearer(zone, place, column, at, out):
+            if not _nearer(zone, envelope, column, at, out):
                 raise OutOfLimitsError(
                     f"{_out_text(out)}; axis {self._axes[column]} brings it no nearer that way"
                 )
-        for bounds, present in zip(place.widened(end).seen(), place.seen(), strict=True):
+        for bounds, present in zip(envelope.widened(end).seen(), envelope.seen(), strict=True):
             zone.beyond(zone.swept(*present)).check_sweep(*bounds)
         slowly = RETURN_SPEED / len(targets)
         arms = {axis: zone.chain.pin_length for axis in targets if self._robot.unit(axis) == "rad"}
-        return Leg(targets, {axis: slowly / arms.get(axis, 1.0) for axis in targets})
+        return PathSegment(targets, {axis: slowly / arms.get(axis, 1.0) for axis in targets})
 
     def _in_two(
         self,
         zone: KeepOutZone,
-        place: Place,
+        envelope: PositionEnvelope,
         targets: Mapping[str, float],
         lowering: Mapping[str, float],
-    ) -> tuple[Leg, ...]:
+    ) -> tuple[PathSegment, ...]:
         """Go at full speed as far as the slow zone, and slowly from there on."""
         slowly = dict.fromkeys(lowering, SLOW_SPEED / len(lowering))
         column = self._axes.index("z")
         end = {self._axes.index(axis): at for axis, at in targets.items()}
-        height = self._lowest(zone, place.widened(end)) - zone.low
+        height = self._lowest(zone, envelope.widened(end)) - zone.low
         raised = targets.get("z", np.inf) + SLOW_HEIGHT - height
-        if "z" not in lowering or raised >= place.low[column]:
-            return (Leg(targets, slowly),)
-        return (Leg({**targets, "z": raised}, {}), Leg({"z": targets["z"]}, slowly))
+        if "z" not in lowering or raised >= envelope.low[column]:
+            return (PathSegment(targets, slowly),)
+        return (PathSegment({**targets, "z": raised}, {}), PathSegment({"z": targets["z"]}, slowly))
 
     def profile(
-        self, place: Place, axis: str, ends: tuple[float, float], speed: float, *, thrust: bool
+        self,
+        envelope: PositionEnvelope,
+        axis: str,
+        ends: tuple[float, float],
+        speed: float,
+        *,
+        thrust: bool,
     ) -> None:
         """Refuse a profile of one axis, between ``ends``, m or rad, that the tip must not make.
 
@@ -215,9 +225,9 @@ class Guard:
         zone = self._zone
         if zone is None or not zone.bounded:
             return
-        self._refuse_if_out(zone, place)
+        self._refuse_if_out(zone, envelope)
         column = self._axes.index(axis)
-        lowest = self._lowest(zone, place.widened({column: ends[0]}).widened({column: ends[1]}))
+        lowest = self._lowest(zone, envelope.widened({column: ends[0]}).widened({column: ends[1]}))
         if axis not in _LIFTING or lowest >= zone.low + SLOW_HEIGHT or speed <= SLOW_SPEED:
             return
         if not thrust:
@@ -233,7 +243,7 @@ class Guard:
             )
 
     def velocity(
-        self, place: Place, velocities: Mapping[str, float], lease_s: float
+        self, envelope: PositionEnvelope, velocities: Mapping[str, float], lease_s: float
     ) -> dict[str, float]:
         """Return the velocities, all slower by one factor where the tip's bounds are near.
 
@@ -245,16 +255,16 @@ class Guard:
         zone = self._zone
         if zone is None or not zone.bounded:
             return dict(velocities)
-        self._refuse_if_out(zone, place)
+        self._refuse_if_out(zone, envelope)
         refusal: OutOfLimitsError | None = None
         for scale in _SCALES:
             slower = {axis: scale * speed for axis, speed in velocities.items()}
             ends = {
-                self._axes.index(axis): self._end(place, axis, speed, lease_s)
+                self._axes.index(axis): self._end(envelope, axis, speed, lease_s)
                 for axis, speed in slower.items()
             }
             try:
-                lowest = self._lowest(zone, place.widened(ends))
+                lowest = self._lowest(zone, envelope.widened(ends))
             except OutOfLimitsError as error:
                 refusal = error
                 continue
@@ -272,9 +282,9 @@ class Guard:
         """
         return {axis: self._way(axis, speed, lease_s) for axis, speed in velocities.items()}
 
-    def _end(self, place: Place, axis: str, speed: float, lease_s: float) -> float:
+    def _end(self, envelope: PositionEnvelope, axis: str, speed: float, lease_s: float) -> float:
         column = self._axes.index(axis)
-        begin = place.high[column] if speed > 0.0 else place.low[column]
+        begin = envelope.high[column] if speed > 0.0 else envelope.low[column]
         end = begin + self._way(axis, speed, lease_s)
         return float(np.clip(end, *self._robot.axes[axis].range))
 
@@ -283,7 +293,7 @@ class Guard:
         braking = speed**2 / (2.0 * most) if most else 0.0
         return float(np.copysign(abs(speed) * (lease_s + _REACTION_S) + braking, speed))
 
-    def play(self, place: Place, trajectory: CheckedTrajectory) -> None:
+    def play(self, envelope: PositionEnvelope, trajectory: CheckedTrajectory) -> None:
         """Refuse a trajectory on which, or on the way to which, the tip leaves its bounds.
 
         Raises
@@ -294,27 +304,33 @@ class Guard:
         zone = self._zone
         if zone is None or not zone.bounded:
             return
-        self._refuse_if_out(zone, place)
+        self._refuse_if_out(zone, envelope)
         commands = trajectory.commands
         signals = commands_of(self._robot, commands)
         first = {self._axes.index(axis): float(signal[0]) for axis, signal in signals.items()}
-        self._lowest(zone, place.widened(first))
-        middle = 0.5 * (place.low + place.high)
+        self._lowest(zone, envelope.widened(first))
+        middle = 0.5 * (envelope.low + envelope.high)
         positions = np.tile(middle, (len(commands.time_s), 1))
         for axis, signal in signals.items():
             positions[:, self._axes.index(axis)] = signal
         zone.check_path(positions, commands.time_s)
-        if place.deviation.any():
-            zone.check_path(positions + place.deviation, commands.time_s)
+        if envelope.deviation.any():
+            zone.check_path(positions + envelope.deviation, commands.time_s)
 
 
-def _nearer(zone: KeepOutZone, place: Place, column: int, at: float, out: Excess) -> bool:
+def _nearer(
+    zone: KeepOutZone, envelope: PositionEnvelope, column: int, at: float, out: Excess
+) -> bool:
     """Tell whether an axis that goes there alone brings the commanded tip back, all the way."""
-    low, high = place.low.copy(), place.high.copy()
+    low, high = envelope.low.copy(), envelope.high.copy()
     low[column] = high[column] = at
     before, end, way = (
         zone.excess(zone.swept(*bounds))
-        for bounds in ((place.low, place.high), (low, high), place.widened({column: at})[:2])
+        for bounds in (
+            (envelope.low, envelope.high),
+            (low, high),
+            envelope.widened({column: at})[:2],
+        )
     )
     broken = [number for number, excess in enumerate(out) if excess > 0.0]
     return all(way[k] <= before[k] + _CLOSER for k in broken) and any(

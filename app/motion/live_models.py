@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rotemina.app.motion.carried_model import CarriedModel
+from rotemina.app.motion.bracketed_model import BracketedModel
 from rotemina.app.motion.command_memory import CommandMemory
 from rotemina.app.motion.live_model import LiveModel
 from rotemina.app.motion.model_in_use import ModelInUse
@@ -13,7 +13,7 @@ from rotemina.drivers.samples import Samples
 from rotemina.sim.arrays import FloatArray
 
 
-class Answers(NamedTuple):
+class ModelOutputs(NamedTuple):
     """What models say of samples, each (n, axes), m or rad; NaN where one has no finite answer.
 
     Attributes
@@ -34,7 +34,7 @@ class Answers(NamedTuple):
     doubt: FloatArray
 
     @classmethod
-    def of_nominal(cls, nominal: FloatArray) -> "Answers":
+    def of_nominal(cls, nominal: FloatArray) -> "ModelOutputs":
         """Return the answers where the nominal model is in use."""
         return cls(nominal, nominal, nominal, np.zeros(nominal.shape))
 
@@ -43,7 +43,7 @@ class PreparedModel(NamedTuple):
     """A model with its runs, which have followed what the machine was commanded before."""
 
     model: ModelInUse
-    runs: tuple[CarriedModel, ...]  # the model's own, and the cautious one where it is another
+    runs: tuple[BracketedModel, ...]  # the model's own, and the cautious one where it is another
 
     @classmethod
     def of(cls, model: ModelInUse, memory: CommandMemory) -> "PreparedModel":
@@ -59,13 +59,13 @@ class PreparedModel(NamedTuple):
         robots = [model.robot]
         if model.contact_like:
             robots.append(model.without_contact)
-        made = cls(model, tuple(CarriedModel(robot, model.offsets) for robot in robots))
+        made = cls(model, tuple(BracketedModel(robot, model.offsets) for robot in robots))
         made.catch_up(memory)
         return made
 
     def catch_up(self, memory: CommandMemory) -> None:
         """Follow what was commanded since."""
-        time_s, command = memory.told()
+        time_s, command = memory.history()
         for run in self.runs:
             later = time_s > run.time_s
             if later.any():
@@ -79,7 +79,7 @@ class LiveModels:
         self.model = ModelInUse.nominal_of(driver)
         self.memory = CommandMemory()
         self._nominal = LiveModel(driver.robot)
-        self._runs: tuple[CarriedModel, ...] = ()
+        self._runs: tuple[BracketedModel, ...] = ()
 
     @property
     def unsettled(self) -> tuple[str, ...]:
@@ -106,12 +106,12 @@ class LiveModels:
         prepared.catch_up(self.memory)
         self.model, self._runs = prepared.model, prepared.runs
 
-    def follow(self, samples: Samples) -> Answers:
+    def follow(self, samples: Samples) -> ModelOutputs:
         """Return what the models say of the next samples."""
         self.memory.add(samples)
         nominal = self._nominal.follow(samples)
         if not self._runs:
-            return Answers.of_nominal(nominal)
+            return ModelOutputs.of_nominal(nominal)
         told = [run.answer(samples.device_time_s, samples.command) for run in self._runs]
         in_use, doubt = told[0]
-        return Answers(in_use, nominal, told[-1][0], doubt)
+        return ModelOutputs(in_use, nominal, told[-1][0], doubt)

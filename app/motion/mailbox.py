@@ -1,4 +1,4 @@
-"""What other threads leave for the worker: a short queue of commands, and a bell."""
+"""What other threads leave for the worker: a short queue of commands, and a wake event."""
 
 import threading
 from collections import deque
@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from rotemina.app.motion.guard import Leg
+from rotemina.app.motion.guard import PathSegment
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.gate import GateError, Permit
 from rotemina.drivers.profile import Profile
@@ -31,14 +31,14 @@ def refuse_overtaken(permit: Permit) -> None:
 
 @dataclass(frozen=True, slots=True)
 class Move:
-    """Send axes to positions, m or rad, leg after leg."""
+    """Send axes to positions, m or rad, segment after segment."""
 
-    legs: tuple[Leg, ...]
+    segments: tuple[PathSegment, ...]
 
     @property
     def targets(self) -> dict[str, float]:
         """Where each axis ends."""
-        return {axis: at for leg in self.legs for axis, at in leg.targets.items()}
+        return {axis: at for segment in self.segments for axis, at in segment.targets.items()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,7 +149,7 @@ Command = (
 
 
 @dataclass(frozen=True, slots=True)
-class Wish:
+class ConnectionRequest:
     """What is to become of the connection: made by ``driver``, or None: ended."""
 
     driver: Driver | None
@@ -167,10 +167,10 @@ class Mailbox:
 
     def __init__(self, capacity: int) -> None:
         self.capacity = capacity
-        self.bell = threading.Event()
+        self.wake_event = threading.Event()
         self._commands: deque[Posted] = deque()
         self._in_hand: Posted | None = None
-        self._wish: Wish | None = None
+        self._connection_request: ConnectionRequest | None = None
         self._lock = threading.Lock()
 
     def __len__(self) -> int:
@@ -183,7 +183,7 @@ class Mailbox:
             return bool(self._commands) or self._in_hand is not None
 
     def post(self, command: Command, permit: Permit) -> None:
-        """Queue a command and ring.
+        """Queue a command and wake the worker.
 
         Raises
         ------
@@ -200,7 +200,7 @@ class Mailbox:
                     "up; wait, or stop"
                 )
             self._commands.append(Posted(command, permit))
-        self.bell.set()
+        self.wake_event.set()
 
     def _renews(self, command: Drive) -> bool:
         """Tell whether the latest command is of the same axes: only the newest speed counts."""
@@ -233,7 +233,7 @@ class Mailbox:
         found: list[Mapping[str, float]] = []
         for command in self._unfinished():
             if isinstance(command, Move):
-                found += [leg.targets for leg in command.legs]
+                found += [segment.targets for segment in command.segments]
             elif isinstance(command, RunProfile | SetVoltage):
                 found.append(command.targets)
         return found
@@ -247,12 +247,12 @@ class Mailbox:
             posted = [self._in_hand, *self._commands]
         return [one.command for one in posted if one is not None]
 
-    def wish(self, wish: Wish) -> None:
-        """Ask the worker to connect or disconnect, and ring; the latest wish counts."""
-        self._wish = wish
-        self.bell.set()
+    def request_connection(self, request: ConnectionRequest) -> None:
+        """Ask the worker to connect or disconnect, and wake it; the latest request counts."""
+        self._connection_request = request
+        self.wake_event.set()
 
-    def take_wish(self) -> Wish | None:
+    def take_connection_request(self) -> ConnectionRequest | None:
         """Return what is to become of the connection now, if anything."""
-        wish, self._wish = self._wish, None
-        return wish
+        request, self._connection_request = self._connection_request, None
+        return request

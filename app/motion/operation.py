@@ -24,7 +24,7 @@ from rotemina.app.motion.recording.session_recorder import SessionRecorder
 from rotemina.app.motion.recording.tables import prepare
 from rotemina.app.motion.recording.writer import RecorderNotice
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.motion.teleoperation.input_devices import Heard, InputDevices
+from rotemina.app.motion.teleoperation.input_devices import InputDevices, InputSnapshot
 from rotemina.app.motion.teleoperation.intent import Action, Intent
 from rotemina.app.motion.teleoperation.recentring import plan_recentring
 from rotemina.app.motion.teleoperation.reference import ScalingError
@@ -141,13 +141,13 @@ class Operation:
 
     def step(self, now_s: float) -> None:
         """Read the devices and do what they ask for; for a loop of its own, or for a test."""
-        heard = self.devices.step(now_s)
-        self.intent = heard.intent
-        self._act(heard.intent, now_s)
-        self.teleoperator.step(heard.intent, now_s)
+        snapshot = self.devices.step(now_s)
+        self.intent = snapshot.intent
+        self._act(snapshot.intent, now_s)
+        self.teleoperator.step(snapshot.intent, now_s)
         self.penetration.step(now_s)
         self._rumble()
-        self._record(heard)
+        self._record(snapshot)
 
     # --- what buttons ask for ---------------------------------------------------------------------
 
@@ -332,16 +332,16 @@ class Operation:
             self._rumbled = strength
             self.devices.rumble(strength)
 
-    def _record(self, heard: Heard) -> None:
+    def _record(self, snapshot: InputSnapshot) -> None:
         recorder = self._recorder
         if recorder is None:
             return
-        for key, readings in heard.readings.items():
+        for key, readings in snapshot.readings.items():
             device = self.devices.device(key)
             if device is not None:
                 for reading in readings:
                     recorder.record_reading(device, reading)
-        recorder.record_intent(heard.intent)
+        recorder.record_intent(snapshot.intent)
 
     def _recorder_told(self, notice: RecorderNotice) -> None:
         self._told(f"Recorder: {notice.message}")

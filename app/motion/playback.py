@@ -9,7 +9,7 @@ from types import MappingProxyType
 import numpy as np
 
 from rotemina.app.motion.deviation import DeviationWatch, Excess, Gap
-from rotemina.app.motion.live_models import Answers
+from rotemina.app.motion.live_models import ModelOutputs
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.retiming import Piece, check_speed, piece
 from rotemina.app.motion.session import MotionSession
@@ -250,7 +250,7 @@ class Playback:
                 self._whole, self._piece, self._watch, self._state = before
             raise
 
-    def _on_samples(self, samples: Samples, answers: Answers) -> None:
+    def _on_samples(self, samples: Samples, answers: ModelOutputs) -> None:
         """Watch the gap of what belongs to the playback; on the session's thread."""
         began = np.flatnonzero(samples.playback_row >= 0)
         with self._lock:

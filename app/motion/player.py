@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 
-from rotemina.app.motion.compensation import NamedInverse, sent_for
+from rotemina.app.motion.compensation import NamedInverse, compensated_trajectory
 from rotemina.app.motion.recorder import PlaybackRecorder
 from rotemina.app.motion.regulation import NamedRegulation
 from rotemina.drivers.abilities import TrajectoryPlayer
@@ -56,7 +56,9 @@ def play_offline(
     names = {}
     if inverse is not None:
         period_s, used = device.setpoint_period_s, {inverse.model.axis: inverse}
-        sent_for(robot, on_ticks(checked.commands, period_s), used, period_s, preview=False)
+        compensated_trajectory(
+            robot, on_ticks(checked.commands, period_s), used, period_s, preview=False
+        )
         names = {inverse.model.axis: inverse.name}
     loops = {} if loop is None else {loop.regulation.axis: loop.name}
     recorder = PlaybackRecorder(checked, device.name, laser=laser, compensations=names, loops=loops)

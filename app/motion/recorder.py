@@ -6,7 +6,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from rotemina.app.motion.live_models import Answers
+from rotemina.app.motion.live_models import ModelOutputs
 from rotemina.drivers.samples import Samples
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.records.record import Channel, Record, RecordError, Tap
@@ -31,7 +31,7 @@ class RunAnswers:
     axes : tuple of str
         The record's.
     in_use, nominal, doubt : (n, axes)
-        As :class:`~rotemina.app.motion.live_models.Answers`.
+        As :class:`~rotemina.app.motion.live_models.ModelOutputs`.
     began_s : float
         Device time of the first row.
     memory : int
@@ -105,7 +105,7 @@ class PlaybackRecorder:
         """Put something into the record's metadata."""
         self._metadata[name] = text
 
-    def add(self, samples: Samples, answers: Answers | None = None, memory: int = 0) -> None:
+    def add(self, samples: Samples, answers: ModelOutputs | None = None, memory: int = 0) -> None:
         """Take what belongs to the trajectory, and what models say of it.
 
         ``memory`` is the number of the memory of commands that these samples are in.
@@ -144,7 +144,7 @@ class PlaybackRecorder:
         channels = tuple(self._channels[column] for column in told)
         return Record(time_s, channels, values, self._trajectory.commands.units, self._metadata)
 
-    def _add_answers(self, answers: Answers, first: int) -> None:
+    def _add_answers(self, answers: ModelOutputs, first: int) -> None:
         order, axes = tuple(self._trajectory.robot.axes), self._trajectory.commands.axes
         own = [order.index(axis) for axis in axes]
         alike = answers.in_use is answers.nominal

@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from rotemina.app.motion.carried_model import CarriedModel
+from rotemina.app.motion.bracketed_model import BracketedModel
 from rotemina.app.motion.command_memory import CommandMemory
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.motion.recorder import RunAnswers
@@ -134,7 +134,7 @@ def _answers_anew(
     """Return what another model says of a record; None where nothing is known of before."""
     if not model.corrected:
         return replace(told, in_use=told.nominal, doubt=np.zeros(told.nominal.shape))
-    time_s, command = memory.told()
+    time_s, command = memory.history()
     before = time_s < told.began_s
     if memory.number != told.memory or not before.any():
         return None
@@ -142,7 +142,7 @@ def _answers_anew(
     rows = np.repeat(command[before][-1:], len(record.time_s), axis=0)
     for axis in record.axes:
         rows[:, order.index(axis)] = record.signal(axis, Tap.CMD)
-    run = CarriedModel(model.robot, model.offsets)
+    run = BracketedModel(model.robot, model.offsets)
     run.answer(time_s[before], command[before])
     in_use, doubt = run.answer(told.began_s + record.time_s - record.time_s[0], rows)
     own = [order.index(axis) for axis in told.axes]

@@ -18,7 +18,7 @@ FOLDER = "positions"
 MOST, LONGEST_NAME = 200, 40
 
 Name = Annotated[str, Field(strict=True, min_length=1, max_length=LONGEST_NAME)]
-Place = Mapping[Text, Annotated[float, Field(strict=True, allow_inf_nan=False)]]
+AxisPositions = Mapping[Text, Annotated[float, Field(strict=True, allow_inf_nan=False)]]
 
 
 class SavedPositionError(InputError):
@@ -30,7 +30,9 @@ class PositionsFile:
     """The positions of one robot; m or rad, by name and axis."""
 
     robot: Text
-    positions: Annotated[dict[Name, Place], Field(max_length=MOST)] = Field(default_factory=dict)
+    positions: Annotated[dict[Name, AxisPositions], Field(max_length=MOST)] = Field(
+        default_factory=dict
+    )
 
 
 _FORMAT = Format(PositionsFile, {}, SavedPositionError)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from rotemina.app.motion.guard import Leg, Place
+from rotemina.app.motion.guard import PathSegment, PositionEnvelope
 from rotemina.app.motion.mailbox import (
     Drive,
     Home,
@@ -17,7 +17,7 @@ from rotemina.app.motion.mailbox import (
 )
 from rotemina.app.motion.ownership import HOMING, OPERATOR, PLAYBACK
 from rotemina.app.motion.regulation import RegulatedRequests
-from rotemina.app.motion.safe_way import safe_way
+from rotemina.app.motion.safe_path import safe_path
 from rotemina.app.motion.state import (
     SessionState,
 )
@@ -109,7 +109,7 @@ class MotionSession(RegulatedRequests):
         with self._lock:
             self._refuse_if_locked()
             guard = self._guard
-            used = guard.velocity(self._place(velocities), velocities, lease_s)
+            used = guard.velocity(self._envelope(velocities), velocities, lease_s)
             ways, braking = guard.ways(used, lease_s), guard.ways(used, 0.0)
             with self._worker.ownership.claimed(velocities, owner):
                 self._note_rest()
@@ -156,9 +156,9 @@ class MotionSession(RegulatedRequests):
         with self._lock:
             self._refuse_if_locked()
             self._refuse_in_motion("going back")
-            legs = self._legs(self._undo.back(dict(self._worker.state.command)))
-            with self._worker.ownership.claimed(_axes(legs), OPERATOR):
-                self._mailbox.post(Move(legs), permit.owned(_axes(legs), OPERATOR))
+            segments = self._segments(self._undo.back(dict(self._worker.state.command)))
+            with self._worker.ownership.claimed(_axes(segments), OPERATOR):
+                self._mailbox.post(Move(segments), permit.owned(_axes(segments), OPERATOR))
 
     def go_safely(
         self,
@@ -181,11 +181,11 @@ class MotionSession(RegulatedRequests):
             for axis, position in goal.items():
                 check_target(self.robot, axis, position)
             self._check_seen(goal)
-            ways = safe_way(self.robot, dict(self._worker.state.command), goal)
-            legs = tuple(leg.no_faster(speeds) for leg in self._legs(ways))
-            with self._worker.ownership.claimed(_axes(legs), OPERATOR):
+            ways = safe_path(self.robot, dict(self._worker.state.command), goal)
+            segments = tuple(segment.no_faster(speeds) for segment in self._segments(ways))
+            with self._worker.ownership.claimed(_axes(segments), OPERATOR):
                 self._note_rest()
-                self._mailbox.post(Move(legs), permit.owned(_axes(legs), OPERATOR))
+                self._mailbox.post(Move(segments), permit.owned(_axes(segments), OPERATOR))
 
     @property
     def undoable(self) -> bool:
@@ -258,11 +258,11 @@ class MotionSession(RegulatedRequests):
         with self._lock:
             self._refuse_if_locked()
             self._refuse_in_motion("playing")
-            place, checked_for = self._place(), self._standing()
+            envelope, checked_for = self._envelope(), self._standing()
         # Neither a stop nor a request waits for a check of the path: no lock is held.
-        self._guard.play(place, checked)
+        self._guard.play(envelope, checked)
         if sent is not None:
-            self._guard.play(place, sent)
+            self._guard.play(envelope, sent)
         with self._lock:
             self._refuse_if_locked()
             self._refuse_in_motion("playing")
@@ -339,13 +339,13 @@ class MotionSession(RegulatedRequests):
         self._refuse_if_locked()
         self._check_seen(targets)
         check_speeds(targets, speeds)
-        ways = self._guard.move(self._place(), targets, confirmed=confirmed)
-        legs = tuple(leg.no_faster(speeds) for leg in ways)
+        ways = self._guard.move(self._envelope(), targets, confirmed=confirmed)
+        segments = tuple(segment.no_faster(speeds) for segment in ways)
         with self._worker.ownership.claimed(targets, owner):
             self._note_rest()
-            self._mailbox.post(Move(legs), permit.owned(targets, owner))
+            self._mailbox.post(Move(segments), permit.owned(targets, owner))
 
-    def _place(self, driven: Container[str] = ()) -> Place:
+    def _envelope(self, driven: Container[str] = ()) -> PositionEnvelope:
         """Return where the axes may be by what they have been told and said last.
 
         The axes ``driven`` are told a speed anew: their lease from before does not count.
@@ -358,17 +358,17 @@ class MotionSession(RegulatedRequests):
             way = (drive.braking if axis in driven else drive.ways).get(axis, 0.0)
             if axis in command:
                 ends.append({axis: command[axis] + way})
-        return self._guard.place(worker.deviation.now, *ends)
+        return self._guard.envelope(worker.deviation.now, *ends)
 
-    def _legs(self, ways: Sequence[Mapping[str, float]]) -> tuple[Leg, ...]:
+    def _segments(self, ways: Sequence[Mapping[str, float]]) -> tuple[PathSegment, ...]:
         """Return how places are gone to, one after the other, from where the machine rests."""
-        place, reached = self._place(), dict(self._worker.state.command)
-        legs: list[Leg] = []
+        envelope, reached = self._envelope(), dict(self._worker.state.command)
+        segments: list[PathSegment] = []
         for targets in ways:
-            legs += self._guard.move(place, targets)
+            segments += self._guard.move(envelope, targets)
             reached |= targets
-            place = self._guard.place(place.deviation, reached)
-        return tuple(legs)
+            envelope = self._guard.envelope(envelope.deviation, reached)
+        return tuple(segments)
 
     def _standing(self) -> tuple[object, ...]:
         """Return what a check of a path rests on, while the machine rests."""
@@ -412,5 +412,5 @@ class MotionSession(RegulatedRequests):
             raise RefusedError("a trajectory is playing and owns every axis; stop it first")
 
 
-def _axes(legs: Sequence[Leg]) -> set[str]:
-    return {axis for leg in legs for axis in leg.targets}
+def _axes(segments: Sequence[PathSegment]) -> set[str]:
+    return {axis for segment in segments for axis in segment.targets}

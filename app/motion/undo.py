@@ -4,7 +4,7 @@ from collections import deque
 from collections.abc import Mapping
 
 from rotemina.app.motion.mailbox import RefusedError
-from rotemina.app.motion.safe_way import safe_way
+from rotemina.app.motion.safe_path import safe_path
 from rotemina.sim.robot.model import Robot
 
 _KEPT = 50
@@ -38,7 +38,7 @@ class Undo:
         self._places.clear()
 
     def back(self, now: Mapping[str, float]) -> tuple[dict[str, float], ...]:
-        """Return the legs of the way back to the latest place that is not here, and drop it.
+        """Return the segments of the way back to the latest place that is not here, and drop it.
 
         Raises
         ------
@@ -50,4 +50,4 @@ class Undo:
         if not self._places:
             raise RefusedError("there is no move to take back")
         goal = self._places.pop()
-        return safe_way(self._robot, now, goal)
+        return safe_path(self._robot, now, goal)

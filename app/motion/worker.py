@@ -12,7 +12,7 @@ from types import MappingProxyType
 
 from rotemina.app.motion.executor import Executor
 from rotemina.app.motion.history import LiveHistory
-from rotemina.app.motion.live_models import Answers, LiveModels, PreparedModel
+from rotemina.app.motion.live_models import LiveModels, ModelOutputs, PreparedModel
 from rotemina.app.motion.lock_reasons import NOT_CONNECTED, lock_reason
 from rotemina.app.motion.mailbox import (
     ClearFault,
@@ -55,7 +55,7 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 
 #: Called with samples and what the models say of them.
-Tap = Callable[[Samples, Answers], None]
+Tap = Callable[[Samples, ModelOutputs], None]
 
 
 class Worker:
@@ -130,7 +130,7 @@ class Worker:
         if failure is not None:  # a later stop that succeeds does not mend what this one found
             self._stop_failure = failure
         self._stops_to_tell.append(request)
-        self._mailbox.bell.set()
+        self._mailbox.wake_event.set()
 
     def run_once(self) -> None:
         """Do one cycle. Whatever the driver raises ends in the failed state, never in here."""
@@ -208,12 +208,12 @@ class Worker:
             self._trust.confirm()  # another device vouches for itself
 
     def _cycle(self) -> None:
-        wish = self._mailbox.take_wish()
-        if wish is not None:
-            if wish.driver is not self.driver:
+        request = self._mailbox.take_connection_request()
+        if request is not None:
+            if request.driver is not self.driver:
                 self._let_go()
-            if wish.driver is not None:
-                self._use(wish.driver)
+            if request.driver is not None:
+                self._use(request.driver)
                 self._connect()
         if self._next.connection is not Connection.CONNECTED:
             return
@@ -274,7 +274,7 @@ class Worker:
         if not len(samples) and since_s < _PORTION_S:
             return
         status = self.driver.status()
-        news = status.state is not self._next.activity and not self._executor.between_legs
+        news = status.state is not self._next.activity and not self._executor.between_segments
         # A cycle that has just read a portion leaves the work to the next one, which has the time.
         if news or since_s >= _LATEST_S or (since_s >= _PORTION_S and not len(samples)):
             self._worked_up_s = now_s
@@ -328,21 +328,23 @@ class Worker:
         """Free the axes when nothing moves and nobody waits."""
         if (
             status.state in (DeviceState.IDLE, DeviceState.FAULT)
-            and not self._executor.between_legs
+            and not self._executor.between_segments
         ):
             self._executor.rested()
             self.ownership.release(lambda: len(self._mailbox) > 0)
 
-    def _updated(self, samples: Samples, answers: Answers, status: DeviceStatus) -> SessionState:
+    def _updated(
+        self, samples: Samples, answers: ModelOutputs, status: DeviceStatus
+    ) -> SessionState:
         fault = self._next.fault
         if status.state is DeviceState.FAULT:
             fault = status.fault or "the device reports a fault"
         if self._next.activity is DeviceState.HOMING and status.state is DeviceState.IDLE:
             self._trust.homed(self._executor.sought - set(status.unhomed))
-        between_legs = self._executor.between_legs and status.state is DeviceState.IDLE
+        between_segments = self._executor.between_segments and status.state is DeviceState.IDLE
         state = replace(
             self._next,
-            activity=DeviceState.MOVING if between_legs else status.state,
+            activity=DeviceState.MOVING if between_segments else status.state,
             progress=status.progress,
             fault=fault,
             unhomed=status.unhomed,

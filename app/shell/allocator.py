@@ -13,7 +13,7 @@ _LARGE_BYTES = 1 << 20  # what is larger is mapped by itself, and given back whe
 _TRIM_THRESHOLD, _MMAP_THRESHOLD, _ARENA_MAX = -1, -3, -8
 
 
-def give_memory_back() -> bool:
+def trim_heap() -> bool:
     """Ask the C library for it, before there are threads; return whether it can do that."""
     if not sys.platform.startswith("linux"):
         return False

@@ -23,7 +23,7 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.trajectory.demonstration import demonstration, wear
+from rotemina.sim.trajectory.demonstration import demonstration, worn_effects
 from rotemina.sim.trajectory.example import example_for
 
 TIME_LIMIT_MS = 120_000
@@ -57,7 +57,7 @@ def run(session: MotionSession, output: Path) -> int:
     if not settings.get(language.SETTING, ""):
         settings.set(language.SETTING, language.ENGLISH)  # as what it prints and writes
     window = make_window(session, settings, output / "played")
-    worn = wear(session.robot) if session.effects is not None else ()
+    worn = worn_effects(session.robot) if session.effects is not None else ()
     try:
         window.resize(*SIZE)
         window.show()

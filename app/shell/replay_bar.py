@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
 from rotemina.app.display import duration_text
 from rotemina.app.motion.recording.pacing import SPEEDS
 from rotemina.app.motion.state import SessionState
-from rotemina.app.recorded_events import happenings
+from rotemina.app.recorded_events import timeline_events
 from rotemina.app.shell.controls import ElidedLabel
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase import PhaseLabel, Tone, set_tone
@@ -97,7 +97,7 @@ class ReplayBar(QFrame):
         )
         with QSignalBlocker(self.timeline):
             self.timeline.show_recording(
-                paced.duration_s, happenings(paced.replay.events, recording.began_s)
+                paced.duration_s, timeline_events(paced.replay.events, recording.began_s)
             )
         with QSignalBlocker(self.speed):
             self.speed.setCurrentIndex(SPEEDS.index(paced.speed))

@@ -6,12 +6,12 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QSlider, QStyle, QStyleOptionSlider
 
-from rotemina.app.recorded_events import Happening, Weight
+from rotemina.app.recorded_events import Severity, TimelineEvent
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 
 _MARK_HEIGHT = 5
-_ORDER = (Weight.REMARK, Weight.WARNING, Weight.GRAVE)  # the gravest is drawn last, on top
+_ORDER = (Severity.REMARK, Severity.WARNING, Severity.GRAVE)  # the gravest is drawn last, on top
 
 
 class Timeline(QSlider):
@@ -20,13 +20,13 @@ class Timeline(QSlider):
     def __init__(self, theme: Theme) -> None:
         super().__init__(Qt.Orientation.Horizontal)
         self._theme = theme
-        self._marks: tuple[Happening, ...] = ()
+        self._marks: tuple[TimelineEvent, ...] = ()
         self.setAccessibleName(translate("shell", "Time of the replay"))
         self.setSingleStep(1000)
         self.setPageStep(10_000)
         self.setMinimumHeight(22 + _MARK_HEIGHT)
 
-    def show_recording(self, duration_s: float, marks: Sequence[Happening]) -> None:
+    def show_recording(self, duration_s: float, marks: Sequence[TimelineEvent]) -> None:
         """Begin anew with another recording and its events."""
         self._marks = tuple(marks)
         self.setRange(0, round(1000.0 * duration_s))
@@ -53,9 +53,9 @@ class Timeline(QSlider):
         painter = QPainter(self)
         handle = self._handle_width()
         colours = {
-            Weight.GRAVE: self._theme.danger_text,
-            Weight.WARNING: self._theme.warning,
-            Weight.REMARK: self._theme.accent,
+            Severity.GRAVE: self._theme.danger_text,
+            Severity.WARNING: self._theme.warning,
+            Severity.REMARK: self._theme.accent,
         }
         for weight in _ORDER:
             drawn = {

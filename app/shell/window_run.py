@@ -19,7 +19,7 @@ from rotemina.app.motion.session import MotionSession
 from rotemina.app.settings import Settings
 from rotemina.app.shell import language
 from rotemina.app.shell import theme as themes
-from rotemina.app.shell.allocator import give_memory_back
+from rotemina.app.shell.allocator import trim_heap
 from rotemina.app.shell.exits import exits_refused
 from rotemina.app.shell.layouts import OPERATE
 from rotemina.app.shell.main_window import MainWindow
@@ -93,7 +93,7 @@ def run(session: MotionSession, settings: Settings) -> int:
 
 
 def _run(session: MotionSession, settings: Settings) -> int:
-    give_memory_back()
+    trim_heap()
     sys.setswitchinterval(SWITCH_S)
     application = make_application()
     # Only asked for here: a handler may interrupt anything, a lock that closing needs as well.

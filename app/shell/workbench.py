@@ -218,7 +218,7 @@ class Workbench(Requests):
     def play(self, permit: Permit | None = None) -> None:
         """Play the planned trajectory; a refusal becomes a notice.
 
-        A ``permit`` is that of the wish, where it waited: nothing plays if a stop came since.
+        A ``permit`` is that of the request, where it waited: nothing plays if a stop came since.
         """
         plan, permit = self.plan, permit or self.session.permit()
         if plan is None:

@@ -94,14 +94,14 @@ class StageAxis:
             min(speed, axis.max_speed or speed), acceleration,
         )  # fmt: skip
 
-    def told(self, value: float) -> float:
+    def rounded(self, value: float) -> float:
         """Return a position, m or rad, in the controller's coordinates, in its own digits."""
         bounded = min(max(value, self.low), self.high)
         return round((bounded - self.low - self.travel) * self.scale, 3)
 
-    def value(self, told: float) -> float:
+    def value(self, number: float) -> float:
         """Return a position of a report in m or rad."""
-        return self.low + self.travel + told / self.scale
+        return self.low + self.travel + number / self.scale
 
 
 def check_stage(robot: Robot, letters: str) -> None:

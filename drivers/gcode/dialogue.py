@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from rotemina.drivers.clock import Clock
-from rotemina.drivers.gcode.reports import Answer, Message, Status, understood
+from rotemina.drivers.gcode.reports import Answer, Message, Status, parse_report
 from rotemina.drivers.link import LinkQuality
 from rotemina.drivers.mc68hc11.port import Port
 
@@ -17,7 +17,7 @@ _SLOWER = 1.01  # what the quickest answer is taken to have slowed down by, from
 
 
 class Dialogue:
-    """One controller at the end of a port; used by one thread, `cry` by any.
+    """One controller at the end of a port; used by one thread, `send_realtime` by any.
 
     Parameters
     ----------
@@ -53,18 +53,18 @@ class Dialogue:
         self._sent += 1
         self._acts += 1
 
-    def cry(self, byte: bytes) -> None:
+    def send_realtime(self, byte: bytes) -> None:
         """Send a byte that the controller obeys at once, past every line; any thread."""
         self._port.write(byte)
 
-    def acted(self) -> None:
+    def invalidate_reports(self) -> None:
         """Trust no report any more that was asked for before now."""
         self._acts += 1
 
     def forget(self) -> None:
         """Wait no more for answers: the controller has been reset."""
         self.awaited = self.asked_s = None
-        self.acted()
+        self.invalidate_reports()
 
     def ask(self, period_s: float, last_s: float) -> None:
         """Ask for a status where it is time, the latest one having been asked for at `last_s`."""
@@ -76,7 +76,7 @@ class Dialogue:
             return
         else:
             self._repeated += 1
-        self.cry(QUERY)
+        self.send_realtime(QUERY)
         self._sent += 1
         self.asked_s, self._asked_acts = now_s, self._acts
 
@@ -94,7 +94,7 @@ class Dialogue:
             text = line.strip().decode("ascii", "replace")
             if not text:
                 continue
-            message = understood(text)
+            message = parse_report(text)
             if message is None:
                 self._rejected += 1
                 continue
@@ -113,7 +113,7 @@ class Dialogue:
                 if took_s > self._least_s + UNCERTAIN_S * (1.0 + 1e-6):
                     asked_s = None
             elif isinstance(message, Answer):
-                self.acted()
+                self.invalidate_reports()
             yield message, asked_s, fresh
 
     def quality(self) -> LinkQuality:

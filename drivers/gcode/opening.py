@@ -1,4 +1,4 @@
-"""How a controller is met: brought to rest, emptied, asked what it is."""
+"""How a controller is opened: brought to rest, emptied, asked what it is."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -18,7 +18,7 @@ _LINE_S = 2.0
 
 
 @dataclass(slots=True)
-class Met:
+class ControllerInfo:
     """What a controller says of itself, at rest and with nothing left to do.
 
     Attributes
@@ -56,7 +56,7 @@ class Opening:
         self._where = where
         self._last_s = float("-inf")
 
-    def meet(self) -> Met:
+    def handshake(self) -> ControllerInfo:
         """Stop whatever it does, empty it and ask it; what was under way never goes on.
 
         Raises
@@ -66,22 +66,22 @@ class Opening:
         ProtocolError
             If its reports cannot be used.
         """
-        met = Met()
+        info = ControllerInfo()
         self.empty()
         for note in self._asked("$I"):
             if isinstance(note, Note) and note.text.startswith("OPT:"):
-                met.options = note.text.removeprefix("OPT:").split(",")[0]
+                info.options = note.text.removeprefix("OPT:").split(",")[0]
         for setting in self._asked("$$"):
             if isinstance(setting, Setting):
-                met.settings[setting.number] = setting.value
-        met.status = self._status(_LINE_S)
-        if met.status.position is None:
+                info.settings[setting.number] = setting.value
+        info.status = self._status(_LINE_S)
+        if info.status.position is None:
             raise ProtocolError(
                 f"{self._where}: its reports have no machine position; send it $10=1"
             )
-        if met.settings.get(13, 0.0):
+        if info.settings.get(13, 0.0):
             raise ProtocolError(f"{self._where}: it reports inches; send it $13=0")
-        return met
+        return info
 
     def empty(self) -> None:
         """Bring it to rest by a feed hold, then reset it: its queue is empty afterwards.
@@ -92,10 +92,10 @@ class Opening:
             If it does not answer, or does not come to rest.
         """
         self._status(_ANSWER_S, deaf_s=_DEAF_S)
-        self._dialogue.cry(HOLD)
-        self._dialogue.acted()
+        self._dialogue.send_realtime(HOLD)
+        self._dialogue.invalidate_reports()
         self._rest()
-        self._dialogue.cry(RESET)
+        self._dialogue.send_realtime(RESET)
         self._dialogue.forget()
         self._until(lambda one: isinstance(one, Welcome), _RESET_S, "did not reset")
 
@@ -119,7 +119,7 @@ class Opening:
                 if isinstance(message, Status) and fresh:
                     return message
             if not reset and self._clock() - began_s > deaf_s:
-                self._dialogue.cry(RESET)
+                self._dialogue.send_realtime(RESET)
                 reset = True
         raise DriverTimeoutError(
             f"{self._where}: no answer to '?' in {limit_s:g} s; is it a GRBL controller, is it "

@@ -94,7 +94,7 @@ class Note:
 Message = Status | Answer | Alarm | Welcome | Setting | Note
 
 
-def understood(line: str) -> Message | None:
+def parse_report(line: str) -> Message | None:
     """Return what a line says; None where it is none that a controller says."""
     if line == "ok":
         return Answer()

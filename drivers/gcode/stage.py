@@ -27,7 +27,7 @@ from rotemina.drivers.gcode.reports import (
     Status,
     Welcome,
 )
-from rotemina.drivers.gcode.way import Way
+from rotemina.drivers.gcode.straight_move import StraightMove
 from rotemina.drivers.link import LinkQuality
 from rotemina.drivers.mc68hc11.port import OpenPort, Port, open_port
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
@@ -125,7 +125,7 @@ class GcodeStage(Homer, Linked):
         self._wanted: dict[str, float] = {}
         self._speeds: dict[str, float] = {}
         self._permit: Permit | None = None
-        self._way: Way | None = None
+        self._way: StraightMove | None = None
         self._searching: deque[tuple[str, tuple[str, ...]]] = deque()  # line, axes; first: now
         self._unlock = False
         self._deaf = False  # after a critical alarm it answers nothing but a reset
@@ -165,16 +165,16 @@ class GcodeStage(Homer, Linked):
         try:
             self._forget()
             dialogue = Dialogue(port, self.clock, self._baud)
-            met = Opening(dialogue, self.clock, self._pause, url).meet()
-            assert met.status.position is not None, "the opening refuses one without"
-            self._axes = self._matched(met.settings, len(met.status.position), url)
-            self._able, self._single = bool(met.settings.get(22)), _SINGLE in met.options
+            info = Opening(dialogue, self.clock, self._pause, url).handshake()
+            assert info.status.position is not None, "the opening refuses one without"
+            self._axes = self._matched(info.settings, len(info.status.position), url)
+            self._able, self._single = bool(info.settings.get(22)), _SINGLE in info.options
         except BaseException:
             port.close()
             raise
         self._dialogue, self._port, self._opened_s = dialogue, port, self.clock()
-        self._latest = met.status
-        if self.settings["trust_position"] and met.status.state == "Idle":
+        self._latest = info.status
+        if self.settings["trust_position"] and info.status.state == "Idle":
             self._known = set(self.axes)
 
     def _matched(
@@ -240,7 +240,7 @@ class GcodeStage(Homer, Linked):
             if way is not None:
                 dialogue.say(self._next(way))
             elif under_way:
-                dialogue.cry(JOG_CANCEL)  # it brakes and forgets; then the new way begins
+                dialogue.send_realtime(JOG_CANCEL)  # it brakes and forgets; then the new way begins
                 self._brakes(dialogue, "Jog")
         self._wanted, self._speeds, self._permit, self._way = wanted, speeds, permit, way
 
@@ -251,14 +251,14 @@ class GcodeStage(Homer, Linked):
         dialogue = self._dialogue
         if dialogue is not None:
             with suppress(ConnectionLostError):  # the next read says so
-                dialogue.cry(byte)
+                dialogue.send_realtime(byte)
 
     def _clear_fault(self, permit: Permit) -> None:
         dialogue = self._talk()
         if self._braking or self._latest.moving:
             raise StateError(f"{self.name}: its axes still brake; clear the fault when they rest")
         with permit.passing():
-            dialogue.cry(RESET)
+            dialogue.send_realtime(RESET)
         self._begin_reset(dialogue)
         self._fault = None
         self._deaf = False
@@ -321,7 +321,7 @@ class GcodeStage(Homer, Linked):
         if self._latest.moving or dialogue.awaited is not None or self._braking:
             return
         way, position = self._way, self._latest.position
-        if way is None or position is None or not way.wholly_told:
+        if way is None or position is None or not way.fully_sent:
             return
         if short := way.missed(position):
             self._give_up(dialogue, f"it came to rest before its end: {short}")
@@ -381,12 +381,12 @@ class GcodeStage(Homer, Linked):
 
     def _empty_at_rest(self, dialogue: Dialogue) -> None:
         if self._braking and not self._latest.moving and self._reset_s is None:
-            dialogue.cry(RESET)
+            dialogue.send_realtime(RESET)
             self._begin_reset(dialogue)
 
     def _brakes(self, dialogue: Dialogue, state: str) -> None:
         """Take it to brake until a report that was asked for from now on says otherwise."""
-        dialogue.acted()
+        dialogue.invalidate_reports()
         self._latest = Status(state, 1, self._latest.position)
 
     def _begin_reset(self, dialogue: Dialogue) -> None:
@@ -423,18 +423,20 @@ class GcodeStage(Homer, Linked):
             if self._way is None:
                 self._end_way()
                 return
-        assert self._latest.position is not None, "a controller that was met tells one"
+        assert self._latest.position is not None, "a controller that was opened tells one"
         line = self._way.line(self._latest.position)
         if line is not None:
             with permit.passing(begins=begins):
                 dialogue.say(line)
 
-    def _way_to(self, targets: Mapping[str, float], speeds: Mapping[str, float]) -> Way | None:
-        assert self._latest.position is not None, "a controller that was met tells one"
-        return Way.of(self._axes, self._latest.position, targets, speeds)
+    def _way_to(
+        self, targets: Mapping[str, float], speeds: Mapping[str, float]
+    ) -> StraightMove | None:
+        assert self._latest.position is not None, "a controller that was opened tells one"
+        return StraightMove.of(self._axes, self._latest.position, targets, speeds)
 
-    def _next(self, way: Way) -> str:
-        assert self._latest.position is not None, "a controller that was met tells one"
+    def _next(self, way: StraightMove) -> str:
+        assert self._latest.position is not None, "a controller that was opened tells one"
         line = way.line(self._latest.position)
         assert line is not None, "of a way that begins nothing has been told"
         return line
@@ -464,13 +466,13 @@ class GcodeStage(Homer, Linked):
         self._searching.clear()
         self._end_way()
         self._fault = fault
-        dialogue.cry(HOLD)
+        dialogue.send_realtime(HOLD)
         self._braking = True
         self._brakes(dialogue, "Hold")
 
     def _look_at_times(self, dialogue: Dialogue, now_s: float) -> None:
         if self._reset_s is not None and now_s - self._reset_s > _RESET_S:
-            dialogue.cry(RESET)
+            dialogue.send_realtime(RESET)
             self._reset_s = now_s
         limit_s = self._homing_s if self._searching else _LINE_S
         if dialogue.awaited is not None and now_s - dialogue.awaited_since_s > limit_s:

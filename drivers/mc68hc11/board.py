@@ -146,7 +146,7 @@ class Board:
         assert self.grid is not None, "telemetry is on"
         return self.grid.latest(self.clock.time_us(host_time_s))
 
-    def heard(self, message: Message, now_s: float) -> None:
+    def receive(self, message: Message, now_s: float) -> None:
         """Take what it said, answer or not."""
         if isinstance(message, Telemetry):
             self._sampled(message, now_s)
@@ -181,7 +181,7 @@ class Board:
         if self.latest is not None and time_us <= self.latest_us and self.clock.known:
             return  # said twice, or polled before the next one was taken
         was_busy = not self.at_rest
-        self.clock.heard(time_us, said_s)
+        self.clock.observe(time_us, said_s)
         self.latest, self.latest_us, self.telemetry_s = told, time_us, now_s
         self.orders.seen(time_us)
         number = self.grid.number(time_us) if self.grid is not None else None

@@ -62,7 +62,7 @@ class BoardClock:
         back_s = 1e-6 * (self._latest_us - time_us)
         return back_s > _JUMP_S or self.host_time_s(time_us) - host_time_s > _JUMP_S
 
-    def heard(self, time_us: int, host_time_s: float) -> None:
+    def observe(self, time_us: int, host_time_s: float) -> None:
         """Note an unwrapped time and when, at the earliest, the board said it."""
         if self._latest_us is None:
             self._latest_us = self._origin_us = time_us

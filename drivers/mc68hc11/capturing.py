@@ -105,12 +105,12 @@ class Capturing:
                 self._begin_us = board.latest_us
                 early, self._early = self._early, []
                 for report in early:
-                    self.heard(report)
+                    self.receive(report)
         elif board.latest_us - self._heard_us > self._patience_us:
             # By time, not by samples: until the first one is due a board that is polled tells more.
             self._next = self._count  # the last samples were lost
 
-    def heard(self, report: Report) -> None:
+    def receive(self, report: Report) -> None:
         """Take captured samples."""
         self._heard_us = self.board.latest_us
         if self._begin_us is None:

@@ -70,7 +70,7 @@ class Offered(NamedTuple):
 
 
 @dataclass(slots=True)
-class _Said:
+class _SentRequest:
     """A request that waits for its answer."""
 
     request: Request
@@ -98,21 +98,21 @@ class Dialogue:
         self.repeated = 0
         self.round_trip_s: float | None = None
         self._queues: dict[Urgency, deque[Request]] = {each: deque() for each in Urgency}
-        self._said: _Said | None = None
+        self._sent: _SentRequest | None = None
 
     @property
     def busy(self) -> bool:
         """Whether a request waits for its turn or its answer."""
-        return self._said is not None or any(self._queues.values())
+        return self._sent is not None or any(self._queues.values())
 
     @property
     def waiting(self) -> bool:
         """Whether a request waits for its answer."""
-        return self._said is not None
+        return self._sent is not None
 
     def has(self, urgency: Urgency) -> bool:
         """Whether a request of this urgency waits for its turn or its answer."""
-        said = self._said is not None and self._said.request.urgency is urgency
+        said = self._sent is not None and self._sent.request.urgency is urgency
         return said or bool(self._queues[urgency])
 
     def ask(self, request: Request) -> None:
@@ -133,24 +133,24 @@ class Dialogue:
         for urgency, queue in self._queues.items():
             if urgency is not Urgency.STOP:
                 queue.clear()
-        if self._said is not None and self._said.request.urgency is not Urgency.STOP:
-            self._said = None
+        if self._sent is not None and self._sent.request.urgency is not Urgency.STOP:
+            self._sent = None
 
     def give_up(self) -> None:
         """Forget the request that was taken last: it is never said."""
-        said, self._said = self._said, None
+        said, self._sent = self._sent, None
         if said is not None:
             said.request.refused(None)
 
     def offer(self, now_s: float) -> Urgency | None:
         """Return the urgency of what there is to say now, or None."""
-        said = self._said
+        said = self._sent
         if said is not None:
             if now_s < said.due_s:
                 return None
             if now_s < said.request.expires_s:
                 return said.request.urgency
-            self._said = None
+            self._sent = None
             said.request.refused(None)
         for urgency, queue in self._queues.items():
             while queue:
@@ -161,7 +161,7 @@ class Dialogue:
 
     def take(self, now_s: float, number: int, out_s: float) -> Offered:
         """Return what `offer` had; ``out_s`` from the call each of 32 bytes is out."""
-        said = self._said
+        said = self._sent
         if said is not None:
             self.repeated += 1
             said.times += 1
@@ -171,26 +171,26 @@ class Dialogue:
         request = queue.popleft()
         message = request.message
         frame = encoded(Frame(self.address, number, message.TYPE, message.packed()))
-        self._said = _Said(request, number, frame, now_s, now_s + out_s + self.answer_s)
+        self._sent = _SentRequest(request, number, frame, now_s, now_s + out_s + self.answer_s)
         return Offered(frame, request.permit)
 
-    def heard(self, message: Message, now_s: float) -> bool:
+    def receive(self, message: Message, now_s: float) -> bool:
         """Take a message as the answer if it is one; return whether it was."""
-        said = self._said
+        said = self._sent
         if said is None:
             return False
         request = said.request
         if isinstance(message, Refused):
             if message.number != said.number:
                 return False
-            self._said = None
+            self._sent = None
             request.refused(message.reason)
             return True
         if not isinstance(message, request.answer) or not request.matches(message):
             return False
         if isinstance(message, Done) and message.number != said.number:
             return False  # late, of a request that was given up
-        self._said = None
+        self._sent = None
         if said.times == 1:
             took_s = now_s - said.said_s
             before = self.round_trip_s

@@ -19,9 +19,9 @@ from rotemina.drivers.mc68hc11.capturing import Capturing
 from rotemina.drivers.mc68hc11.codes import AXES, Ability
 from rotemina.drivers.mc68hc11.connected import Connected
 from rotemina.drivers.mc68hc11.dialogue import Request, Urgency
-from rotemina.drivers.mc68hc11.joined import joined
-from rotemina.drivers.mc68hc11.orders import said
+from rotemina.drivers.mc68hc11.orders import constant
 from rotemina.drivers.mc68hc11.requests import AbortProfile, Capture, ShowText, TriggerProfile
+from rotemina.drivers.mc68hc11.total_quality import total_quality
 from rotemina.drivers.mc68hc11.uploading import profile_messages
 from rotemina.drivers.parameters import ParameterDifference
 from rotemina.drivers.profile import Profile
@@ -56,7 +56,9 @@ class Extras(Connected, Capturer, ProfileRunner, AnalogInputs, Display, Paramete
     def link_quality(self) -> LinkQuality:
         """Return the counts of all lines together, and the worst of their times."""
         session = self._session
-        return joined([link.quality() for link in session.links]) if session else LinkQuality()
+        return (
+            total_quality([link.quality() for link in session.links]) if session else LinkQuality()
+        )
 
     def analog_inputs(self) -> tuple[tuple[float, ...], tuple[bool, ...]]:
         """Return what the first board with a joystick told last; nothing before it did."""
@@ -114,7 +116,7 @@ class Extras(Connected, Capturer, ProfileRunner, AnalogInputs, Display, Paramete
         if not board.able(Ability.PROFILE):
             raise StateError(f"{self.name}: {board.where} cannot run profiles")
         for index, message in enumerate(profile_messages(profile, axis)):
-            board.orders.give(("profile", index), partial(said, message), permit=permit)
+            board.orders.give(("profile", index), partial(constant, message), permit=permit)
         self._profile = board
         self._serve()
 
@@ -123,7 +125,7 @@ class Extras(Connected, Capturer, ProfileRunner, AnalogInputs, Display, Paramete
         if self._profile is None:
             raise StateError(f"{self.name}: there is no profile to run; upload one first")
         orders = self._profile.orders
-        message = partial(said, TriggerProfile())
+        message = partial(constant, TriggerProfile())
         orders.give("trigger", message, DeviceState.PLAYING, permit=permit)
         self._profile = None
         self._serve()
@@ -134,7 +136,7 @@ class Extras(Connected, Capturer, ProfileRunner, AnalogInputs, Display, Paramete
         for board in self._running.boards:
             if board.able(Ability.PROFILE):
                 board.orders.forget()
-                message = partial(said, AbortProfile())
+                message = partial(constant, AbortProfile())
                 board.orders.give("abort", message, permit=None, halts=True)
         self._serve()
 

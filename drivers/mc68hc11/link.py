@@ -31,7 +31,9 @@ _EARLY_S = 3e-4  # before the line is free: what a frame may wait for it
 _IN_THE_WAY = 3 * MAX_FRAME  # bytes: telemetry, captured samples and the answer itself
 _LOAD_S = 0.5  # over which the load is counted
 
-Heard = Callable[[int, Message, float], None]  # the board's address, what it said, host time
+MessageHandler = Callable[
+    [int, Message, float], None
+]  # the board's address, what it said, host time
 
 
 class Link:
@@ -49,7 +51,7 @@ class Link:
         What the operating system and its adapters may add to a round trip.
     clock : callable
         Host time, s.
-    heard : callable
+    handle : callable
         Called with every message of a board.
     poll : callable
         Return the address to be polled at a host time on a shared bus, or None.
@@ -63,7 +65,7 @@ class Link:
         addresses: Sequence[int],
         latency_s: float,
         clock: Clock,
-        heard: Heard,
+        handle: MessageHandler,
         poll: Callable[[float], int | None],
     ) -> None:
         self.url = url
@@ -71,7 +73,7 @@ class Link:
         self._port = port
         self._line = Line(baud)
         self._clock = clock
-        self._heard = heard
+        self._handle = handle
         self._poll = poll
         answer_s = self._line.seconds(_IN_THE_WAY) + latency_s
         self.answer_s = answer_s
@@ -106,11 +108,11 @@ class Link:
         self._port.write(data)
         self._free_s = max(self._free_s, now_s) + self._line.seconds(len(data))
 
-    def hush(self) -> None:
+    def cancel_pending(self) -> None:
         """Wait for no answers any more: a stop has cut them off."""
         self._awaited.clear()
 
-    def farewell(self, frames: Sequence[bytes]) -> None:
+    def close_with(self, frames: Sequence[bytes]) -> None:
         """Stop, say the last words, and let go of the port."""
         try:
             self._port.write(STOP_BYTES + b"".join(frames))
@@ -262,9 +264,9 @@ class Link:
             return
         self._awaited.discard(frame.address)
         window = self.windows.get(frame.address)
-        if not dialogue.heard(message, now_s) and window is not None:
-            window.heard(message, now_s)
-        self._heard(frame.address, message, now_s)
+        if not dialogue.receive(message, now_s) and window is not None:
+            window.receive(message, now_s)
+        self._handle(frame.address, message, now_s)
 
     def _count_load(self, now_s: float) -> None:
         elapsed_s = now_s - self._load_since_s

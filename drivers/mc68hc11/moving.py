@@ -12,7 +12,7 @@ from rotemina.drivers.mc68hc11.axes import BoardAxis
 from rotemina.drivers.mc68hc11.codes import Ability
 from rotemina.drivers.mc68hc11.connected import Connected
 from rotemina.drivers.mc68hc11.message import Message
-from rotemina.drivers.mc68hc11.orders import said
+from rotemina.drivers.mc68hc11.orders import constant
 from rotemina.drivers.mc68hc11.parameters import CODES, PER_AXIS
 from rotemina.drivers.mc68hc11.player import Player
 from rotemina.drivers.mc68hc11.requests import Home, MoveTo, MoveVelocity, SetVoltage
@@ -52,7 +52,7 @@ class Moving(Connected, TrajectoryPlayer, VelocityMover, Homer, VoltageOutput):
             if name in speeds:
                 most = min(max(axis.steps(speeds[name]), 1), most)
             message = MoveTo(axis.number, steps, most)
-            board.orders.give(("axis", axis.number), partial(said, message), permit=permit)
+            board.orders.give(("axis", axis.number), partial(constant, message), permit=permit)
         self._serve()
 
     def _move_velocity(self, velocities: dict[str, float], lease_s: float, permit: Permit) -> None:
@@ -78,7 +78,9 @@ class Moving(Connected, TrajectoryPlayer, VelocityMover, Homer, VoltageOutput):
             own = [axis.number for axis in board.axes if axis.name in axes]
             if own:
                 message = Home(sum(1 << number for number in own))
-                board.orders.give("home", partial(said, message), DeviceState.HOMING, permit=permit)
+                board.orders.give(
+                    "home", partial(constant, message), DeviceState.HOMING, permit=permit
+                )
         self._serve()
 
     def _set_voltage(self, axis: str, voltage: float, permit: Permit) -> None:
@@ -89,7 +91,7 @@ class Moving(Connected, TrajectoryPlayer, VelocityMover, Homer, VoltageOutput):
         last = 1e-3 * trust.value(board, PER_AXIS * own.number + _LAST_MV)
         code = min(max(round((voltage - first) / (last - first) * CODES), 0), CODES)
         message = SetVoltage(own.number, code)
-        board.orders.give(("axis", own.number), partial(said, message), permit=permit)
+        board.orders.give(("axis", own.number), partial(constant, message), permit=permit)
         self._serve()
 
     def _play(self, trajectory: Record, permit: Permit) -> None:

@@ -225,6 +225,6 @@ class Orders:
             )
 
 
-def said(message: Message, _now_s: float) -> Message:
+def constant(message: Message, _now_s: float) -> Message:
     """Return a message that is the same whenever it is said."""
     return message

@@ -8,7 +8,7 @@ import numpy as np
 
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.mc68hc11.board import Board, BoardSample
-from rotemina.drivers.mc68hc11.orders import said
+from rotemina.drivers.mc68hc11.orders import constant
 from rotemina.drivers.mc68hc11.requests import MoveTo
 from rotemina.drivers.mc68hc11.setpoints import Due, SetpointWindow
 from rotemina.sim.arrays import IntArray
@@ -85,7 +85,7 @@ class Player:
             b, axis = self._places[index]
             message = MoveTo(axis.number, target, speeds[axis.name])
             key = ("axis", axis.number)
-            self._boards[b].orders.give(key, partial(said, message), permit=permit)
+            self._boards[b].orders.give(key, partial(constant, message), permit=permit)
 
     @property
     def over(self) -> bool:

@@ -80,7 +80,7 @@ class Session:
                     [board.address for board in own],
                     latency_s,
                     clock,
-                    self._heard,
+                    self._receive,
                     partial(self._to_poll, own),
                 )
                 self.links += (link,)
@@ -132,7 +132,7 @@ class Session:
                 encoded(Frame(address, 0xFF, SetTelemetry.TYPE, SetTelemetry(0, 0).packed()))
                 for address in link.dialogues
             ]
-            link.farewell(last)
+            link.close_with(last)
 
     def stopped(self) -> None:
         """Follow up a stop: nothing that was asked before is said any more."""
@@ -140,7 +140,7 @@ class Session:
             self.player.give_up()
             self.player = None
         for link in self.links:
-            link.hush()
+            link.cancel_pending()
         for board in self.boards:
             board.stop()
         self.trust.cut_off()
@@ -307,16 +307,16 @@ class Session:
         if wanted_ms != board.telemetry_ms and not dialogue.has(Urgency.BACKGROUND):
             self._telemetry(board, wanted_ms)
 
-    def _heard(self, address: int, message: Message, now_s: float) -> None:
+    def _receive(self, address: int, message: Message, now_s: float) -> None:
         board = self.boards[address - 1]
-        board.heard(message, now_s)
+        board.receive(message, now_s)
         capturing = self.capturing
         if capturing is None or capturing.board is not board:
             return
         if isinstance(message, Telemetry):
             capturing.sampled()
         elif isinstance(message, Captured):
-            capturing.heard(message)
+            capturing.receive(message)
 
     def _to_poll(self, boards: Sequence[Board], now_s: float) -> int | None:
         """Return which of the boards on a bus has a sample that was not told yet, or both."""

@@ -104,7 +104,7 @@ class SetpointWindow:
             return Offered(RESYNC + frame, self._permit, begins=False)
         return Offered(frame, self._permit, begins=False)
 
-    def heard(self, message: Message, now_s: float) -> bool:
+    def receive(self, message: Message, now_s: float) -> bool:
         """Take a message as the answer to a set-point if it is one; return whether it was."""
         if not isinstance(message, Done | Refused) or message.number not in self._underway:
             return False

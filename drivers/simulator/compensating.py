@@ -5,7 +5,7 @@ from typing import NamedTuple
 from rotemina.drivers.simulator.setpoints import SetpointLimits
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.errors import CompensationError
-from rotemina.sim.compensate.inverse import Beyond, Inverse, resting_at
+from rotemina.sim.compensate.inverse import Exceedance, Inverse, resting_at
 from rotemina.sim.compensate.model import InverseModel
 
 _SLACK = 1e-3  # share of the span by which an axis may stand beyond what its inverse saw
@@ -36,7 +36,7 @@ class Compensating:
         self._models: dict[int, InverseModel] = {}
         self._inverses: dict[int, Inverse] = {}
         #: In what each axis that has an inverse has gone beyond it; replaced as a whole.
-        self.beyond: dict[int, Beyond] = {}
+        self.beyond: dict[int, Exceedance] = {}
 
     def model(self, index: int) -> InverseModel | None:
         """Return the inverse in use of an axis; None where there is none."""
@@ -107,7 +107,7 @@ class Compensating:
         self.note({index: inverse.beyond for index, inverse in self._inverses.items()})
         return sent
 
-    def note(self, beyond: dict[int, Beyond]) -> None:
+    def note(self, beyond: dict[int, Exceedance]) -> None:
         """Remember in what axes went beyond their inverses."""
         if any(self.beyond[index] | said != self.beyond[index] for index, said in beyond.items()):
             said = {index: self.beyond[index] | one for index, one in beyond.items()}
@@ -119,5 +119,5 @@ class Compensating:
         left = {key: self.beyond[key] for key in self._models}
         if model is not None:
             self._models[index] = model
-            left[index] = Beyond(0)
+            left[index] = Exceedance(0)
         self.beyond = left

@@ -8,13 +8,13 @@ import numpy as np
 from rotemina.drivers.samples import Samples
 from rotemina.drivers.simulator.compensating import Compensating, Rest
 from rotemina.drivers.simulator.homing import Homing
-from rotemina.drivers.simulator.playing import Chunk, Playing, told
+from rotemina.drivers.simulator.playing import Chunk, Playing, selected
 from rotemina.drivers.simulator.profile_motion import ProfileMotion
 from rotemina.drivers.simulator.regulating import Regulating
 from rotemina.drivers.simulator.setpoints import SetpointGenerator, SetpointLimits
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.errors import CompensationError
-from rotemina.sim.compensate.inverse import Beyond
+from rotemina.sim.compensate.inverse import Exceedance
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.feedback.regulation import Regulation
 from rotemina.sim.plant.chance import Chance
@@ -120,7 +120,7 @@ class SimulatedDevice:
         return self._sent.copy()
 
     @property
-    def compensated(self) -> dict[int, Beyond]:
+    def compensated(self) -> dict[int, Exceedance]:
         """In what each axis, by its number, has gone beyond its inverse; of those that have one."""
         return self._compensating.beyond
 
@@ -416,4 +416,4 @@ class SimulatedDevice:
         noise = self._laser_rms * self._laser.standard_normal(motion.position.shape)
         seen = motion.position + noise
         samples = Samples(chunk.time_s, chunk.command, motion.reading, inputs, chunk.row, seen)
-        return told(samples, chunk.told)
+        return selected(samples, chunk.told)

@@ -35,7 +35,7 @@ from rotemina.drivers.simulator.setpoints import SetpointLimits
 from rotemina.drivers.simulator.tool import SimulatedTool
 from rotemina.drivers.simulator.true_positions import TruePositions
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.compensate.inverse import Beyond
+from rotemina.sim.compensate.inverse import Exceedance
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.errors import InputError
 from rotemina.sim.feedback.errors import LostLoopError
@@ -158,7 +158,7 @@ class Simulator(
             self._effects = effects
 
     @property
-    def compensated(self) -> Mapping[str, Beyond]:
+    def compensated(self) -> Mapping[str, Exceedance]:
         """The axes whose set-points go through an inverse, and in what each has gone beyond it."""
         device = self._device
         found = {} if device is None else device.compensated

@@ -27,7 +27,7 @@ class Chunk(NamedTuple):
     told: BoolArray
 
 
-def told(samples: Samples, which: BoolArray) -> Samples:
+def selected(samples: Samples, which: BoolArray) -> Samples:
     """Return those (n,) of all ticks that are handed out."""
     if which.all():
         return samples

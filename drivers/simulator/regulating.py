@@ -6,7 +6,7 @@ from types import MappingProxyType
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.compensate.inverse import Beyond, Inverse
+from rotemina.sim.compensate.inverse import Exceedance, Inverse
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.feedback import regulated_plant
 from rotemina.sim.feedback.controller import Controller
@@ -52,7 +52,7 @@ class Regulating:
         return intervals[0] if intervals else self._sample_s
 
     @property
-    def beyond(self) -> dict[int, Beyond]:
+    def beyond(self) -> dict[int, Exceedance]:
         """In what the inverses of the feed-forwards went beyond what they saw, just now."""
         return {index: one.beyond for index, one in self._inverses.items()}
 

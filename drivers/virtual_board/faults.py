@@ -60,7 +60,7 @@ def inject(boards: VirtualBoards, command: str) -> None:
     boards.notes.say(boards.now_s, f"injected: {' '.join(command.split())}")
 
 
-class Mishaps:
+class RandomFaults:
     """Disturbances of the lines at random times; a position is never lost by them.
 
     Parameters

@@ -16,9 +16,9 @@ from rotemina.drivers.mc68hc11.message import Message
 from rotemina.drivers.virtual_board.axis_drive import AxisDrive
 from rotemina.drivers.virtual_board.clock import BoardClock
 from rotemina.drivers.virtual_board.homing import HomingAxis
-from rotemina.drivers.virtual_board.kept import KeptParameters
 from rotemina.drivers.virtual_board.machine import Machine
 from rotemina.drivers.virtual_board.notes import Notes, StopNote
+from rotemina.drivers.virtual_board.parameter_memory import ParameterMemory
 from rotemina.drivers.virtual_board.profile import Profile
 from rotemina.drivers.virtual_board.reporter import Reporter
 from rotemina.drivers.virtual_board.stream import Stream
@@ -73,7 +73,7 @@ class Firmware:
         self.line = line
         self.notes = notes
         self.tick_s = tick_s
-        self.kept = KeptParameters(robot, axes)
+        self.kept = ParameterMemory(robot, axes)
         self.steppers = [bool(machine.stepper[index]) for index in self.indices]
         self.now = 0  # the latest tick that is over
         self.readings = [_CENTRE] * 3

@@ -3,7 +3,7 @@
 from enum import Enum, auto
 
 from rotemina.drivers.virtual_board.axis_drive import AxisDrive
-from rotemina.drivers.virtual_board.kept import KeptParameters
+from rotemina.drivers.virtual_board.parameter_memory import ParameterMemory
 
 _SLOWLY = 0.1  # of the homing speed, away from the switch
 
@@ -18,7 +18,7 @@ class _Phase(Enum):
 class HomingAxis:
     """One stepper that is being homed; ``step`` follows its switch and tells when it counts."""
 
-    def __init__(self, axis: int, drive: AxisDrive, kept: KeptParameters) -> None:
+    def __init__(self, axis: int, drive: AxisDrive, kept: ParameterMemory) -> None:
         self.axis = axis
         self._drive = drive
         self._kept = kept

@@ -21,7 +21,7 @@ _BACKLOG = 3 * 32  # bytes: telemetry that waits longer is out of date, and left
 _ATOM = 1e-6  # of a byte, that division rounds by
 
 
-class _Heard(NamedTuple):
+class _Received(NamedTuple):
     """Bytes up to the first zero among them, or to the last of a piece; times in s."""
 
     begin_s: float
@@ -30,7 +30,7 @@ class _Heard(NamedTuple):
     deaf: Firmware | None  # the board that was speaking
 
 
-class _Said:
+class _Outgoing:
     """Bytes on their way to the host."""
 
     def __init__(self, begin_s: float, data: bytearray, board: Firmware | None) -> None:
@@ -61,9 +61,9 @@ class SerialLine:
         self.to_board = Channel(2 * seed)
         self.to_host = Channel(2 * seed + 1)
         self._decoders = [Decoder(of_board=True) for _ in boards]
-        self._heard: deque[_Heard] = deque()
+        self._received: deque[_Received] = deque()
         self._heard_until_s = 0.0
-        self._said: deque[_Said] = deque()
+        self._outgoing: deque[_Outgoing] = deque()
         self._said_until_s = 0.0
         self._delayed: deque[tuple[float, bytes]] = deque()
         self._answers: list[tuple[Firmware, Frame]] = []
@@ -72,12 +72,12 @@ class SerialLine:
     @property
     def next_s(self) -> float:
         """When something happens next: a byte has come, or a board begins to answer."""
-        return min(self._heard[0].end_s if self._heard else inf, self._speak_s)
+        return min(self._received[0].end_s if self._received else inf, self._speak_s)
 
     @property
     def leaves_s(self) -> float:
         """When the next whole frame, or what is left of one, has reached the host."""
-        said = self._said[0] if self._said else None
+        said = self._outgoing[0] if self._outgoing else None
         ends_s = inf if said is None else said.begin_s + len(said.data) * self.byte_s
         return min(ends_s, self._delayed[0][0] if self._delayed else inf)
 
@@ -91,15 +91,15 @@ class SerialLine:
             if begin_s < self._speak_s:
                 self._speak_s, self._answers = inf, []  # the host goes on: nobody answers
             deaf = self._collide(begin_s, piece) if self.bus else None
-            self._heard.append(_Heard(begin_s, end_s, piece, deaf))
+            self._received.append(_Received(begin_s, end_s, piece, deaf))
             self._heard_until_s = end_s
 
     def step(self) -> None:
         """Let happen what happens next."""
-        if self._speak_s < (self._heard[0].end_s if self._heard else inf):
+        if self._speak_s < (self._received[0].end_s if self._received else inf):
             self._speak()
             return
-        heard = self._heard.popleft()
+        heard = self._received.popleft()
         answers = []
         for board, decoder in zip(self.boards, self._decoders, strict=True):
             if board is heard.deaf:
@@ -111,7 +111,7 @@ class SerialLine:
         if answers and not self.bus:
             for board, said in answers:
                 self._send(encoded(said), heard.end_s, board)
-        elif answers and not (self._heard and self.byte_s):
+        elif answers and not (self._received and self.byte_s):
             self._answers += answers
             self._speak_s = heard.end_s + _SLOT * self.byte_s
 
@@ -130,8 +130,8 @@ class SerialLine:
 
     def taken(self, to_s: float) -> bytes:
         """Return the bytes that have reached the host by then."""
-        while self._said:
-            said = self._said[0]
+        while self._outgoing:
+            said = self._outgoing[0]
             count = len(said.data)
             if self.byte_s:
                 count = min(count, int((to_s - said.begin_s) / self.byte_s + _ATOM))
@@ -144,7 +144,7 @@ class SerialLine:
                 said.left = count
             if count < len(said.data):
                 break
-            self._said.popleft()
+            self._outgoing.popleft()
         out = b""
         while self._delayed and self._delayed[0][0] <= to_s + _ATOM * self.byte_s:
             out += self._delayed.popleft()[1]
@@ -160,19 +160,19 @@ class SerialLine:
 
     def _send(self, data: bytes, at_s: float, board: Firmware | None) -> None:
         begin_s = max(at_s, self._said_until_s)
-        self._said.append(_Said(begin_s, bytearray(data), board))
+        self._outgoing.append(_Outgoing(begin_s, bytearray(data), board))
         self._said_until_s = begin_s + len(data) * self.byte_s
 
     def _collide(self, begin_s: float, piece: bytes) -> Firmware | None:
         """Spoil what a board says while the host speaks; return the board, which hears nothing."""
         if not self.byte_s or begin_s >= self._said_until_s:
             return None
-        for said in self._said:
+        for said in self._outgoing:
             first = int((begin_s - said.begin_s) / self.byte_s)
             for place, byte in enumerate(piece, start=first):
                 if said.left <= place < len(said.data):
                     said.data[place] &= byte
-        return self._said[-1].board if self._said else None
+        return self._outgoing[-1].board if self._outgoing else None
 
 
 def _pieces(data: bytes) -> list[bytes]:

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from rotemina.drivers.mc68hc11.axes import BoardAxis
-from rotemina.drivers.virtual_board.ahead import PlantRun
+from rotemina.drivers.virtual_board.lookahead import PlantRun
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.takeover import taken_over

@@ -5,12 +5,14 @@ from rotemina.drivers.mc68hc11 import reports, requests
 from rotemina.drivers.mc68hc11.codes import Refusal
 from rotemina.drivers.mc68hc11.framing import BROADCAST, STOP, Frame
 from rotemina.drivers.mc68hc11.message import Message
-from rotemina.drivers.virtual_board import moving, telling
+from rotemina.drivers.virtual_board import moving, request_handlers
 from rotemina.drivers.virtual_board.firmware import Firmware
 from rotemina.drivers.virtual_board.refusal import RefusedError
 
 _ALWAYS = (requests.Identify.TYPE, requests.Stop.TYPE)  # executed, whatever their number
-_HANDLERS = {kind.TYPE: (kind, handler) for kind, handler in (*telling.HANDLERS, *moving.HANDLERS)}
+_HANDLERS = {
+    kind.TYPE: (kind, handler) for kind, handler in (*request_handlers.HANDLERS, *moving.HANDLERS)
+}
 
 
 def answer(board: Firmware, frame: Frame, at_s: float) -> Frame | None:

@@ -15,15 +15,15 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.display import label
 from rotemina.app.shell.language import marked, translate
-from rotemina.plugins.compensation.trial import Help
+from rotemina.plugins.compensation.trial import Aid
 from rotemina.plugins.compensation.words import APPLY, LIVE_LOOP, SWITCH
 from rotemina.sim.robot.model import PiezoAxis, Robot
 
 _LEFT = {
-    Help.NONE: marked("compensation", "Without"),
-    Help.INVERSE: marked("compensation", "Inverse"),
-    Help.LOOP: marked("compensation", "Feedback"),
-    Help.BOTH: marked("compensation", "Both"),
+    Aid.NONE: marked("compensation", "Without"),
+    Aid.INVERSE: marked("compensation", "Inverse"),
+    Aid.LOOP: marked("compensation", "Feedback"),
+    Aid.BOTH: marked("compensation", "Both"),
 }
 
 
@@ -60,7 +60,7 @@ class Controls(QWidget):
             QPushButton(translate("compensation", "Try it")),
         )
         self.sweep = QPushButton(translate("compensation", "Sweep"))
-        self.residuals = {one: _told("") for one in Help}
+        self.residuals = {one: _told("") for one in Aid}
         self.beyond = _told("")
         self.tune, self.open_gains = (
             QPushButton(translate("compensation", "Tune")),

@@ -26,7 +26,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
 from rotemina.drivers.samples import DeviceState
-from rotemina.plugins.compensation.acting import Acting
+from rotemina.plugins.compensation.actuation import Actuation
 from rotemina.plugins.compensation.controls import Controls
 from rotemina.plugins.compensation.learning import (
     Learned,
@@ -64,7 +64,7 @@ class CompensationPanel(Panel):
         theme = workbench.theme
         self.controls = Controls(workbench.robot)
         self.check, self.live, self.front = CheckView(theme), LiveView(theme), FrontView(theme)
-        self.acting = Acting(workbench, self.controls, self.live)
+        self.actuation = Actuation(workbench, self.controls, self.live)
         self.search = Searching(workbench, self.controls, self.front)
         self.job = Job(self)
         self.learned: Learned | None = None
@@ -156,7 +156,7 @@ class CompensationPanel(Panel):
 
     def try_it(self) -> None:
         """Play swings that fade; what is left is shown beside what other states left."""
-        self.acting.try_it(lambda: self.tabs.setCurrentIndex(LIVE))
+        self.actuation.try_it(lambda: self.tabs.setCurrentIndex(LIVE))
 
     def tune(self) -> None:
         """Search gains; the front is drawn as it evolves."""
@@ -243,7 +243,7 @@ class CompensationPanel(Panel):
         none = None if self.learned is not None else translate("compensation", NOTHING)
         other = self._other(axis)
         point = None if self.search.tuning is not None else translate("compensation", NO_FRONT)
-        self.acting.refresh(state, other, self.search.tuning)
+        self.actuation.refresh(state, other, self.search.tuning)
         allow(
             controls.simulate,
             busy,
@@ -302,9 +302,9 @@ class CompensationPanel(Panel):
         for button, action in (
             (controls.simulate, self.learn_simulated),
             (controls.record, self.learn_record),
-            (controls.switch, lambda: self.acting.switch(self.learned, self._source)),
-            (controls.apply, lambda: self.acting.apply(self.search.tuning, self.search.name)),
-            (controls.sweep, self.acting.sweep),
+            (controls.switch, lambda: self.actuation.switch(self.learned, self._source)),
+            (controls.apply, lambda: self.actuation.apply(self.search.tuning, self.search.name)),
+            (controls.sweep, self.actuation.sweep),
             (controls.trial, self.try_it),
             (controls.tune, self.tune),
             (controls.stop, self.stop),
@@ -343,7 +343,7 @@ class CompensationPanel(Panel):
         self.job.failed.connect(self._failed)
         self.search.failed.connect(self._failed)
         self.tabs.currentChanged.connect(self.views.setCurrentIndex)
-        self._happened.connect(self.acting.heard)
+        self._happened.connect(self.actuation.heard)
         self._unsubscribe = self.workbench.session.subscribe(self._happened.emit)
         self.follow(self._refresh)
         self.workbench.theme_changed.connect(self._use_theme)
@@ -380,7 +380,7 @@ class CompensationPanel(Panel):
 
     def _change_axis(self) -> None:
         """Forget the trials of another axis; what is drawn of none yet has this one's unit."""
-        self.acting.forget()
+        self.actuation.forget()
         axis = self.controls.chosen
         unit = (self.workbench.robot.unit(axis) if axis else None) or "m"
         self.live.set_unit(unit)

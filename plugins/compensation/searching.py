@@ -14,7 +14,7 @@ from rotemina.plugins.compensation.views import FrontView
 from rotemina.plugins.compensation.words import point_text
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.tuning.problem import Try, TuningProblem
+from rotemina.sim.tuning.problem import Evaluation, TuningProblem
 from rotemina.sim.tuning.result import Tuning, load_tuning, save_tuning
 from rotemina.sim.tuning.search import Generation, SearchSettings
 
@@ -140,6 +140,6 @@ class Searching(QObject):
         self._front.show_tuning(tuning)
         self.pick(tuning.chosen)
 
-    def _show_tries(self, tries: tuple[Try, Try]) -> None:
+    def _show_tries(self, tries: tuple[Evaluation, Evaluation]) -> None:
         assert self.tuning is not None, "a point was taken"
         self._front.show_tries(*tries, self._workbench.robot.unit(self.tuning.axis) or "m")

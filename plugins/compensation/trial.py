@@ -16,7 +16,7 @@ _SWING, _FADED = 0.3, 0.75  # of the range: the first swing; how much less the l
 _ONSET_S, _SKIPPED_S = 1.0, 2.0
 
 
-class Help(StrEnum):
+class Aid(StrEnum):
     """What helped the axis on a trial."""
 
     NONE = marked("compensation", "without")
@@ -25,7 +25,7 @@ class Help(StrEnum):
     BOTH = marked("compensation", "with both")
 
     @classmethod
-    def of(cls, *, inverse: bool, loop: bool) -> "Help":
+    def of(cls, *, inverse: bool, loop: bool) -> "Aid":
         """Return it for what was on."""
         if inverse:
             return cls.BOTH if loop else cls.INVERSE
@@ -36,7 +36,7 @@ class Help(StrEnum):
 class Trial:
     """What one play of the motion left, SI: rms about the mean, the mean, and the loop (n,)."""
 
-    by: Help
+    by: Aid
     rms: float
     offset: float
     wanted: FloatArray
@@ -67,7 +67,7 @@ def trial_of(record: Record, axis: str) -> Trial | None:
     position = record.signal(axis, Tap.MEAS)[since]
     left = position - wanted
     return Trial(
-        Help.of(
+        Aid.of(
             inverse=f"compensation {axis}" in record.metadata,
             loop=f"feedback {axis}" in record.metadata,
         ),

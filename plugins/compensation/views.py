@@ -21,11 +21,11 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.plot import SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.compensation.learning import Learned
-from rotemina.plugins.compensation.trial import Help, Trial
+from rotemina.plugins.compensation.trial import Aid, Trial
 from rotemina.plugins.compensation.words import HEAD, NOTHING, judged, reasons
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.tuning.objectives import Against
-from rotemina.sim.tuning.problem import Try
+from rotemina.sim.tuning.objectives import SecondObjective
+from rotemina.sim.tuning.problem import Evaluation
 from rotemina.sim.tuning.result import Tuning
 from rotemina.sim.tuning.search import Generation, objectives_of
 
@@ -169,7 +169,7 @@ class LiveView(QWidget):
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
-        names = zip(Help, ("quiet", "accent", "warning", "good"), strict=True)
+        names = zip(Aid, ("quiet", "accent", "warning", "good"), strict=True)
         roles = {one.value: role for one, role in names}
         self.loop = Curves(
             theme,
@@ -266,7 +266,7 @@ class FrontView(QWidget):
         self.step.set_unit(unit)
         self.triangle.set_unit(unit)
 
-    def show_generation(self, found: Generation, against: Against) -> None:
+    def show_generation(self, found: Generation, against: SecondObjective) -> None:
         """Draw the front of a search that goes on."""
         points = [objectives_of(one.figures, against) for one in found.front]
         self._draw(np.array(points).reshape(-1, 2))
@@ -282,7 +282,7 @@ class FrontView(QWidget):
         x, y = self._front[number]
         self._mark.setData([100.0 * x], [y])
 
-    def show_tries(self, step: Try, triangle: Try, unit: str) -> None:
+    def show_tries(self, step: Evaluation, triangle: Evaluation, unit: str) -> None:
         """Draw how the loop answers."""
         self.set_unit(unit)
         for view, one in ((self.step, step), (self.triangle, triangle)):

@@ -7,7 +7,7 @@ from rotemina.app.display import label
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.compensation.trial import Trial
-from rotemina.sim.compensate.inverse import Beyond
+from rotemina.sim.compensate.inverse import Exceedance
 from rotemina.sim.compensate.judgement import NAMES
 from rotemina.sim.compensate.model import Kind
 from rotemina.sim.compensate.training import Trained
@@ -60,10 +60,10 @@ WHY = re.compile(
 )
 _EPOCH = re.compile(r"ANFIS, epoch (?P<epoch>\d+): (?P<error>\S+) unseen")
 _SAID = {
-    Beyond.LOW: marked("compensation", "below what it saw (clamped)"),
-    Beyond.HIGH: marked("compensation", "above what it saw (clamped)"),
-    Beyond.FAST: marked("compensation", "faster than it saw"),
-    Beyond.COMMAND: marked("compensation", "at an end of the machine's range (clamped)"),
+    Exceedance.LOW: marked("compensation", "below what it saw (clamped)"),
+    Exceedance.HIGH: marked("compensation", "above what it saw (clamped)"),
+    Exceedance.FAST: marked("compensation", "faster than it saw"),
+    Exceedance.COMMAND: marked("compensation", "at an end of the machine's range (clamped)"),
 }
 
 
@@ -108,7 +108,7 @@ def stage(what: str) -> str:
     )
 
 
-def left(trial: Trial | None, unit: str) -> str:
+def residual_text(trial: Trial | None, unit: str) -> str:
     """Return what a trial left."""
     if trial is None:
         return "–"
@@ -116,7 +116,7 @@ def left(trial: Trial | None, unit: str) -> str:
     return text.format(rms=micro(trial.rms, unit), mean=micro(trial.offset, unit))
 
 
-def owned(owners: Mapping[str, str]) -> str | None:
+def owners_text(owners: Mapping[str, str]) -> str | None:
     """Return why the axes cannot be played: somebody drives one still."""
     for axis, owner in owners.items():
         text = translate("compensation", "axis {axis} is still driven by {owner}; wait, or stop it")
@@ -124,7 +124,7 @@ def owned(owners: Mapping[str, str]) -> str | None:
     return None
 
 
-def beyond(said: Beyond) -> str:
+def exceedance_text(said: Exceedance) -> str:
     """Return in what an axis went beyond its inverse; empty: in nothing."""
     parts = [translate("compensation", words) for flag, words in _SAID.items() if said & flag]
     text = translate("compensation", "It has been {where}.")

@@ -11,7 +11,7 @@ from rotemina.plugins.connection.device import DeviceSection
 from rotemina.plugins.connection.line import LineSection, StopSection
 from rotemina.plugins.connection.parameters import ParameterSection
 from rotemina.plugins.connection.position import PositionSection
-from rotemina.plugins.connection.standing import StandingSection
+from rotemina.plugins.connection.state_section import StateSection
 from rotemina.plugins.connection.tip import TipSection
 
 
@@ -25,7 +25,7 @@ class ConnectionPanel(Panel):
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
-        self.standing = StandingSection(workbench)
+        self.state = StateSection(workbench)
         self.device = DeviceSection(workbench)
         self.position = PositionSection(workbench)
         self.parameters = ParameterSection(workbench)
@@ -33,7 +33,7 @@ class ConnectionPanel(Panel):
         self.line = LineSection(workbench)
         self.stop = StopSection(workbench)
         self._sections = (
-            self.standing,
+            self.state,
             self.device,
             self.position,
             self.parameters,

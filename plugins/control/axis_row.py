@@ -22,9 +22,9 @@ from rotemina.plugins.control.wording import (
     echo,
     is_little,
     is_stale,
-    left_text,
     no_position,
     range_tip,
+    room_left_text,
     status_text,
     typed,
     way,
@@ -209,7 +209,7 @@ class AxisRow(QFrame):
 
     def _show_left(self, position: float | None) -> None:
         meant = way(self.target.text(), self._scale, self._command)
-        text = meant or left_text(position, self._described, self._scale)
+        text = meant or room_left_text(position, self._described, self._scale)
         if text != self.left.text():
             self.left.setText(text)
         set_property(self.left, "quiet", not meant)

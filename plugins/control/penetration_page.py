@@ -15,7 +15,7 @@ from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.clock import Clock
 from rotemina.plugins.control.parts import text_label
 from rotemina.plugins.penetration.engine_words import spoken as phase_word
-from rotemina.plugins.penetration.prospect import Prospect
+from rotemina.plugins.penetration.plan_preview import PlanPreview
 from rotemina.plugins.penetration.words import (
     against_button,
     arm_tip,
@@ -45,7 +45,7 @@ class PenetrationPage(QWidget):
         self._workbench, self._operation = workbench, workbench.operation
         self._clock, self._pressed_s = clock, float("-inf")
         self._shown = Phase.DISARMED
-        self._prospect: Prospect | None = None
+        self._plan_preview: PlanPreview | None = None
         self._planned_for: object = None
         self.arm = QPushButton(translate("penetration", arm_word(self._shown)))
         self.arm.setToolTip(translate("control", "Prepare the penetration; nothing moves yet"))
@@ -109,16 +109,16 @@ class PenetrationPage(QWidget):
 
     def _against_arming(self, state: SessionState) -> str | None:
         session, parameters = self._workbench.session, self._operation.penetration_parameters
-        if self._prospect is None or self._planned_for != (parameters, session.driver):
+        if self._plan_preview is None or self._planned_for != (parameters, session.driver):
             self._planned_for = (parameters, session.driver)
-            self._prospect = Prospect.of(session, parameters)
-        if self._prospect.plan is None:
-            return self._prospect.problem
+            self._plan_preview = PlanPreview.of(session, parameters)
+        if self._plan_preview.plan is None:
+            return self._plan_preview.problem
         if state.locked is not None:
             return translate("control", "motion is locked: {locked}").format(
                 locked=spoken(state.locked)
             )
-        return self._operation.penetration.why_not(parameters, self._prospect.plan)
+        return self._operation.penetration.why_not(parameters, self._plan_preview.plan)
 
     def _arm(self) -> None:
         operation, word = self._operation, arm_word(self._shown)

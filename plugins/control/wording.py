@@ -61,7 +61,7 @@ def status_text(axis: str, state: SessionState, scale: Scale) -> str:
     return told if owner in (None, OPERATOR) else f"{spoken(owner)} {told}"
 
 
-def left_text(position: float | None, axis: Axis, scale: Scale) -> str:
+def room_left_text(position: float | None, axis: Axis, scale: Scale) -> str:
     """Return how far it is to the nearer end of the range."""
     if position is None:
         return ""

@@ -18,7 +18,7 @@ _CYCLES = 2  # of the worker, after which a command that was taken has been done
 Effects = tuple[AxisEffect, ...]
 
 
-class Standing(Enum):
+class ApplyState(Enum):
     """How what was asked stands to what the simulator does."""
 
     APPLIED = auto()
@@ -35,7 +35,7 @@ class LiveEffects(QObject):
 
     Signals
     -------
-    changed() : ``standing`` or ``reason`` did.
+    changed() : ``apply_state`` or ``reason`` did.
     refused(str) : at once, by the session. What its worker refuses, the workbench tells.
     replaced(tuple) : somebody else put other effects in place.
     """
@@ -48,7 +48,7 @@ class LiveEffects(QObject):
     def __init__(self, session: MotionSession, parent: QObject) -> None:
         super().__init__(parent)
         self._session = session
-        self.standing = Standing.APPLIED
+        self.apply_state = ApplyState.APPLIED
         self.reason = ""
         self._seen = session.effects
         self._wanted: Effects | None = None
@@ -65,7 +65,7 @@ class LiveEffects(QObject):
     def ask(self, effects: Effects) -> None:
         """Have effects put in place soon; of several that are asked in a row the last."""
         self._wanted, self._tries = effects, 0
-        self._stand(Standing.UNDER_WAY)
+        self._stand(ApplyState.UNDER_WAY)
         if not self._pause.isActive():
             self._pause.start()
 
@@ -75,14 +75,14 @@ class LiveEffects(QObject):
         if self._sent is None:
             self._notice_others(now)
         elif now == self._sent:
-            self._end(Standing.APPLIED)
+            self._end(ApplyState.APPLIED)
         elif state.connection is not Connection.CONNECTED:
             why = spoken(state.locked) if state.locked else translate("effects", "not connected")
-            self._end(Standing.REFUSED, why)
+            self._end(ApplyState.REFUSED, why)
         elif self._was_done(state):
             self._not_taken()
         elif self._clock.elapsed() >= LONG_MS:
-            self._stand(Standing.PREPARING)
+            self._stand(ApplyState.PREPARING)
 
     def _send(self) -> None:
         if self._wanted is None or self._sent is not None:
@@ -93,7 +93,7 @@ class LiveEffects(QObject):
         try:
             self._session.set_effects(effects)
         except InputError as error:
-            self._stand(Standing.REFUSED, str(error))
+            self._stand(ApplyState.REFUSED, str(error))
             self.refused.emit(str(error))
             return
         self._sent = effects
@@ -121,7 +121,7 @@ class LiveEffects(QObject):
         """Send once more what a stop swept out of the queue; tell of what was refused."""
         if self._told or self._tries > 1:
             self._end(
-                Standing.REFUSED,
+                ApplyState.REFUSED,
                 self._told or translate("effects", "the simulator did not take the change"),
             )
             return
@@ -129,16 +129,16 @@ class LiveEffects(QObject):
         self._sent = None
         self._send()
 
-    def _end(self, standing: Standing, reason: str = "") -> None:
+    def _end(self, standing: ApplyState, reason: str = "") -> None:
         self._sent, self._seen = None, self._session.effects
         if self._wanted is None:
             self._stand(standing, reason)
         elif not self._pause.isActive():
             self._send()
 
-    def _stand(self, standing: Standing, reason: str = "") -> None:
-        if (standing, reason) != (self.standing, self.reason):
-            self.standing, self.reason = standing, reason
+    def _stand(self, standing: ApplyState, reason: str = "") -> None:
+        if (standing, reason) != (self.apply_state, self.reason):
+            self.apply_state, self.reason = standing, reason
             self.changed.emit()
 
     def _on_event(self, event: Event) -> None:

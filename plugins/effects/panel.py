@@ -25,7 +25,7 @@ from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.effects.chain import Chain, with_formulation, with_value
 from rotemina.plugins.effects.editor import Editor
 from rotemina.plugins.effects.field import tip
-from rotemina.plugins.effects.live import Effects, LiveEffects, Standing
+from rotemina.plugins.effects.live import ApplyState, Effects, LiveEffects
 from rotemina.plugins.effects.menu import fill
 from rotemina.plugins.effects.table import EffectTable
 from rotemina.plugins.effects.words import effect_title, spoken
@@ -35,7 +35,7 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.robot.writing import write_robot
-from rotemina.sim.trajectory.demonstration import wear
+from rotemina.sim.trajectory.demonstration import worn_effects
 
 REAL_MACHINE = marked(
     "effects",
@@ -164,9 +164,10 @@ class EffectsPanel(Panel):
             translate("effects", "As the robot file says"), lambda: self.use_effects(robot.effects)
         )
         worn = menu.addAction(
-            translate("effects", "Worn, to demonstrate with"), lambda: self.use_effects(wear(robot))
+            translate("effects", "Worn, to demonstrate with"),
+            lambda: self.use_effects(worn_effects(robot)),
         )
-        worn.setEnabled(bool(wear(robot)))
+        worn.setEnabled(bool(worn_effects(robot)))
         self.machine.setMenu(menu)
 
     def _connect(self) -> None:
@@ -376,22 +377,22 @@ class EffectsPanel(Panel):
         self._mark_fields()
         if self._real:
             self._say(translate("effects", REAL_MACHINE))
-        elif self.live.standing is Standing.REFUSED:
+        elif self.live.apply_state is ApplyState.REFUSED:
             self._say(
                 translate("effects", "Not applied: {reason}").format(reason=self.live.reason),
                 bad=True,
             )
-        elif self.live.standing is Standing.PREPARING:
+        elif self.live.apply_state is ApplyState.PREPARING:
             self._say(translate("effects", "preparing …"))
         else:
             self._say(self._count())
 
     def _mark_fields(self) -> None:
         """Mark the parameter that was tuned last while the simulator does not take it."""
-        if self.live.standing is Standing.APPLIED:
+        if self.live.apply_state is ApplyState.APPLIED:
             for field in self.editor.fields.values():
                 field.settle()
-        elif self.live.standing is Standing.REFUSED and self._last is not None:
+        elif self.live.apply_state is ApplyState.REFUSED and self._last is not None:
             place, name = self._last
             if place == self.place and name in self.editor.fields:
                 self.editor.fields[name].set_not_applied(True)

@@ -29,21 +29,21 @@ from rotemina.plugins.gap.actions import Actions
 from rotemina.plugins.gap.advice import check_title, readiness
 from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.blind_page import BlindPage
+from rotemina.plugins.gap.causes_view import CausesView
 from rotemina.plugins.gap.diagnosing import Diagnosing
-from rotemina.plugins.gap.far import FarView
+from rotemina.plugins.gap.distribution_view import DistributionView
 from rotemina.plugins.gap.headline_view import Headline
-from rotemina.plugins.gap.hidden import Hiding
+from rotemina.plugins.gap.hidden_machine import HiddenMachineTrial
 from rotemina.plugins.gap.hint import hint
+from rotemina.plugins.gap.model_switch import ModelSwitch, against, candidate
 from rotemina.plugins.gap.playing import Playing
 from rotemina.plugins.gap.proof import Proof, new_motion, prove
 from rotemina.plugins.gap.proof_view import ProofView
 from rotemina.plugins.gap.records import RecordChoice
 from rotemina.plugins.gap.robots import RobotChoice
 from rotemina.plugins.gap.running import RunningView
+from rotemina.plugins.gap.shrinkage_view import ShrinkageView
 from rotemina.plugins.gap.tips import tip
-from rotemina.plugins.gap.using import Using, against, candidate
-from rotemina.plugins.gap.where import WhereView
-from rotemina.plugins.gap.which import WhichView
 from rotemina.plugins.gap.words import stage_name
 from rotemina.sim.gap.suggestion import suggestion
 
@@ -91,8 +91,8 @@ class GapPanel(Panel):
         self.diagnosing = Diagnosing(self)
         self.playing = Playing(workbench, self)
         self.actions_of = Actions(workbench, self)
-        self.using = Using(workbench, self)
-        self.hiding = Hiding(workbench, self)
+        self.model_switch = ModelSwitch(workbench, self)
+        self.hidden_trial = HiddenMachineTrial(workbench, self)
         self.robots, self.records = RobotChoice(workbench), RecordChoice(workbench)
         self.blind: BlindPage | None = None
         self._make_buttons()
@@ -133,11 +133,22 @@ class GapPanel(Panel):
 
     def _make_views(self) -> None:
         theme = self.workbench.theme
-        self.where, self.which, self.far = WhereView(theme), WhichView(theme), FarView(theme)
+        self.distribution, self.causes, self.shrinkage = (
+            DistributionView(theme),
+            CausesView(theme),
+            ShrinkageView(theme),
+        )
         self.proof, self.running = ProofView(theme), RunningView(theme)
         self.hint = hint(readiness(0))
         self.views = QStackedWidget()
-        for view in (self.where, self.which, self.far, self.proof, self.running, self.hint):
+        for view in (
+            self.distribution,
+            self.causes,
+            self.shrinkage,
+            self.proof,
+            self.running,
+            self.hint,
+        ):
             self.views.addWidget(view)
         self.tabs = QTabBar()
         self.tabs.setAccessibleName(translate("gap", "What is shown"))
@@ -200,15 +211,15 @@ class GapPanel(Panel):
         self.start.clicked.connect(self._start)
         self.stop.clicked.connect(self.end)
         self.use.clicked.connect(
-            lambda: self.using.ask(self._known, against(self._known, self.proof.proof))
+            lambda: self.model_switch.ask(self._known, against(self._known, self.proof.proof))
         )
         self.twin.clicked.connect(lambda: self.actions_of.ask_twin(self._known, self._source))
         self.motion.clicked.connect(self.check)
         self.report.clicked.connect(lambda: self.actions_of.ask_report(self._known))
         self.save.triggered.connect(lambda: self.actions_of.ask_json(self._known))
         self.test.triggered.connect(self.show_blind_test)
-        self.hide_machine.triggered.connect(lambda: self.hiding.begin())
-        self.reveal.triggered.connect(lambda: self.hiding.reveal(self.answer))
+        self.hide_machine.triggered.connect(lambda: self.hidden_trial.begin())
+        self.reveal.triggered.connect(lambda: self.hidden_trial.reveal(self.answer))
         self.plan.clicked.connect(self.play_experiment)
         self.actions_of.twin_saved.connect(self.robots.load)
         self.robots.changed.connect(self.records.use_robot)
@@ -281,7 +292,7 @@ class GapPanel(Panel):
         for name in answer.diagnosis.axes:
             self.axis.addItem(label(name), name)
         self.axis.setCurrentIndex(self.axis.findData(answer.first_axis))
-        self.where.show_answer(answer)
+        self.distribution.show_answer(answer)
         self.proof.show_proof(None)
         self._show_axis()
         self.headline.show_answer(answer, None)
@@ -383,11 +394,11 @@ class GapPanel(Panel):
     def _show_axis(self) -> None:
         if self.answer is not None:
             axis = self.axis.currentData()
-            self.which.show_axis(self.answer, axis)
-            self.far.show_axis(self.answer, axis)
+            self.causes.show_axis(self.answer, axis)
+            self.shrinkage.show_axis(self.answer, axis)
 
     def _use_theme(self, theme: Theme) -> None:
-        for view in (self.where, self.which, self.far, self.proof, self.running):
+        for view in (self.distribution, self.causes, self.shrinkage, self.proof, self.running):
             view.set_theme(theme)
 
     # --- what is played ---------------------------------------------------------------------------
@@ -457,8 +468,8 @@ class GapPanel(Panel):
     def _offer_hidden(self) -> None:
         """Offer a hidden machine in the simulator's place, or to reveal the one that is there."""
         simulated = self.workbench.session.effects is not None
-        self.hide_machine.setEnabled(simulated and self.hiding.secret is None)
-        self.reveal.setEnabled(self.hiding.secret is not None)
+        self.hide_machine.setEnabled(simulated and self.hidden_trial.secret is None)
+        self.reveal.setEnabled(self.hidden_trial.secret is not None)
 
     # --- the test of the diagnosis itself ---------------------------------------------------------
 

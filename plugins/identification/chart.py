@@ -10,8 +10,8 @@ from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
 from rotemina.app.shell.controls import plain_tip
 from rotemina.app.shell.plot import SignalPlot
 from rotemina.app.shell.theme import Theme
+from rotemina.plugins.identification.filled_template import localized
 from rotemina.plugins.identification.findings import Picture
-from rotemina.plugins.identification.told import shown
 from rotemina.sim.arrays import FloatArray
 
 _AXIS_WIDTH = 50  # three charts stand side by side
@@ -43,7 +43,7 @@ class PicturePlot(SignalPlot):
             axis.setLogMode(logarithmic)
             # Lines within a decade carry no number.
             axis.setStyle(maxTextLevel=0 if logarithmic else 2)
-        item.setLabel("bottom", shown(picture.bottom))
+        item.setLabel("bottom", localized(picture.bottom))
         for number, curve in enumerate(picture.curves):
             name = str(number)
             self.add_curve(name, curve.role, curve.width)
@@ -120,15 +120,17 @@ class Chart(QWidget):
     def _write_title(self) -> None:
         if self._picture is None:
             return
-        title = escape(shown(self._picture.title))
-        named = [(shown(curve.name), curve.role) for curve in self._picture.curves if curve.name]
+        title = escape(localized(self._picture.title))
+        named = [
+            (localized(curve.name), curve.role) for curve in self._picture.curves if curve.name
+        ]
         legend = ", ".join(
             f'<span style="color:{getattr(self._theme, role)}">{escape(name)}</span>'
             for name, role in named
         )
         self.title.setText(f"{title}: {legend}" if len(named) > 1 else title)
         names = ", ".join(name for name, _ in named)  # in full, where the title is cut
-        told = shown(self._picture.title)
+        told = localized(self._picture.title)
         self.title.setToolTip(plain_tip(f"{told}: {names}" if names else told))
 
 

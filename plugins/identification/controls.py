@@ -7,8 +7,8 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QWidget
 
 from rotemina.app.display import label
 from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.identification.filled_template import localized
 from rotemina.plugins.identification.question import Question, first_axis, taps_of
-from rotemina.plugins.identification.told import shown
 from rotemina.plugins.identification.views import View
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
@@ -48,7 +48,7 @@ class Controls(QWidget):
         )
         self.view = _choice(
             translate("identification", "What is shown"),
-            [(shown(view.value), view) for view in View],
+            [(localized(view.value), view) for view in View],
         )
         averages = translate("identification", "{n} averages")
         self.averages = _choice(
@@ -64,7 +64,7 @@ class Controls(QWidget):
         )
         self.method = _choice(
             translate("identification", "Method"),
-            [(shown(name), method) for name, method in METHODS],
+            [(localized(name), method) for name, method in METHODS],
         )
         pole = translate("identification", "1 pole")
         poles = translate("identification", "{n} poles")

@@ -42,7 +42,7 @@ VIEWS: Mapping[Wave, View] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Wish:
+class ExcitationRequest:
     """What was typed, each text empty where the default is to hold.
 
     Attributes
@@ -68,13 +68,13 @@ class Prepared:
 
     Attributes
     ----------
-    wish : what it was made from.
+    request : what it was made from.
     made : the trajectory, and what was changed to keep limits.
     dry_run : what the model says of it.
     objection : why it must not be played, "" where it may.
     """
 
-    wish: Wish
+    request: ExcitationRequest
     made: Excitation
     dry_run: DryRun
     objection: str
@@ -82,7 +82,7 @@ class Prepared:
     @property
     def name(self) -> str:
         """What the motion is called."""
-        return f"{self.wish.wave} of {label(self.wish.axis)}"
+        return f"{self.request.wave} of {label(self.request.axis)}"
 
     @property
     def digest(self) -> str | None:
@@ -93,7 +93,7 @@ class Prepared:
     @property
     def words(self) -> str:
         """What it asks of the axis, what was changed, and what the dry run says, as shown."""
-        axis = self.dry_run.axes[self.wish.axis]
+        axis = self.dry_run.axes[self.request.axis]
         low, high = (readable(end, axis.unit, scale=axis.highest) for end in _ends(self.dry_run))
         unit = f"{axis.unit}/s"
         asks = translate("identification", "{low} to {high}, at most {speed}, {time}")
@@ -118,7 +118,7 @@ class Prepared:
 
 def prepared(
     robot: Robot,
-    wish: Wish,
+    request: ExcitationRequest,
     setpoint_period_s: float,
     zone: KeepOutZone | None = None,
     command: Mapping[str, float] | None = None,
@@ -128,7 +128,7 @@ def prepared(
     Parameters
     ----------
     robot : Robot
-    wish : Wish
+    request : ExcitationRequest
     setpoint_period_s : of the device that shall play it.
     zone : the tip's bounds now, as the session has them.
     command : axis -> where it stands, m or rad; the other axes stay there.
@@ -138,18 +138,18 @@ def prepared(
     InputError
         If a text is no amount, frequency or time, or the motion is impossible.
     """
-    unit = robot.unit(wish.axis) or "m"
-    size = amount_of(wish.amplitude, wish.axis, unit) if wish.amplitude.strip() else None
+    unit = robot.unit(request.axis) or "m"
+    size = amount_of(request.amplitude, request.axis, unit) if request.amplitude.strip() else None
     hz, time_s = (
-        _number(marked("identification", "frequency"), wish.frequency, "Hz"),
-        _number(marked("identification", "time"), wish.time, "s"),
+        _number(marked("identification", "frequency"), request.frequency, "Hz"),
+        _number(marked("identification", "time"), request.time, "s"),
     )
-    made = excite(robot, {wish.axis: _kind(wish, size, hz, time_s)})
+    made = excite(robot, {request.axis: _kind(request, size, hz, time_s)})
     tried = dry_run(robot, made.record, setpoint_period_s=setpoint_period_s)
     objection = next(iter(tried.objections), "")
     if not objection:
         objection = _out_of_bounds(robot, made.record, zone, command or {})
-    return Prepared(wish, made, tried, objection)
+    return Prepared(request, made, tried, objection)
 
 
 def steady(record: Record, motion: Prepared) -> Record:
@@ -179,14 +179,16 @@ def _period(record: Record, motion: Prepared) -> int | None:
     whole = len(record.time_s) // period if period else 0
     if whole < 3:
         return None
-    command = record.signal(motion.wish.axis, Tap.CMD)[: whole * period].reshape(whole, period)
+    command = record.signal(motion.request.axis, Tap.CMD)[: whole * period].reshape(whole, period)
     apart = float(np.ptp(command, axis=0).max())
     return period if apart <= _SAME * float(np.ptp(command)) else None
 
 
-def _kind(wish: Wish, size: Amount | None, hz: float | None, time_s: float | None) -> Kind:
-    about = wish.about
-    match wish.wave:
+def _kind(
+    request: ExcitationRequest, size: Amount | None, hz: float | None, time_s: float | None
+) -> Kind:
+    about = request.about
+    match request.wave:
         case Wave.SINE:
             return Sine(amplitude=size, offset=about, frequency_hz=hz, duration_s=time_s)
         case Wave.TRIANGLE:

@@ -24,7 +24,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.pending import Pending
 from rotemina.app.shell.workbench import Plan, Run, Workbench
 from rotemina.drivers.samples import DeviceState
-from rotemina.plugins.identification.excitation import Prepared, Wave, Wish, prepared
+from rotemina.plugins.identification.excitation import ExcitationRequest, Prepared, Wave, prepared
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
 
@@ -101,11 +101,11 @@ class ExciteView(QWidget):
 
     # --- the motion -------------------------------------------------------------------------------
 
-    def wish(self) -> Wish:
+    def request(self) -> ExcitationRequest:
         """Return what is chosen and typed now."""
         axis, wave = str(self.axis.currentData()), Wave(self.wave.currentData())
         command = self._workbench.session.snapshot().command
-        return Wish(
+        return ExcitationRequest(
             axis,
             wave,
             self.amplitude.text(),
@@ -118,13 +118,13 @@ class ExciteView(QWidget):
         """Make the motion and try it, in the background."""
         self.motion = None
         self.told.setText(translate("identification", CHECKING))
-        wish, robot, session = self.wish(), self._workbench.robot, self._workbench.session
+        request, robot, session = self.request(), self._workbench.robot, self._workbench.session
         period_s, zone = session.setpoint_period_s, session.keep_out
         command = session.snapshot().command
 
         def work() -> Prepared | str:
             try:
-                return prepared(robot, wish, period_s, zone, command)
+                return prepared(robot, request, period_s, zone, command)
             except InputError as error:
                 return str(error)
 
@@ -260,7 +260,7 @@ class ExciteView(QWidget):
         for field, unit in ((self.frequency, "Hz"), (self.time, "s")):
             if PLAIN_NUMBER.fullmatch(field.text().strip()):
                 field.setText(f"{field.text().strip()} {unit}")  # its name is covered by the number
-        if self.motion is None or self.wish() != self.motion.wish:
+        if self.motion is None or self.request() != self.motion.request:
             self.prepare()
 
     def _lay_out(self) -> None:

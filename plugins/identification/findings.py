@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from rotemina.app.shell.language import marked
+from rotemina.plugins.identification.filled_template import FilledTemplate
 from rotemina.plugins.identification.question import Question
-from rotemina.plugins.identification.told import Told
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.units import drawing_unit, per_si, symbol
@@ -110,7 +110,7 @@ def answered(look: Callable[[Question], Findings], question: Question) -> Findin
         return Findings(question, notices=(str(error),))
     except Exception as error:  # a fault of the program must reach the operator, not vanish
         logger.exception("identification failed")
-        reason = Told(
+        reason = FilledTemplate(
             marked("identification", "a fault of the program: {kind}: {error}"),
             kind=type(error).__name__,
             error=error,

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from rotemina.app.shell.language import marked
+from rotemina.plugins.identification.filled_template import FilledTemplate
 from rotemina.plugins.identification.findings import (
     NONE,
     Column,
@@ -17,7 +18,6 @@ from rotemina.plugins.identification.findings import (
 )
 from rotemina.plugins.identification.nominal import ABSENT, nominal_signals
 from rotemina.plugins.identification.question import Question
-from rotemina.plugins.identification.told import Told
 from rotemina.sim.errors import InputError
 from rotemina.sim.identification.arx import identify_arx
 from rotemina.sim.identification.model import IdentifiedModel, Orders, simulate
@@ -49,7 +49,7 @@ def model_findings(question: Question) -> Findings:
     notices = []
     if whole.count > signals.count:
         notices.append(
-            Told(
+            FilledTemplate(
                 marked(
                     "identification",
                     "Fitted to the first {n} of {rows} rows: more would take long.",
@@ -77,7 +77,7 @@ def _nominal_rows(
         model = METHODS[question.method](_cut(nominal_signals(question)), orders)
         return _rows(question, model, natural_modes(model)), ()
     except (InputError, KeyError) as error:
-        return (), (Told(ABSENT, reason=error),)
+        return (), (FilledTemplate(ABSENT, reason=error),)
 
 
 def _beside(
@@ -121,7 +121,9 @@ def _pictures(question: Question, model: IdentifiedModel, signals: Signals) -> t
             ),
         ),
         Picture(
-            Told(marked("identification", "measured − fitted [{unit}]"), unit=fine.symbol),
+            FilledTemplate(
+                marked("identification", "measured − fitted [{unit}]"), unit=fine.symbol
+            ),
             marked("identification", "time [s]"),
             (Curve("", "text", time_s, fine.per_si * gap),),
         ),
@@ -207,7 +209,7 @@ def _doubts(model: IdentifiedModel, modes: tuple[NaturalMode, ...]) -> list[str]
         )
     elif model.fit_percent < _GOOD_FIT:
         doubts.append(
-            Told(
+            FilledTemplate(
                 marked(
                     "identification",
                     "Fit {fit:.1f} %, below {bound:g} %: noise, distortion, another axis or too "
@@ -221,7 +223,7 @@ def _doubts(model: IdentifiedModel, modes: tuple[NaturalMode, ...]) -> list[str]
     predicted = model.prediction_percent
     if predicted is not None and transfer.stable and predicted - model.fit_percent > _WORSE:
         doubts.append(
-            Told(
+            FilledTemplate(
                 marked(
                     "identification",
                     "One step ahead it fits {ahead:.1f} %, simulated {fit:.1f} %: noise of the "
@@ -248,7 +250,7 @@ def _mode_doubts(mode: NaturalMode, rate_hz: float) -> list[str]:
         )
     if mode.frequency_hz > highest_hz:
         doubts.append(
-            Told(
+            FilledTemplate(
                 marked(
                     "identification",
                     "{mode:.4g} Hz lies above {highest:.4g} Hz, {share:g} of half the sampling "
@@ -262,7 +264,7 @@ def _mode_doubts(mode: NaturalMode, rate_hz: float) -> list[str]:
         )
     elif mode.frequency_deviation > _ROUGH * mode.frequency_hz:
         doubts.append(
-            Told(
+            FilledTemplate(
                 marked(
                     "identification",
                     "The frequency is known to {deviation:.2g} Hz alone, more than {rough:.0f} "

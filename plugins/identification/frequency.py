@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.identification.filled_template import FilledTemplate
 from rotemina.plugins.identification.findings import (
     Column,
     Curve,
@@ -15,7 +16,6 @@ from rotemina.plugins.identification.findings import (
 )
 from rotemina.plugins.identification.nominal import ABSENT, nominal_signals
 from rotemina.plugins.identification.question import Question
-from rotemina.plugins.identification.told import Told
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.identification.errors import TooShortError
@@ -63,7 +63,7 @@ def frequency_findings(question: Question) -> Findings:
     try:
         nominal = estimate(nominal_signals(question), question.averages)
     except (InputError, KeyError) as error:
-        notices.append(Told(ABSENT, reason=error))
+        notices.append(FilledTemplate(ABSENT, reason=error))
     resonance: Resonance | None = None
     try:
         resonance = _resonance(question, measured)
@@ -90,7 +90,7 @@ def estimate(signals: Signals, averages: int) -> Estimate:
     period = signals.period_samples
     if period is not None and signals.count >= 2 * period:
         found = periodic_response(signals)
-        averages = Told(
+        averages = FilledTemplate(
             marked("identification", "{n} periods of {rows}"), n=found.periods, rows=period
         )
         return Estimate(MULTISINE, averages, signals.rate_hz / period, found.total)
@@ -105,7 +105,9 @@ def estimate(signals: Signals, averages: int) -> Estimate:
             ).format(n=signals.count, averages=averages, segment=segment, least=_FEW_LINES)
         )
     found = welch_response(signals, segment=segment)
-    name = Told(marked("identification", "{n} segments of {rows}"), n=averages, rows=segment)
+    name = FilledTemplate(
+        marked("identification", "{n} segments of {rows}"), n=averages, rows=segment
+    )
     return Estimate(WELCH, name, signals.rate_hz / segment, found)
 
 
@@ -237,7 +239,7 @@ def _doubts(measured: Estimate, resonance: Resonance | None) -> list[str]:
     doubts = []
     if len(frequency_hz) < _FEW_LINES:
         doubts.append(
-            Told(
+            FilledTemplate(
                 marked(
                     "identification",
                     "The input excites {n} lines alone, up to {highest:.4g} Hz ({wanted} are "
@@ -252,7 +254,7 @@ def _doubts(measured: Estimate, resonance: Resonance | None) -> list[str]:
     poor = int(np.sum(coherence < _COHERENT))
     if poor:
         doubts.append(
-            Told(
+            FilledTemplate(
                 marked(
                     "identification",
                     "Coherence is below {bound:g} on {n} of {lines} lines: noise, distortion, "
@@ -268,7 +270,7 @@ def _doubts(measured: Estimate, resonance: Resonance | None) -> list[str]:
         width_hz = 2.0 * resonance.damping_ratio * resonance.frequency_hz
         if measured.method == WELCH and width_hz < _NARROW * measured.resolution_hz:
             doubts.append(
-                Told(
+                FilledTemplate(
                     marked(
                         "identification",
                         "The resonance is {width:.3g} Hz wide, less than {lines} lines of "
@@ -282,7 +284,7 @@ def _doubts(measured: Estimate, resonance: Resonance | None) -> list[str]:
             )
         if resonance.misfit > _MISFIT:
             doubts.append(
-                Told(
+                FilledTemplate(
                     marked(
                         "identification",
                         "One mode misses the peak by {misfit:.0f} % (bound {bound:.0f} %): there "

@@ -6,9 +6,9 @@ from rotemina.app.calibration.health import Compared, card_of, compared_cards
 from rotemina.app.calibration.health_book import HealthBook
 from rotemina.app.calibration.words import amount
 from rotemina.app.shell.language import marked
+from rotemina.plugins.identification.filled_template import FilledTemplate
 from rotemina.plugins.identification.findings import NONE, Column, Findings
 from rotemina.plugins.identification.question import Question
-from rotemina.plugins.identification.told import Told
 from rotemina.sim.calibration.calibrating import Figure
 
 HEAD = (
@@ -108,4 +108,4 @@ def _notices(rows: tuple[Compared, ...], date: str | None, kept: int) -> list[st
             "identification",
             "Last card: {date}, the latest of {n}. No figure has changed beyond both intervals.",
         )
-    return [Told(text, date=date, n=kept, figures=", ".join(changed))]
+    return [FilledTemplate(text, date=date, n=kept, figures=", ".join(changed))]

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from rotemina.app.shell.language import marked
+from rotemina.plugins.identification.filled_template import FilledTemplate
 from rotemina.plugins.identification.findings import (
     Column,
     Curve,
@@ -16,7 +17,6 @@ from rotemina.plugins.identification.findings import (
 from rotemina.plugins.identification.nominal import ABSENT, nominal_signals
 from rotemina.plugins.identification.question import Question
 from rotemina.plugins.identification.statistics import HEAD, Figure, largest
-from rotemina.plugins.identification.told import Told
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.identification.errors import ExcitationError
@@ -41,7 +41,7 @@ def loop_findings(question: Question) -> Findings:
     rows = _rows_measured(driven)
     if rows < len(driven):
         notices.append(
-            Told(
+            FilledTemplate(
                 marked(
                     "identification",
                     "Measured are the cycles of the first {n} of {rows} rows, which turn {turns} "
@@ -61,10 +61,10 @@ def loop_findings(question: Question) -> Findings:
     try:
         nominal = nominal_signals(question)
     except (InputError, KeyError) as error:
-        notices.append(Told(ABSENT, reason=error))
+        notices.append(FilledTemplate(ABSENT, reason=error))
     if len(x) > _MOST_DRAWN:
         notices.append(
-            Told(
+            FilledTemplate(
                 marked(
                     "identification",
                     "Drawn are the first {n} of {rows} rows; the figures are not cut there.",
@@ -135,7 +135,9 @@ def _pictures(
         up = scale_of(question.unit(question.answer), size)
         pictures.append(
             Picture(
-                Told(marked("identification", "{title} [{unit}]"), title=title, unit=up.symbol),
+                FilledTemplate(
+                    marked("identification", "{title} [{unit}]"), title=title, unit=up.symbol
+                ),
                 f"{question.drive} [{across.symbol}]",
                 tuple(
                     Curve(name, role, across.per_si * u, up.per_si * v, width)
@@ -217,7 +219,7 @@ def _doubts(question: Question, found: tuple[Loop, ...]) -> list[str]:
     rows = float(np.median([each.rows[1] - each.rows[0] for each in found]))
     if rows < _SLOW:
         doubts.append(
-            Told(
+            FilledTemplate(
                 marked(
                     "identification",
                     "A cycle has {rows:.0f} rows, fewer than {least}: the loop is that of lag and "
@@ -230,7 +232,7 @@ def _doubts(question: Question, found: tuple[Loop, ...]) -> list[str]:
     if np.median([each.width_max for each in found]) < 0.0:
         lag = question.lag_samples
         doubts.append(
-            Told(
+            FilledTemplate(
                 marked(
                     "identification",
                     "Width below 0: the output leads, or the {lag} sample of lag that is taken "

@@ -27,11 +27,11 @@ from rotemina.plugins.identification.controls import Controls
 from rotemina.plugins.identification.excitation import VIEWS, steady
 from rotemina.plugins.identification.excite_view import ExciteView
 from rotemina.plugins.identification.export import as_csv, as_text
+from rotemina.plugins.identification.filled_template import localized
 from rotemina.plugins.identification.findings import Findings, answered
 from rotemina.plugins.identification.health import keep_card
 from rotemina.plugins.identification.question import Question
 from rotemina.plugins.identification.sheet import Sheet
-from rotemina.plugins.identification.told import shown
 from rotemina.plugins.identification.views import LOOKS, View
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.reading import read_record
@@ -157,7 +157,7 @@ class IdentificationPanel(Panel):
             return
         record = steady(run.record, motion) if run.completed else run.record
         self.controls.offer(record)
-        self.controls.look_at(motion.wish.axis, VIEWS[motion.wish.wave])
+        self.controls.look_at(motion.request.axis, VIEWS[motion.request.wave])
         self.take_record(run.name, record)
         # After the window, which brings the comparison up: here the answer is on this page.
         QTimer.singleShot(0, self, self._come_forward)
@@ -254,7 +254,7 @@ class IdentificationPanel(Panel):
         self._size_notices()
 
     def _say(self, notices: list[str] | tuple[str, ...]) -> None:
-        text = "\n".join(map(shown, notices))
+        text = "\n".join(map(localized, notices))
         self.notices.setPlainText(text)
         self.notices.setToolTip(text)
         self.notices.setVisible(bool(text))

@@ -3,7 +3,7 @@
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableWidget, QTableWidgetItem
 
-from rotemina.plugins.identification.told import shown
+from rotemina.plugins.identification.filled_template import localized
 
 RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 
@@ -24,10 +24,10 @@ class Sheet(QTableWidget):
         self.clear()
         self.setColumnCount(len(head))
         self.setRowCount(len(rows))
-        self.setHorizontalHeaderLabels([shown(text) for text in head])
+        self.setHorizontalHeaderLabels([localized(text) for text in head])
         for row, texts in enumerate(rows):
             for column, text in enumerate(texts):
-                item = QTableWidgetItem(shown(text))
+                item = QTableWidgetItem(localized(text))
                 if column:
                     item.setTextAlignment(RIGHT)
                 self.setItem(row, column, item)

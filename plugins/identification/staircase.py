@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from rotemina.app.shell.language import marked
+from rotemina.plugins.identification.filled_template import FilledTemplate
 from rotemina.plugins.identification.findings import (
     Curve,
     Findings,
@@ -17,7 +18,6 @@ from rotemina.plugins.identification.nominal import ABSENT, nominal_record
 from rotemina.plugins.identification.question import Question
 from rotemina.plugins.identification.ramps import jumped
 from rotemina.plugins.identification.statistics import HEAD, Figure, largest
-from rotemina.plugins.identification.told import Told
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.identification.steps import StepMetrics, step_metrics
@@ -39,7 +39,7 @@ def step_findings(question: Question) -> Findings:
         levels, ramp_s = jumped(record, axis, question.drive)
         found = step_metrics(levels, axis, question.answer, drive=question.drive)
     except InputError as error:
-        course = _course(question, time_s, driven, answer)
+        course = _response_picture(question, time_s, driven, answer)
         return Findings(question, (course,), notices=(str(error),))
     nominal, absent = _modelled(question)
     beside = () if nominal is None else _measured(question, nominal)
@@ -47,7 +47,7 @@ def step_findings(question: Question) -> Findings:
     return Findings(
         question,
         (
-            _course(question, time_s, driven, answer, nominal),
+            _response_picture(question, time_s, driven, answer, nominal),
             _closest(question, found, answer, nominal),
         ),
         HEAD,
@@ -65,7 +65,7 @@ def _modelled(question: Question) -> tuple[Record | None, tuple[str, ...]]:
     try:
         return nominal_record(question), ()
     except (InputError, KeyError) as error:
-        return None, (Told(ABSENT, reason=error),)
+        return None, (FilledTemplate(ABSENT, reason=error),)
 
 
 def _measured(question: Question, nominal: Record) -> tuple[StepMetrics, ...]:
@@ -131,7 +131,7 @@ def _figures(
     return tuple(figures)
 
 
-def _course(
+def _response_picture(
     question: Question,
     time_s: FloatArray,
     driven: FloatArray,
@@ -197,7 +197,9 @@ def _closest(
             ),
         )
     return Picture(
-        Told(marked("identification", "largest step, at {time:.4g} s [1]"), time=step.start_s),
+        FilledTemplate(
+            marked("identification", "largest step, at {time:.4g} s [1]"), time=step.start_s
+        ),
         marked("identification", "since the step [ms]"),
         tuple(curves),
     )
@@ -207,7 +209,7 @@ def _doubts(found: tuple[StepMetrics, ...], ramp_s: float) -> list[str]:
     doubts = []
     if ramp_s > 0.0:
         doubts.append(
-            Told(
+            FilledTemplate(
                 marked(
                     "identification",
                     "The input takes up to {ramp:.3g} ms from level to level, as fast as its "
@@ -224,7 +226,7 @@ def _doubts(found: tuple[StepMetrics, ...], ramp_s: float) -> list[str]:
         missing = sum(value is None for value in values)
         if missing:
             doubts.append(
-                Told(
+                FilledTemplate(
                     marked(
                         "identification",
                         "{name}: {n} of {steps} steps do not show it; they still move, or noise "
@@ -238,7 +240,7 @@ def _doubts(found: tuple[StepMetrics, ...], ramp_s: float) -> list[str]:
     faint = sum(abs(each.output_to - each.output_from) < 10.0 * each.noise_rms for each in found)
     if faint:
         doubts.append(
-            Told(
+            FilledTemplate(
                 marked(
                     "identification",
                     "{n} of {steps} steps are smaller than 10 times the noise about their level: "

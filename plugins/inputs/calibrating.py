@@ -12,7 +12,7 @@ from rotemina.app.motion.teleoperation.calibration import (
     CalibrationError,
 )
 from rotemina.app.motion.teleoperation.calibration_run import CalibrationRun
-from rotemina.app.motion.teleoperation.operator_desk import DeviceView
+from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.shell.language import translate
 from rotemina.drivers.inputs.device import InputReading
 

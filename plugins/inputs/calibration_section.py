@@ -3,8 +3,8 @@
 from PySide6.QtWidgets import QCheckBox, QFormLayout, QWidget
 
 from rotemina.app.motion.teleoperation.calibration import AxisCalibration
-from rotemina.app.motion.teleoperation.input_devices import Heard
-from rotemina.app.motion.teleoperation.operator_desk import DeviceView
+from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
+from rotemina.app.motion.teleoperation.input_devices import InputSnapshot
 from rotemina.app.shell.controls import allow
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
@@ -117,9 +117,9 @@ class CalibrationSection(Section):
         raw = next((a.raw for a in device.axes if a.control == self.axis.currentData()), None)
         self.curve.show_curve(self._shown, raw)
 
-    def hear(self, heard: Heard) -> None:
+    def hear(self, snapshot: InputSnapshot) -> None:
         """Take in what the devices have said."""
-        for key, readings in heard.readings.items():
+        for key, readings in snapshot.readings.items():
             if key in self._all:
                 self._all[key].hear(readings)
 

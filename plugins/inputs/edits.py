@@ -14,9 +14,9 @@ from rotemina.app.motion.teleoperation.profile import (
     ActionMapping,
     AxisMapping,
     DeviceMapping,
+    OperatorRole,
     Profile,
     ProfileError,
-    Seat,
 )
 from rotemina.app.shell.language import translate
 
@@ -118,7 +118,7 @@ class Edited:
             )
         )
 
-    def with_seat(self, seat: Seat | None) -> Profile:
+    def with_seat(self, seat: OperatorRole | None) -> Profile:
         """Return the profile with this device at a seat; None: it does nothing.
 
         Raises
@@ -158,7 +158,7 @@ class Edited:
 
 def exchanged(profile: Profile) -> Profile:
     """Return the profile with trainer and trainee exchanged."""
-    other = {Seat.TRAINER: Seat.TRAINEE, Seat.TRAINEE: Seat.TRAINER}
+    other = {OperatorRole.TRAINER: OperatorRole.TRAINEE, OperatorRole.TRAINEE: OperatorRole.TRAINER}
     return replace(
         profile, devices=tuple(replace(each, seat=other[each.seat]) for each in profile.devices)
     )

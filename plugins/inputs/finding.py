@@ -1,8 +1,8 @@
 """*Move it now*: which control of a device is moved, for one row of the mapping.."""
 
 from rotemina.app.motion.teleoperation.detection import Detection, Findings, Kind
-from rotemina.app.motion.teleoperation.input_devices import Heard
-from rotemina.app.motion.teleoperation.operator_desk import DeviceView
+from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
+from rotemina.app.motion.teleoperation.input_devices import InputSnapshot
 from rotemina.app.shell.language import translate
 
 BUTTON_WAIT_S = 0.3  # a trigger tells its way first, and that it is pressed a moment later
@@ -31,9 +31,9 @@ class Finding:
             for detection in self._detections.values():
                 detection.feed(self._key, view.newest)
 
-    def hear(self, heard: Heard) -> None:
+    def hear(self, snapshot: InputSnapshot) -> None:
         """Take in what a step has read; what was said before is known already."""
-        for reading in heard.readings.get(self._key, ()):
+        for reading in snapshot.readings.get(self._key, ()):
             if self._newest is not None and reading.host_time_s < self._newest.host_time_s:
                 continue
             self._newest = reading

@@ -4,8 +4,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QVBoxLayout
 
 from rotemina.app.motion.teleoperation.calibration import Calibration
+from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.mapped_device import AxisView
-from rotemina.app.motion.teleoperation.operator_desk import DeviceView
 from rotemina.app.shell.controls import ElidedLabel
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme

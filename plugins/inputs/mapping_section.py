@@ -6,9 +6,9 @@ from PySide6.QtWidgets import QGridLayout
 
 from rotemina.app.motion.teleoperation.detection import Detected
 from rotemina.app.motion.teleoperation.devices_view import DevicesView
-from rotemina.app.motion.teleoperation.input_devices import Heard
-from rotemina.app.motion.teleoperation.operator_desk import DeviceView
-from rotemina.app.motion.teleoperation.profile import Profile, Seat
+from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
+from rotemina.app.motion.teleoperation.input_devices import InputSnapshot
+from rotemina.app.motion.teleoperation.profile import OperatorRole, Profile
 from rotemina.app.shell.controls import allow
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
@@ -23,8 +23,8 @@ from rotemina.sim.errors import InputError
 
 HINT = marked("inputs", "Press a field, then move the control that is to do it.")
 _SEATS = {
-    marked("inputs", "Trainer"): Seat.TRAINER,
-    marked("inputs", "Trainee"): Seat.TRAINEE,
+    marked("inputs", "Trainer"): OperatorRole.TRAINER,
+    marked("inputs", "Trainee"): OperatorRole.TRAINEE,
     marked("inputs", "Does nothing"): None,
 }
 
@@ -113,10 +113,10 @@ class MappingSection(Section):
         for row in self._rows:
             row.show_edited(edited, self.message.text() if row is self._row else None)
 
-    def hear(self, heard: Heard) -> None:
+    def hear(self, snapshot: InputSnapshot) -> None:
         """Take in what the devices have said."""
         if self._finding is not None:
-            self._finding.hear(heard)
+            self._finding.hear(snapshot)
 
     # --- finding a control ------------------------------------------------------------------------
 

@@ -3,7 +3,7 @@
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QVBoxLayout, QWidget
 
-from rotemina.app.motion.teleoperation.operator_desk import DeviceView
+from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.shell.controls import allow
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench

@@ -18,8 +18,8 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.motion.teleoperation.devices_view import DevicesView
-from rotemina.app.motion.teleoperation.input_devices import Heard
-from rotemina.app.motion.teleoperation.operator_desk import DeviceView
+from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
+from rotemina.app.motion.teleoperation.input_devices import InputSnapshot
 from rotemina.app.panel import STALE_S, Area, Panel
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.phase import Tone, set_tone
@@ -56,7 +56,7 @@ class InputsPanel(Panel):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
         self._devices = workbench.operation.devices
-        self._heard: deque[Heard] = deque(maxlen=_MOST_HEARD)
+        self._snapshots: deque[InputSnapshot] = deque(maxlen=_MOST_HEARD)
         self._leave_listening: Callable[[], None] | None = None
         axes = tuple(workbench.robot.axes)
         self.profiles = ProfileChoice(self._devices, workbench.settings, axes)
@@ -167,10 +167,10 @@ class InputsPanel(Panel):
 
     def _refresh_set_up(self, view: DevicesView, device: DeviceView | None, now_s: float) -> None:
         mapping, calibration = self._make_set_up()
-        while self._heard:
-            heard = self._heard.popleft()
-            mapping.hear(heard)
-            calibration.hear(heard)
+        while self._snapshots:
+            snapshot = self._snapshots.popleft()
+            mapping.hear(snapshot)
+            calibration.hear(snapshot)
         page = self.page
         mapping.setVisible(page is Page.MAPPING and device is not None)
         mapping.message.setVisible(page is Page.MAPPING and device is not None)
@@ -227,15 +227,15 @@ class InputsPanel(Panel):
         )
         if on:
             self.tabs.setCurrentIndex(list(Page).index(Page.MAPPING))
-            self._heard.clear()
+            self._snapshots.clear()
             self._devices.open_mapping()
-            self._leave_listening = self._devices.listen(self._heard.append)
+            self._leave_listening = self._devices.listen(self._snapshots.append)
             self.refresh()
             return
         if self._leave_listening is not None:
             self._leave_listening()
             self._leave_listening = None
-        self._heard.clear()
+        self._snapshots.clear()
         mapping, calibration = self._make_set_up()
         mapping.cancel()
         calibration.leave()

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 from rotemina.app.display import label
 from rotemina.app.motion.teleoperation.devices_view import DevicesView
+from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.mapping import DEGREES_OF_FREEDOM
-from rotemina.app.motion.teleoperation.operator_desk import DeviceView
-from rotemina.app.motion.teleoperation.profile import Seat
+from rotemina.app.motion.teleoperation.profile import OperatorRole
 from rotemina.app.shell.language import marked, translate
 from rotemina.drivers.inputs.device import InputIdentity
 from rotemina.drivers.inputs.hub import InputHub
@@ -54,8 +54,8 @@ _WAYS = {
     "z": marked("inputs", "upwards (+z)"),
 }
 _SEATS = {
-    Seat.TRAINER: marked("inputs", "trainer"),
-    Seat.TRAINEE: marked("inputs", "trainee"),
+    OperatorRole.TRAINER: marked("inputs", "trainer"),
+    OperatorRole.TRAINEE: marked("inputs", "trainee"),
 }
 #: What the pad on the screen and its buttons are called.
 _PAD = ("keys", marked("inputs", "pad"))  # source and name
@@ -209,7 +209,7 @@ def control_text(controls: Mapping[str, float | None]) -> str:
     )
 
 
-def _seat(seat: Seat) -> str:
+def _seat(seat: OperatorRole) -> str:
     return translate("inputs", _SEATS[seat])
 
 
@@ -228,7 +228,7 @@ def _standing(one: DeviceView, view: DevicesView) -> str:
     if not one.drives:
         return (
             translate("inputs", "trainee, looks on")
-            if one.seat is Seat.TRAINEE
+            if one.seat is OperatorRole.TRAINEE
             else translate("inputs", "trainer, may take over")
         )
     waiting = [axis.control for axis in one.axes if axis.drives and axis.reason is not None]

@@ -6,14 +6,14 @@ from PySide6.QtWidgets import QCheckBox, QLabel, QProgressBar, QWidget
 from rotemina.app.microscope.calibration_file import MICRO, NANO
 from rotemina.app.microscope.calibration_run import CalibrationStatus
 from rotemina.app.microscope.microscope import Microscope
-from rotemina.app.microscope.sight import Activity, Sight
+from rotemina.app.microscope.status import Activity, MicroscopeStatus
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.plugins.microscope.feed_notice import against_moving
 from rotemina.plugins.microscope.section import Section, button, show_text
-from rotemina.plugins.microscope.standing import against_moving
 from rotemina.plugins.microscope.words import (
     ENDED,
     calibration_text,
@@ -62,9 +62,9 @@ class CalibrationSection(Section):
         self.known = self.add_text()
         self.known.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
 
-    def refresh(self, sight: Sight, state: SessionState) -> None:
+    def refresh(self, status: MicroscopeStatus, state: SessionState) -> None:
         """Show how it goes, and what is known."""
-        why = against_moving(sight, state)
+        why = against_moving(status, state)
         allow(
             self.micro,
             why,
@@ -77,7 +77,7 @@ class CalibrationSection(Section):
                 "microscope", "Move the tip by 15 µm with the piezos about where it is, and look"
             ),
         )
-        running = sight.activity is Activity.CALIBRATION
+        running = status.activity is Activity.CALIBRATION
         for widget in (self.progress, self.abort):
             _show(widget, running)
         allow(
@@ -87,8 +87,8 @@ class CalibrationSection(Section):
                 "microscope", "Stop the machine where it is, and keep what was calibrated before"
             ),
         )
-        self._show_status(sight.calibrating)
-        show_text(self.known, "\n".join(_known(sight)))
+        self._show_status(status.calibrating)
+        show_text(self.known, "\n".join(_known(status)))
 
     def _show_status(self, status: CalibrationStatus | None) -> None:
         show_text(self.said, calibration_text(status))
@@ -105,18 +105,18 @@ class CalibrationSection(Section):
         self._workbench.ask(lambda: self._microscope.calibrate(stage, whole_picture=whole))
 
 
-def _known(sight: Sight) -> list[str]:
-    if sight.calibration_problem:
-        return [sight.calibration_problem]
-    calibration = sight.calibration
+def _known(status: MicroscopeStatus) -> list[str]:
+    if status.calibration_problem:
+        return [status.calibration_problem]
+    calibration = status.calibration
     if calibration is None:
         return (
             [
                 translate("microscope", "Nothing is kept for objective {objective!r}.").format(
-                    objective=sight.objective
+                    objective=status.objective
                 )
             ]
-            if sight.objective
+            if status.objective
             else []
         )
     lines = [stage_text(MICRO, calibration.micro), stage_text(NANO, calibration.nano)]

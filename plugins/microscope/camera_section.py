@@ -5,7 +5,7 @@ from PySide6.QtWidgets import QCheckBox, QFormLayout, QLabel, QLineEdit, QWidget
 
 from rotemina.app.cameras.feed import FeedState
 from rotemina.app.microscope.microscope import Microscope
-from rotemina.app.microscope.sight import Sight
+from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
@@ -81,15 +81,15 @@ class CameraSection(Section):
         self.add_row(title, self.objective)
         self.said = self.add_text()
 
-    def refresh(self, sight: Sight) -> None:
+    def refresh(self, status: MicroscopeStatus) -> None:
         """Show what is there and in use."""
-        listed = [(spoken(one.name), one.key) for one in sight.cameras]
-        _offer(self.choice, listed, None if sight.camera is None else sight.camera.key)
-        _offer(self.objective, [(name, name) for name in sight.objectives], None)
+        listed = [(spoken(one.name), one.key) for one in status.cameras]
+        _offer(self.choice, listed, None if status.camera is None else status.camera.key)
+        _offer(self.objective, [(name, name) for name in status.objectives], None)
         edit = self.objective.lineEdit()
         assert edit is not None
-        if not edit.hasFocus() and edit.text() != sight.objective:
-            edit.setText(sight.objective)
+        if not edit.hasFocus() and edit.text() != status.objective:
+            edit.setText(status.objective)
         nothing = not listed and not self.address.text().strip()
         why = (
             translate("microscope", "no camera is listed, and no address is written")
@@ -101,10 +101,12 @@ class CameraSection(Section):
             why,
             translate("microscope", "Open this camera; the one that is open is closed"),
         )
-        closed = translate("microscope", "no camera is open") if sight.feed.state in _OPEN else None
+        closed = (
+            translate("microscope", "no camera is open") if status.feed.state in _OPEN else None
+        )
         allow(self.close_button, closed, translate("microscope", "Let go of the camera"))
-        problems = [f"{source}: {spoken(why)}" for source, why in sight.camera_problems.items()]
-        show_text(self.said, "\n".join([one for one in (spoken(sight.truth), *problems) if one]))
+        problems = [f"{source}: {spoken(why)}" for source, why in status.camera_problems.items()]
+        show_text(self.said, "\n".join([one for one in (spoken(status.truth), *problems) if one]))
 
     def _open(self) -> None:
         source, colon, address = self.address.text().strip().partition(":")
@@ -115,7 +117,7 @@ class CameraSection(Section):
 
     def _choose_objective(self) -> None:
         name = self.objective.currentText().strip()
-        if name and name != self._microscope.sight.objective:
+        if name and name != self._microscope.status.objective:
             self._workbench.ask(lambda: self._microscope.choose_objective(name))
 
 
@@ -183,9 +185,9 @@ class SettingsSection(Section):
         for field in (self.exposure, self.gain, self.rate, self.region):
             field.returnPressed.connect(self._apply)
 
-    def refresh(self, sight: Sight) -> None:
+    def refresh(self, status: MicroscopeStatus) -> None:
         """Show what is in force, unless somebody is typing."""
-        feed = sight.feed
+        feed = status.feed
         can = feed.description
         self.form.setEnabled(can is not None)
         why = translate("microscope", "no camera is open") if can is None else None

@@ -5,16 +5,16 @@ from collections.abc import Callable
 from PySide6.QtWidgets import QListWidget
 
 from rotemina.app.microscope.microscope import Microscope
-from rotemina.app.microscope.sight import Activity, Sight
+from rotemina.app.microscope.status import Activity, MicroscopeStatus
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.microscope.engine_words import spoken
+from rotemina.plugins.microscope.feed_notice import against_clicking
 from rotemina.plugins.microscope.overlays import ghost_text
 from rotemina.plugins.microscope.section import Section, SteadyChoice, button, show_text
-from rotemina.plugins.microscope.standing import against_clicking
 from rotemina.plugins.microscope.words import target_text, visit_text
 
 STAGES = (
@@ -53,7 +53,7 @@ class MoveSection(Section):
         self.add_row(self.back, self.halt)
         self.said = self.add_text()
 
-    def refresh(self, sight: Sight, state: SessionState) -> None:
+    def refresh(self, status: MicroscopeStatus, state: SessionState) -> None:
         """Show what the latest move came to."""
         busy = (
             translate("microscope", "the machine is not at rest")
@@ -67,11 +67,11 @@ class MoveSection(Section):
         )
         idle = (
             translate("microscope", "nothing is under way")
-            if sight.activity is Activity.NONE
+            if status.activity is Activity.NONE
             else None
         )
         allow(self.halt, idle, translate("microscope", "Stop the machine where it is"))
-        lines = (ghost_text(sight), visit_text(sight.visiting), spoken(sight.stopped))
+        lines = (ghost_text(status), visit_text(status.visiting), spoken(status.stopped))
         show_text(self.said, "\n".join(line for line in lines if line))
 
 
@@ -96,9 +96,9 @@ class TargetSection(Section):
         self.column.addWidget(self.next)
         self.add_row(self.remove, self.clear)
 
-    def refresh(self, sight: Sight, state: SessionState) -> None:
+    def refresh(self, status: MicroscopeStatus, state: SessionState) -> None:
         """Show the list."""
-        texts = [target_text(number, one) for number, one in enumerate(sight.targets, start=1)]
+        texts = [target_text(number, one) for number, one in enumerate(status.targets, start=1)]
         if texts != [self.list.item(row).text() for row in range(self.list.count())]:
             row = self.list.currentRow()
             self.list.clear()
@@ -111,8 +111,8 @@ class TargetSection(Section):
                 "microscope", "no target is marked; mark some with Mark, above the picture"
             )
         )
-        why = none or against_clicking(sight, state)
-        if why is None and all(one.visit is not None for one in sight.targets):
+        why = none or against_clicking(status, state)
+        if why is None and all(one.visit is not None for one in status.targets):
             why = translate("microscope", "every target has been visited")
         allow(
             self.next,
@@ -122,9 +122,9 @@ class TargetSection(Section):
         chosen = (
             None if self.list.currentRow() >= 0 else translate("microscope", "no target is chosen")
         )
-        touring = sight.activity is Activity.TOUR
+        visiting = status.activity is Activity.TARGETS
         under_way = (
-            translate("microscope", "the tip is on its way to a target") if touring else None
+            translate("microscope", "the tip is on its way to a target") if visiting else None
         )
         allow(
             self.remove,

@@ -6,7 +6,7 @@ from enum import StrEnum
 import numpy as np
 
 from rotemina.app.microscope.click_run import Visit
-from rotemina.app.microscope.sight import Activity, Sight, TipState
+from rotemina.app.microscope.status import Activity, MicroscopeStatus, TipState
 from rotemina.app.shell.language import translate
 from rotemina.plugins.microscope.engine_words import spoken
 from rotemina.plugins.microscope.readout import measured_text
@@ -78,35 +78,35 @@ class Ring:
 Shape = Stroke | Cross | Ring
 
 
-def shapes(sight: Sight, shown: frozenset[Layer]) -> list[Shape]:
+def shapes(status: MicroscopeStatus, shown: frozenset[Layer]) -> list[Shape]:
     """Return everything that is to be drawn, what lies beneath first."""
     found: list[Shape] = []
-    if Layer.NANO in shown and sight.nano_limits is not None:
+    if Layer.NANO in shown and status.nano_limits is not None:
         found.append(
             Stroke(
                 Look.NANO,
-                sight.nano_limits,
+                status.nano_limits,
                 closed=True,
                 label=translate("microscope", "nano range"),
             )
         )
     if Layer.CELL in shown:
-        found += _cell(sight)
-    if Layer.PATH in shown and sight.path is not None and len(sight.path) > 1:
-        found.append(Stroke(Look.PATH, sight.path))
+        found += _cell(status)
+    if Layer.PATH in shown and status.path is not None and len(status.path) > 1:
+        found.append(Stroke(Look.PATH, status.path))
     if Layer.TARGETS in shown:
-        found += _targets(sight)
-    if Layer.MEASURE in shown and sight.measured is not None:
-        line = np.array([sight.measured.begin, sight.measured.end])
-        found.append(Stroke(Look.MEASURE, line, label=measured_text(sight.measured)))
+        found += _targets(status)
+    if Layer.MEASURE in shown and status.measured is not None:
+        line = np.array([status.measured.begin, status.measured.end])
+        found.append(Stroke(Look.MEASURE, line, label=measured_text(status.measured)))
     if Layer.TIP in shown:
-        found += _tip(sight)
-    return found + _ghost(sight)
+        found += _tip(status)
+    return found + _ghost(status)
 
 
-def ghost_text(sight: Sight) -> str:
+def ghost_text(status: MicroscopeStatus) -> str:
     """Return how far the tip would go, with what, and how surely."""
-    plan = sight.planned
+    plan = status.planned
     if plan is None:
         return ""
     text = translate("microscope", "{distance} with the {stage} stage").format(
@@ -115,22 +115,22 @@ def ghost_text(sight: Sight) -> str:
     return f"{text}, ± {plan.uncertainty_px:.1f} px"
 
 
-def _ghost(sight: Sight) -> list[Shape]:
-    plan = sight.planned
-    if plan is None or sight.activity not in (Activity.NONE, Activity.CLICK):
+def _ghost(status: MicroscopeStatus) -> list[Shape]:
+    plan = status.planned
+    if plan is None or status.activity not in (Activity.NONE, Activity.CLICK):
         return []
     found: list[Shape] = [
         Ring(Look.GHOST, plan.ghost, _SURE * plan.uncertainty_px),
         Cross(Look.GHOST, plan.ghost, readable(plan.distance, "m")),
     ]
-    if sight.tip.pixel is not None:
-        way = np.array([sight.tip.pixel, plan.ghost])
+    if status.tip.pixel is not None:
+        way = np.array([status.tip.pixel, plan.ghost])
         found.insert(0, Stroke(Look.GHOST, way, dashed=True))
     return found
 
 
-def _tip(sight: Sight) -> list[Shape]:
-    tip = sight.tip
+def _tip(status: MicroscopeStatus) -> list[Shape]:
+    tip = status.tip
     if tip.pixel is None or tip.state is TipState.OFF:
         return []
     look = Look.TIP if tip.state is TipState.TRACKED else Look.LOST
@@ -153,8 +153,8 @@ def _tip(sight: Sight) -> list[Shape]:
     ]
 
 
-def _cell(sight: Sight) -> list[Shape]:
-    cell = sight.cell
+def _cell(status: MicroscopeStatus) -> list[Shape]:
+    cell = status.cell
     if cell.outline is None:
         return []
     long, short, angle = cell.outline.figures[2:]
@@ -162,18 +162,18 @@ def _cell(sight: Sight) -> list[Shape]:
     across = np.array([-along[1], along[0]])
     ring = np.outer(long * np.cos(_AROUND), along) + np.outer(short * np.sin(_AROUND), across)
     found: list[Shape] = [Stroke(Look.CELL, cell.outline.centre + ring, closed=True)]
-    ahead, tip = cell.ahead, sight.tip
+    ahead, tip = cell.ahead, status.tip
     if ahead is not None and tip.pixel is not None and tip.direction is not None:
         # The body leads away from the tip; the tip thrusts the other way.
         way = -np.array([np.cos(tip.direction), np.sin(tip.direction)])
         line = np.array([tip.pixel, tip.pixel + ahead.distance * way])
-        found.append(Stroke(Look.AHEAD, line, dashed=True, label=membrane_text(sight)))
+        found.append(Stroke(Look.AHEAD, line, dashed=True, label=membrane_text(status)))
     return found
 
 
-def membrane_text(sight: Sight) -> str:
+def membrane_text(status: MicroscopeStatus) -> str:
     """Return how far the membrane is from the tip, and at which angle it is met."""
-    cell = sight.cell
+    cell = status.cell
     if cell.ahead is None:
         return ""
     text = f"{cell.ahead.distance:.1f} ± {cell.ahead.distance_uncertainty:.1f} px"
@@ -182,9 +182,9 @@ def membrane_text(sight: Sight) -> str:
     return f"{text}, {np.degrees(cell.ahead.angle):.0f}°"
 
 
-def _targets(sight: Sight) -> list[Shape]:
+def _targets(status: MicroscopeStatus) -> list[Shape]:
     looks = {Visit.ARRIVED: Look.REACHED, Visit.FAILED: Look.MISSED}
     return [
         Cross(looks.get(target.visit, Look.TARGET), target.pixel, str(number))
-        for number, target in enumerate(sight.targets, start=1)
+        for number, target in enumerate(status.targets, start=1)
     ]

@@ -6,10 +6,10 @@ from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QFont, QPainter, QPen, QPolygonF
 
 from rotemina.app.shell.theme import Theme
+from rotemina.plugins.microscope.feed_notice import FeedNotice
 from rotemina.plugins.microscope.geometry import Viewport
 from rotemina.plugins.microscope.overlays import Cross, Look, Ring, Shape, Stroke
 from rotemina.plugins.microscope.scale_bar import Bar
-from rotemina.plugins.microscope.standing import Standing
 
 # Over a picture, not over the window: the same in both themes, told apart by colour-blind eyes.
 COLOURS = {
@@ -88,33 +88,33 @@ def draw_bar(painter: QPainter, area: QRectF, bar: Bar) -> None:
     draw_text(painter, QPointF(right - width, low - 8.0), text, QColor("white"))
 
 
-def draw_badge(painter: QPainter, area: QRectF, standing: Standing, theme: Theme) -> None:
+def draw_badge(painter: QPainter, area: QRectF, feed_notice: FeedNotice, theme: Theme) -> None:
     """Draw state, rate and age in the upper left corner."""
     metrics = painter.fontMetrics()
     box = QRectF(
         area.left() + _MARGIN,
         area.top() + _MARGIN,
-        metrics.horizontalAdvance(standing.badge) + 16.0,
+        metrics.horizontalAdvance(feed_notice.badge) + 16.0,
         metrics.height() + 6.0,
     )
-    colour = QColor(_tone(theme, standing.tone))
+    colour = QColor(_tone(theme, feed_notice.tone))
     painter.setPen(QPen(colour, 1.0))
     surface = QColor(theme.surface)
     surface.setAlpha(225)
     painter.setBrush(surface)
     painter.drawRoundedRect(box, 8.0, 8.0)
     painter.setPen(colour)
-    painter.drawText(box, Qt.AlignmentFlag.AlignCenter, standing.badge)
+    painter.drawText(box, Qt.AlignmentFlag.AlignCenter, feed_notice.badge)
 
 
-def draw_standing(painter: QPainter, area: QRectF, standing: Standing, theme: Theme) -> None:
+def draw_notice(painter: QPainter, area: QRectF, feed_notice: FeedNotice, theme: Theme) -> None:
     """Grey and hatch a picture that shows the past, and say so in words."""
-    if standing.veiled:
+    if feed_notice.veiled:
         shade = QColor(theme.window)
         shade.setAlpha(150)
         painter.fillRect(area, shade)
         painter.fillRect(area, QBrush(QColor(theme.quiet), Qt.BrushStyle.BDiagPattern))
-    if not standing.title:
+    if not feed_notice.title:
         return
     font, bold = painter.font(), QFont(painter.font())
     bold.setPixelSize(22)
@@ -122,23 +122,23 @@ def draw_standing(painter: QPainter, area: QRectF, standing: Standing, theme: Th
     wide = QRectF(0.0, 0.0, max(min(area.width() - 40.0, 460.0), 60.0), area.height())
     words = Qt.TextFlag.TextWordWrap | Qt.AlignmentFlag.AlignHCenter
     painter.setFont(bold)
-    head = painter.boundingRect(wide, int(words), standing.title)
+    head = painter.boundingRect(wide, int(words), feed_notice.title)
     painter.setFont(font)
-    body = painter.boundingRect(wide, int(words), standing.reason)
-    height = head.height() + (body.height() + 6.0 if standing.reason else 0.0)
+    body = painter.boundingRect(wide, int(words), feed_notice.reason)
+    height = head.height() + (body.height() + 6.0 if feed_notice.reason else 0.0)
     box = QRectF(0.0, 0.0, wide.width() + 24.0, height + 24.0)
     box.moveCenter(area.center())
-    painter.setPen(QPen(QColor(_tone(theme, standing.tone)), 2.0))
+    painter.setPen(QPen(QColor(_tone(theme, feed_notice.tone)), 2.0))
     painter.setBrush(QColor(theme.surface))
     painter.drawRoundedRect(box, 6.0, 6.0)
     inner = box.adjusted(12.0, 12.0, -12.0, -12.0)
-    painter.setPen(QColor(_tone(theme, standing.tone)))
+    painter.setPen(QColor(_tone(theme, feed_notice.tone)))
     painter.setFont(bold)
-    painter.drawText(inner, int(words), standing.title)
+    painter.drawText(inner, int(words), feed_notice.title)
     painter.setFont(font)
     painter.setPen(QColor(theme.text))
     painter.drawText(
-        inner.adjusted(0.0, head.height() + 6.0, 0.0, 0.0), int(words), standing.reason
+        inner.adjusted(0.0, head.height() + 6.0, 0.0, 0.0), int(words), feed_notice.reason
     )
 
 

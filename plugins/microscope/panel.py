@@ -12,7 +12,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.microscope.sight import Sight
+from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.controls import ElidedLabel
@@ -23,13 +23,13 @@ from rotemina.drivers.cameras.frame import Frame
 from rotemina.plugins.microscope.calibration_section import CalibrationSection
 from rotemina.plugins.microscope.camera_section import CameraSection, SettingsSection
 from rotemina.plugins.microscope.engine_words import spoken
-from rotemina.plugins.microscope.hands import Hands
-from rotemina.plugins.microscope.keeping_section import KeepingSection
 from rotemina.plugins.microscope.move_section import MoveSection, TargetSection
 from rotemina.plugins.microscope.picture_section import LayerSection, PictureSection
-from rotemina.plugins.microscope.picture_view import Hand, PictureView
+from rotemina.plugins.microscope.picture_view import PictureView, PointerTool
+from rotemina.plugins.microscope.pointer_tools import PointerTools
 from rotemina.plugins.microscope.question import Question
 from rotemina.plugins.microscope.readout import cursor_text
+from rotemina.plugins.microscope.saving_section import SavingSection
 from rotemina.plugins.microscope.top_bar import TopBar
 from rotemina.plugins.microscope.vision_section import CellSection, FocusSection, TipSection
 
@@ -59,9 +59,9 @@ class MicroscopePanel(Panel):
         self.microscope = workbench.microscope
         self._awaited = False  # whether a picture that came in is yet to be taken notice of
         self.view = PictureView(workbench.theme)
-        self.hands = Hands(workbench, self.microscope, self.view)
+        self.pointer = PointerTools(workbench, self.microscope, self.view)
         self.bar = TopBar(self.view, tuple(translate("microscope", tool) for tool in TOOLS))
-        self.question = Question(translate("microscope", "Move"), self.hands.answer)
+        self.question = Question(translate("microscope", "Move"), self.pointer.answer)
         self.readout = ElidedLabel()
         self.readout.setProperty("quiet", True)
         self._make_sections()
@@ -70,18 +70,18 @@ class MicroscopePanel(Panel):
 
     def refresh(self, state: SessionState) -> None:
         """Show this moment of the microscope."""
-        if not (self.isVisible() or self.keeping.needed):
-            return  # whoever reads the sight has a camera work
-        sight = self.microscope.sight
-        self.hands.refresh(sight)
-        self.keeping.refresh(sight, state)  # a video goes on while nobody looks
+        if not (self.isVisible() or self.saving.needed):
+            return  # reading the status keeps a camera working
+        status = self.microscope.status
+        self.pointer.refresh(status)
+        self.saving.refresh(status, state)  # a video goes on while nobody looks
         if not self.isVisible():
             return
-        self._show(sight)
-        self.bar.refresh(self.hands.against(sight, state))
+        self._show(status)
+        self.bar.refresh(self.pointer.against(status, state))
         page = self.bar.tools.currentIndex()
         if page < len(self._refreshing):
-            self._refreshing[page](sight, state)
+            self._refreshing[page](status, state)
 
     # --- parts ------------------------------------------------------------------------------------
 
@@ -93,28 +93,28 @@ class MicroscopePanel(Panel):
         self.layers = LayerSection(view, bench.settings)
         self.calibration = CalibrationSection(bench, microscope)
         self.move = MoveSection(bench, microscope)
-        self.targets = TargetSection(bench, microscope, self.hands.visit_next)
+        self.targets = TargetSection(bench, microscope, self.pointer.visit_next)
         self.tip = TipSection(bench, microscope)
         self.cell = CellSection(bench, microscope)
         self.focus = FocusSection(bench, microscope)
-        self.keeping = KeepingSection(bench, microscope, view)
+        self.saving = SavingSection(bench, microscope, view)
         self._pages = (
             (self.camera, self.settings),
             (self.picture, self.layers),
             (self.calibration,),
             (self.move, self.targets),
             (self.tip, self.cell, self.focus),
-            (self.keeping,),
+            (self.saving,),
         )
-        self._refreshing: tuple[Callable[[Sight, SessionState], None], ...] = (
-            lambda sight, _: (self.camera.refresh(sight), self.settings.refresh(sight)),
-            lambda sight, _: self.picture.refresh(sight),
+        self._refreshing: tuple[Callable[[MicroscopeStatus, SessionState], None], ...] = (
+            lambda status, _: (self.camera.refresh(status), self.settings.refresh(status)),
+            lambda status, _: self.picture.refresh(status),
             self.calibration.refresh,
             lambda *now: (self.move.refresh(*now), self.targets.refresh(*now)),
-            lambda sight, state: (
-                self.tip.refresh(sight),
-                self.cell.refresh(sight),
-                self.focus.refresh(sight, state),
+            lambda status, state: (
+                self.tip.refresh(status),
+                self.cell.refresh(status),
+                self.focus.refresh(status, state),
             ),
             lambda *_: None,
         )
@@ -140,12 +140,12 @@ class MicroscopePanel(Panel):
 
     def _connect(self) -> None:
         bench = self.workbench
-        self.bar.chosen.connect(self.hands.choose)
+        self.bar.chosen.connect(self.pointer.choose)
         self.bar.tools.currentIndexChanged.connect(self._choose_page)
-        self.hands.changed.connect(lambda: self.bar.show_hand(self.view.hand))
-        self.hands.asks.connect(self.question.ask)
+        self.pointer.changed.connect(lambda: self.bar.show_tool(self.view.tool))
+        self.pointer.asks.connect(self.question.ask)
         self.move.stage.currentIndexChanged.connect(
-            lambda _: setattr(self.hands, "stage", self.move.stage.currentData())
+            lambda _: setattr(self.pointer, "stage", self.move.stage.currentData())
         )
         self.view.hovered.connect(self._show_readout)
         self._came.connect(self._take, Qt.ConnectionType.QueuedConnection)
@@ -166,18 +166,18 @@ class MicroscopePanel(Panel):
         """Show the newest picture, whichever it is by now."""
         self._awaited = False
         if self.isVisible():
-            self._show(self.microscope.sight)
+            self._show(self.microscope.status)
 
-    def _show(self, sight: Sight) -> None:
-        self.view.show_sight(sight)
+    def _show(self, status: MicroscopeStatus) -> None:
+        self.view.show_status(status)
         self._show_readout()
 
     def _show_readout(self) -> None:
-        sight, hand = self.view.sight, self.view.hand
-        said = cursor_text(sight, self.view.cursor_at)
+        status, tool = self.view.status, self.view.tool
+        said = cursor_text(status, self.view.cursor_at)
         mode = ""
-        if hand is not Hand.PAN:
-            mode = translate("microscope", "{mode}: Esc ends it   ").format(mode=spoken(hand))
+        if tool is not PointerTool.PAN:
+            mode = translate("microscope", "{mode}: Esc ends it   ").format(mode=spoken(tool))
         self.readout.show_text(mode + said)
 
     def _choose_page(self, page: int) -> None:

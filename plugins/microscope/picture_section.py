@@ -5,7 +5,7 @@ from dataclasses import replace
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QCheckBox, QLabel, QSlider
 
-from rotemina.app.microscope.sight import Sight
+from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.settings import Settings
 from rotemina.app.shell.controls import plain_tip
 from rotemina.app.shell.language import translate
@@ -59,10 +59,10 @@ class PictureSection(Section):
         self.column.addWidget(self.table)
         self._change()
 
-    def refresh(self, sight: Sight) -> None:
+    def refresh(self, status: MicroscopeStatus) -> None:
         """Show the newest picture's histogram."""
-        if sight.feed.frame is not None:
-            self.histogram.show_counts(histogram(sight.feed.frame), self._view.span)
+        if status.feed.frame is not None:
+            self.histogram.show_counts(histogram(status.feed.frame), self._view.span)
 
     def set_theme(self, theme: Theme) -> None:
         """Change the colours."""

@@ -19,23 +19,23 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from rotemina.app.microscope.sight import Sight
+from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.drivers.cameras.frame import Frame, Region
 from rotemina.plugins.microscope import painting
 from rotemina.plugins.microscope.contrast import Contrast, levels, shown
+from rotemina.plugins.microscope.feed_notice import feed_notice
 from rotemina.plugins.microscope.geometry import Viewport
 from rotemina.plugins.microscope.overlays import Layer, Look, Shape, Stroke, shapes
 from rotemina.plugins.microscope.scale_bar import scale_bar
-from rotemina.plugins.microscope.standing import standing
 
 _WHEEL = 1.2  # a notch
 _NOTCH = 120.0
 ALL_LAYERS = frozenset(Layer) - {Layer.CROSSHAIR}
 
 
-class Hand(StrEnum):
+class PointerTool(StrEnum):
     """What the left button does in the picture."""
 
     PAN = "pan"
@@ -47,7 +47,7 @@ class Hand(StrEnum):
 
 
 class PictureView(QWidget):
-    """Shows a :class:`Sight`; it keeps only the newest, and paints when Qt has time.
+    """Shows a :class:`MicroscopeStatus`; it keeps only the newest, and paints when Qt has time.
 
     Signals
     -------
@@ -68,12 +68,12 @@ class PictureView(QWidget):
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
-        self.sight = Sight()
+        self.status = MicroscopeStatus()
         self.viewport = Viewport()
         self.contrast = Contrast()
         self.span = (0.0, 1.0)
         self.layers = ALL_LAYERS
-        self.hand = Hand.PAN
+        self.tool = PointerTool.PAN
         self.cursor_at: tuple[float, float] | None = None
         self.line: tuple[tuple[float, float], tuple[float, float]] | None = None
         self._theme = theme
@@ -94,12 +94,12 @@ class PictureView(QWidget):
     @property
     def frame(self) -> Frame | None:
         """The newest picture."""
-        return self.sight.feed.frame
+        return self.status.feed.frame
 
-    def show_sight(self, sight: Sight) -> None:
+    def show_status(self, status: MicroscopeStatus) -> None:
         """Show another moment; one that was not painted yet is forgotten."""
         before = self.frame
-        self.sight = sight
+        self.status = status
         frame = self.frame
         if frame is not None and frame is not before:
             rows, columns = frame.pixels.shape[:2]
@@ -125,9 +125,9 @@ class PictureView(QWidget):
         self.layers = self.layers | {layer} if on else self.layers - {layer}
         self.update()
 
-    def set_hand(self, hand: Hand) -> None:
+    def set_tool(self, tool: PointerTool) -> None:
         """Have the left button do something else."""
-        self.hand = hand
+        self.tool = tool
         self.line = None
         self._held = False
         self._show_cursor()
@@ -172,12 +172,12 @@ class PictureView(QWidget):
             if Layer.CROSSHAIR in self.layers:
                 painting.draw_crosshair(painter, self.viewport)
             painting.draw_shapes(painter, self.viewport, self._shapes())
-            zoom, sight = self.viewport.zoom, self.sight
-            bar = scale_bar(sight.pixel_m, sight.scale_source, zoom, area.width())
+            zoom, status = self.viewport.zoom, self.status
+            bar = scale_bar(status.pixel_m, status.scale_source, zoom, area.width())
             painting.draw_bar(painter, area, bar)
-        said = standing(self.sight.feed)
+        said = feed_notice(self.status.feed)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painting.draw_standing(painter, area, said, self._theme)
+        painting.draw_notice(painter, area, said, self._theme)
         painting.draw_badge(painter, area, said, self._theme)
         painter.end()
         if frame is not None:
@@ -203,7 +203,7 @@ class PictureView(QWidget):
         painter.drawImage(QPointF(round(part.left), round(part.top)), self._image)
 
     def _shapes(self) -> list[Shape]:
-        found = shapes(self.sight, self.layers)
+        found = shapes(self.status, self.layers)
         if self.line is not None:
             found.append(Stroke(Look.MEASURE, np.array(self.line)))
         return found
@@ -213,7 +213,7 @@ class PictureView(QWidget):
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
         """Begin to pan, or what the left button does."""
         button = event.button()
-        pans = self._space or self.hand is Hand.PAN
+        pans = self._space or self.tool is PointerTool.PAN
         if button is Qt.MouseButton.MiddleButton or (button is Qt.MouseButton.LeftButton and pans):
             self._panned_from = event.position()
             self._show_cursor()
@@ -316,6 +316,6 @@ class PictureView(QWidget):
         shape = Qt.CursorShape.CrossCursor
         if self._panned_from is not None:
             shape = Qt.CursorShape.ClosedHandCursor
-        elif self._space or self.hand is Hand.PAN:
+        elif self._space or self.tool is PointerTool.PAN:
             shape = Qt.CursorShape.OpenHandCursor
         self.setCursor(shape)

@@ -5,15 +5,15 @@ from math import degrees
 import numpy as np
 
 from rotemina.app.microscope.measurements import tip_in_plane
-from rotemina.app.microscope.sight import Measured, Sight
+from rotemina.app.microscope.status import Measured, MicroscopeStatus
 from rotemina.app.shell.language import translate
 from rotemina.drivers.cameras.frame import Frame
 from rotemina.sim.trajectory.wording import readable
 
 
-def cursor_text(sight: Sight, place: tuple[float, float] | None) -> str:
+def cursor_text(status: MicroscopeStatus, place: tuple[float, float] | None) -> str:
     """Return pixel, value and place of the cursor; empty where it is not over the picture."""
-    frame = sight.feed.frame
+    frame = status.feed.frame
     if frame is None or place is None:
         return ""
     column, row = round(place[0]), round(place[1])
@@ -21,12 +21,12 @@ def cursor_text(sight: Sight, place: tuple[float, float] | None) -> str:
     if not (0 <= column < columns and 0 <= row < rows):
         return ""
     parts = [f"{column}, {row} px", value_text(frame, column, row)]
-    micro = sight.calibration.micro if sight.calibration is not None else None
+    micro = status.calibration.micro if status.calibration is not None else None
     if micro is not None:
         place_m, _ = tip_in_plane(np.array(place), np.zeros((2, 2)), micro)
         parts.append(f"x {1e6 * place_m[0]:.2f}, y {1e6 * place_m[1]:.2f} µm")
-    elif sight.pixel_m is not None:
-        across, down = (1e6 * sight.pixel_m * one for one in place)
+    elif status.pixel_m is not None:
+        across, down = (1e6 * status.pixel_m * one for one in place)
         parts.append(
             translate("microscope", "{across:.1f}, {down:.1f} µm from the corner").format(
                 across=across, down=down

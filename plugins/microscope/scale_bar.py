@@ -3,7 +3,7 @@
 from math import floor, log10
 from typing import NamedTuple
 
-from rotemina.app.microscope.sight import ScaleSource
+from rotemina.app.microscope.status import ScaleSource
 from rotemina.app.shell.language import translate
 
 _WIDEST = 0.3  # of the widget

@@ -5,27 +5,27 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QWidget
 
 from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import marked, translate
-from rotemina.plugins.microscope.picture_view import Hand, PictureView
+from rotemina.plugins.microscope.picture_view import PictureView, PointerTool
 from rotemina.plugins.microscope.section import SteadyChoice, button
 
-HANDS = {
-    Hand.MOVE: (
+TOOLS = {
+    PointerTool.MOVE: (
         marked("microscope", "Move"),
         marked("microscope", "Click or drag: the tip goes there. Esc, or any stop, ends this"),
     ),
-    Hand.MARK: (
+    PointerTool.MARK: (
         marked("microscope", "Mark"),
         marked("microscope", "Click: mark a target to be visited; nothing moves"),
     ),
-    Hand.MEASURE: (
+    PointerTool.MEASURE: (
         marked("microscope", "Measure"),
         marked("microscope", "Drag a line: its length and angles; nothing moves"),
     ),
-    Hand.TIP: (
+    PointerTool.TIP: (
         marked("microscope", "Tip"),
         marked("microscope", "Click near the pipette's tip: track it from there; nothing moves"),
     ),
-    Hand.CELL: (
+    PointerTool.CELL: (
         marked("microscope", "Cell"),
         marked("microscope", "Click into a cell: find its outline; nothing moves"),
     ),
@@ -44,16 +44,18 @@ class TopBar(QWidget):
 
     def __init__(self, view: PictureView, tools: tuple[str, ...]) -> None:
         super().__init__()
-        self.buttons: dict[Hand, QPushButton] = {}
+        self.buttons: dict[PointerTool, QPushButton] = {}
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(4)
-        for hand, (text, tip) in HANDS.items():
+        for tool, (text, tip) in TOOLS.items():
             made = QPushButton(translate("microscope", text))
             made.setCheckable(True)
             made.setToolTip(plain_tip(translate("microscope", tip)))
-            made.clicked.connect(lambda on, hand=hand: self.chosen.emit(hand if on else Hand.PAN))
-            self.buttons[hand] = made
+            made.clicked.connect(
+                lambda on, tool=tool: self.chosen.emit(tool if on else PointerTool.PAN)
+            )
+            self.buttons[tool] = made
             row.addWidget(made)
         row.addStretch(1)
         self.zoom = QLabel()
@@ -75,12 +77,12 @@ class TopBar(QWidget):
             row.addWidget(widget)
         view.zoomed.connect(lambda: self.zoom.setText(f"{100.0 * view.viewport.zoom:.0f} %"))
 
-    def show_hand(self, hand: Hand) -> None:
+    def show_tool(self, tool: PointerTool) -> None:
         """Show what the left button does."""
         for one, made in self.buttons.items():
-            made.setChecked(one is hand)
+            made.setChecked(one is tool)
 
-    def refresh(self, against: dict[Hand, str | None]) -> None:
+    def refresh(self, against: dict[PointerTool, str | None]) -> None:
         """Lock what cannot be done now, with the reason."""
-        for hand, made in self.buttons.items():
-            allow(made, against.get(hand), translate("microscope", HANDS[hand][1]))
+        for tool, made in self.buttons.items():
+            allow(made, against.get(tool), translate("microscope", TOOLS[tool][1]))

@@ -5,14 +5,14 @@ from PySide6.QtWidgets import QCheckBox, QLineEdit
 from rotemina.app.display import PLAIN_NUMBER
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.microscope import Microscope
-from rotemina.app.microscope.sight import Activity, Sight, TipState
+from rotemina.app.microscope.status import Activity, MicroscopeStatus, TipState
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.microscope.engine_words import spoken
+from rotemina.plugins.microscope.feed_notice import against_moving
 from rotemina.plugins.microscope.section import Section, SteadyChoice, button, show_text
-from rotemina.plugins.microscope.standing import against_moving
 from rotemina.plugins.microscope.words import (
     cell_text,
     drift_text,
@@ -57,12 +57,12 @@ class TipSection(Section):
         self.column.addWidget(self.drift)
         self.drifted = self.add_text()
 
-    def refresh(self, sight: Sight) -> None:
+    def refresh(self, status: MicroscopeStatus) -> None:
         """Show the tip's figures."""
-        on = sight.tip.state is not TipState.OFF
+        on = status.tip.state is not TipState.OFF
         if self.track.isChecked() != on:
             self.track.setChecked(on)
-        looked, passed = sight.frames_looked_at, sight.frames_passed_over
+        looked, passed = status.frames_processed, status.frames_skipped
         figures = (
             translate("microscope", "\n{looked} pictures looked at, {passed} passed over").format(
                 looked=looked, passed=passed
@@ -70,13 +70,15 @@ class TipSection(Section):
             if on
             else ""
         )
-        show_text(self.said, tip_text(sight.tip) + figures)
+        show_text(self.said, tip_text(status.tip) + figures)
         none = (
-            None if sight.feed.frame is not None else translate("microscope", "there is no picture")
+            None
+            if status.feed.frame is not None
+            else translate("microscope", "there is no picture")
         )
         about = (
             translate("microscope", "taken")
-            if sight.background
+            if status.background
             else translate("microscope", "not taken yet")
         )
         allow(
@@ -88,9 +90,9 @@ class TipSection(Section):
                 "misleads nobody; {about}",
             ).format(about=about),
         )
-        if self.drift.isChecked() != sight.drift.watched:
-            self.drift.setChecked(sight.drift.watched)
-        show_text(self.drifted, drift_text(sight.drift))
+        if self.drift.isChecked() != status.drift.watched:
+            self.drift.setChecked(status.drift.watched)
+        show_text(self.drifted, drift_text(status.drift))
 
 
 class CellSection(Section):
@@ -110,11 +112,11 @@ class CellSection(Section):
         )
         self.column.addWidget(self.forget)
 
-    def refresh(self, sight: Sight) -> None:
+    def refresh(self, status: MicroscopeStatus) -> None:
         """Show size and distance."""
-        show_text(self.said, cell_text(sight))
+        show_text(self.said, cell_text(status))
         none = (
-            translate("microscope", "no cell is outlined") if sight.cell.outline is None else None
+            translate("microscope", "no cell is outlined") if status.cell.outline is None else None
         )
         allow(self.forget, none, translate("microscope", "Take the outline away"))
 
@@ -125,7 +127,7 @@ class FocusSection(Section):
     def __init__(self, workbench: Workbench, microscope: Microscope) -> None:
         super().__init__(translate("microscope", "Focus"))
         self._workbench, self._microscope = workbench, microscope
-        self._sight = Sight()
+        self._status = MicroscopeStatus()
         self.place = SteadyChoice(translate("microscope", "What is focused with"))
         self.reach = QLineEdit(f"{1e6 * _PRESET_M:g}")
         self.reach.setAccessibleName(translate("microscope", "How far to search each way, µm"))
@@ -156,15 +158,15 @@ class FocusSection(Section):
         self.add_row(self.goal, self.move)
         self.said = self.add_text()
 
-    def refresh(self, sight: Sight, state: SessionState) -> None:
+    def refresh(self, status: MicroscopeStatus, state: SessionState) -> None:
         """Show what can be focused with, and how the search goes."""
-        self._sight = sight
-        names = [one.name for one in sight.focus_places]
+        self._status = status
+        names = [one.name for one in status.focus_axes]
         if names != [self.place.itemData(row) for row in range(self.place.count())]:
             self.place.clear()
             for name in names:
                 self.place.addItem(name, name)
-        for row, one in enumerate(sight.focus_places):
+        for row, one in enumerate(status.focus_axes):
             self.place.setItemText(row, focus_name(one))
         none = (
             None
@@ -173,7 +175,7 @@ class FocusSection(Section):
                 "microscope", "nothing can be focused with: open a camera, connect the machine"
             )
         )
-        why = none or against_moving(sight, state)
+        why = none or against_moving(status, state)
         allow(
             self.search, why, translate("microscope", "Look for the sharpest place, and stay there")
         )
@@ -182,9 +184,9 @@ class FocusSection(Section):
         )
         busy = (
             None
-            if sight.activity is Activity.NONE
+            if status.activity is Activity.NONE
             else translate("microscope", "{activity} is under way").format(
-                activity=spoken(sight.activity)
+                activity=spoken(status.activity)
             )
         )
         allow(
@@ -192,20 +194,20 @@ class FocusSection(Section):
             drive or busy,
             translate("microscope", "Move the focus drive of the microscope"),
         )
-        show_text(self.said, focus_text(sight.focusing))
+        show_text(self.said, focus_text(status.focusing))
 
     def _autofocus(self) -> None:
         name = self.place.currentData()
-        chosen = next((one for one in self._sight.focus_places if one.name == name), None)
+        chosen = next((one for one in self._status.focus_axes if one.name == name), None)
 
         def begin() -> None:
             reach_m = _micrometres(translate("microscope", "how far to search"), self.reach.text())
-            if chosen is None or chosen.place is None:
+            if chosen is None or chosen.position is None:
                 self._microscope.autofocus(name)
                 return
             low, high = (
-                max(chosen.place - reach_m, chosen.low),
-                min(chosen.place + reach_m, chosen.high),
+                max(chosen.position - reach_m, chosen.low),
+                min(chosen.position + reach_m, chosen.high),
             )
             self._microscope.autofocus(name, low, high)
 

@@ -8,7 +8,13 @@ from rotemina.app.microscope.calibration_file import StageCalibration
 from rotemina.app.microscope.calibration_run import CalibrationStatus, Phase
 from rotemina.app.microscope.click_run import Visit, VisitStatus
 from rotemina.app.microscope.focus_run import FocusStatus, Search
-from rotemina.app.microscope.sight import DriftSeen, FocusPlace, Sight, TipSeen, TipState
+from rotemina.app.microscope.status import (
+    DriftSeen,
+    FocusAxis,
+    MicroscopeStatus,
+    TipSeen,
+    TipState,
+)
 from rotemina.app.microscope.targets import Target
 from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.microscope.engine_words import spoken
@@ -142,16 +148,16 @@ def tip_text(tip: TipSeen) -> str:
     return "\n".join(lines)
 
 
-def cell_text(sight: Sight) -> str:
+def cell_text(status: MicroscopeStatus) -> str:
     """Return the cell's size, and how far its membrane is."""
-    cell = sight.cell
+    cell = status.cell
     if cell.outline is None:
         return spoken(cell.reason)
     long, short = cell.outline.figures[2:4]
     size = f"{2 * long:.0f} × {2 * short:.0f} px"
-    if sight.pixel_m is not None:
-        size = f"{2e6 * long * sight.pixel_m:.1f} × {2e6 * short * sight.pixel_m:.1f} µm"
-    ahead = membrane_text(sight)
+    if status.pixel_m is not None:
+        size = f"{2e6 * long * status.pixel_m:.1f} × {2e6 * short * status.pixel_m:.1f} µm"
+    ahead = membrane_text(status)
     return (
         translate("microscope", "{size}\nmembrane: {ahead} from head on").format(
             size=size, ahead=ahead
@@ -189,11 +195,11 @@ def focus_text(status: FocusStatus | None) -> str:
     )
 
 
-def focus_name(place: FocusPlace) -> str:
+def focus_name(axis: FocusAxis) -> str:
     """Return something that can be focused with, by name and place."""
     name = (
         translate("microscope", "focus drive")
-        if place.name == "focus"
-        else translate("microscope", "axis {name}").format(name=place.name)
+        if axis.name == "focus"
+        else translate("microscope", "axis {name}").format(name=axis.name)
     )
-    return name if place.place is None else f"{name}: {readable(place.place, 'm')}"
+    return name if axis.position is None else f"{name}: {readable(axis.position, 'm')}"

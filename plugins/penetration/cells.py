@@ -3,7 +3,7 @@
 from rotemina.app.display import label
 from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.app.shell.language import translate
-from rotemina.plugins.penetration.prospect import way_text
+from rotemina.plugins.penetration.plan_preview import way_text
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.robot.model import AxisEffect, Robot
 

@@ -27,8 +27,8 @@ from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.penetration.cell_view import CellView
 from rotemina.plugins.penetration.form import ParameterForm
 from rotemina.plugins.penetration.log_view import LogView
+from rotemina.plugins.penetration.plan_preview import PlanPreview
 from rotemina.plugins.penetration.preview import ThrustPreview
-from rotemina.plugins.penetration.prospect import Prospect
 from rotemina.plugins.penetration.readouts import Readouts
 from rotemina.plugins.penetration.run_bar import RunBar
 from rotemina.plugins.penetration.words import FIXED, message
@@ -50,7 +50,7 @@ class PenetrationPanel(Panel):
         self._operation = workbench.operation
         self._penetration = self._operation.penetration
         self._why_not: str | None = None
-        self._looked_at: object = ()
+        self._last_inputs: object = ()
         self._problem = ""
         self.bar = RunBar(workbench)
         self.message = QLabel()
@@ -199,7 +199,7 @@ class PenetrationPanel(Panel):
 
     def _change(self) -> None:
         """Plan anew, and keep the parameters a little later."""
-        if not self.form.complaint and self.form.parameters != self.prospect.parameters:
+        if not self.form.complaint and self.form.parameters != self.plan_preview.parameters:
             self._plan()
             self._keep.start()
         self._refresh(self.workbench.session.snapshot())
@@ -207,10 +207,10 @@ class PenetrationPanel(Panel):
     def _plan(self) -> None:
         session = self.workbench.session
         self._planned_for = session.driver
-        self.prospect = Prospect.of(session, self.form.parameters)
+        self.plan_preview = PlanPreview.of(session, self.form.parameters)
 
     def _keep_parameters(self) -> None:
-        parameters = self.prospect.parameters
+        parameters = self.plan_preview.parameters
         self.workbench.ask(lambda: self._operation.keep_penetration(parameters))
 
     def _close(self) -> None:
@@ -227,8 +227,8 @@ class PenetrationPanel(Panel):
         text = message(status, self._why_not)
         if self.message.text() != text:
             self.message.setText(text)
-        self.readouts.refresh(status, state, self.prospect.parameters)
-        self.cell.refresh(state, self.prospect.parameters)
+        self.readouts.refresh(status, state, self.plan_preview.parameters)
+        self.cell.refresh(state, self.plan_preview.parameters)
         self._draw(status)
         fixed = None
         if status.phase in FIXED:
@@ -251,8 +251,8 @@ class PenetrationPanel(Panel):
         session = self.workbench.session
         if session.driver is not self._planned_for:  # another one may hold its set-points longer
             self._plan()
-        looked_at = (
-            self.prospect,
+        inputs = (
+            self.plan_preview,
             self.form.complaint,
             status.phase,
             dict(state.command),
@@ -262,28 +262,30 @@ class PenetrationPanel(Panel):
             dict(state.owners),
             session.keep_out,
         )
-        if looked_at == self._looked_at:
+        if inputs == self._last_inputs:
             return
-        self._looked_at = looked_at
-        self.readouts.show_plan(self.prospect, state)
-        if self.form.complaint or self.prospect.plan is None:
-            self._why_not = self.form.complaint or self.prospect.problem
+        self._last_inputs = inputs
+        self.readouts.show_plan(self.plan_preview, state)
+        if self.form.complaint or self.plan_preview.plan is None:
+            self._why_not = self.form.complaint or self.plan_preview.problem
         elif state.locked is not None:
             self._why_not = translate("penetration", "motion is locked: {locked}").format(
                 locked=spoken(state.locked)
             )
         else:
-            self._why_not = self._penetration.why_not(self.prospect.parameters, self.prospect.plan)
+            self._why_not = self._penetration.why_not(
+                self.plan_preview.parameters, self.plan_preview.plan
+            )
 
     def _draw(self, status: PenetrationStatus) -> None:
         """Draw the plan; beside it the latest run, where that was by these parameters."""
-        shown = (self.prospect, status.trace, status.run)
+        shown = (self.plan_preview, status.trace, status.run)
         if shown == self._shown_trace:
             return
         self._shown_trace = shown
         self.preview.show_plan(
-            self.prospect.plan,
-            status.trace if _by(status.run, self.prospect.parameters) else None,
+            self.plan_preview.plan,
+            status.trace if _by(status.run, self.plan_preview.parameters) else None,
         )
 
     def _read_log(self) -> None:

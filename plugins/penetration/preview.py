@@ -9,7 +9,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.plot import SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.penetration.fields import SteadyChoice
-from rotemina.plugins.penetration.prospect import (
+from rotemina.plugins.penetration.plan_preview import (
     Curve,
     commanded_curve,
     measured_curve,

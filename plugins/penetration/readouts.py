@@ -17,7 +17,7 @@ from rotemina.app.shell.controls import allow, fill, plain_tip
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.penetration.figures import Figures
-from rotemina.plugins.penetration.prospect import UNKNOWN, Prospect, way_text
+from rotemina.plugins.penetration.plan_preview import UNKNOWN, PlanPreview, way_text
 
 _PLAN = {
     marked("penetration", "Average speed"): marked("penetration", "Depth over duration"),
@@ -74,10 +74,10 @@ class Readouts(QWidget):
         row.addLayout(column, 1)
         row.addLayout(beside, 1)
 
-    def show_plan(self, prospect: Prospect, state: SessionState) -> None:
+    def show_plan(self, preview: PlanPreview, state: SessionState) -> None:
         """Show what a plan gives from where the axis stands."""
-        start = state.command.get(prospect.parameters.axis) if state.position_known else None
-        self.plan.show_values(*prospect.figures(self._workbench.robot, start))
+        start = state.command.get(preview.parameters.axis) if state.position_known else None
+        self.plan.show_values(*preview.figures(self._workbench.robot, start))
 
     def refresh(
         self, status: PenetrationStatus, state: SessionState, parameters: PenetrationParameters

@@ -9,7 +9,7 @@ from rotemina.app.motion.penetration.parameters import BOUNDS
 from rotemina.app.motion.penetration.run_log import PenetrationRun
 from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.penetration.engine_words import spoken
-from rotemina.plugins.penetration.prospect import UNKNOWN, speed_text, way_text
+from rotemina.plugins.penetration.plan_preview import UNKNOWN, speed_text, way_text
 from rotemina.plugins.penetration.quantities import QUANTITIES
 
 MOST = 50

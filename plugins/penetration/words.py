@@ -7,7 +7,7 @@ from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus,
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.penetration.engine_words import spoken
-from rotemina.plugins.penetration.prospect import speed_text, way_text
+from rotemina.plugins.penetration.plan_preview import speed_text, way_text
 
 #: The phases of the strip, in their order.
 STRIP = (

@@ -7,7 +7,7 @@ from rotemina.plugins.plate.solved import Solved
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plate.application import agreement
 from rotemina.sim.plate.report import TOLERANCE, mode_name, pose_text
-from rotemina.sim.plate.stress import Place, Safety, safety
+from rotemina.sim.plate.stress import Safety, StressPoint, safety
 from rotemina.sim.robot.plate import Plate
 
 MESHES = (
@@ -46,8 +46,8 @@ def safety_text(found: Safety, plate: Plate) -> str:
         "{stress:.1f} MPa von Mises {place}; safety {factor:.2f} against yield at {limit:.0f} MPa",
     )
     said = text.format(
-        stress=1e-6 * found.place.stress,
-        place=place_text(found.place, plate),
+        stress=1e-6 * found.point.stress,
+        place=place_text(found.point, plate),
         factor=found.factor,
         limit=1e-6 * plate.yield_stress,
     )
@@ -56,16 +56,16 @@ def safety_text(found: Safety, plate: Plate) -> str:
     return said
 
 
-def place_text(place: Place, plate: Plate) -> str:
+def place_text(point: StressPoint, plate: Plate) -> str:
     """Say where on the plate a place is."""
-    share = (place.radius - plate.hub_radius) / (plate.rim_radius - plate.hub_radius)
+    share = (point.radius - plate.hub_radius) / (plate.rim_radius - plate.hub_radius)
     text = translate("plate", "between, r {radius:.2f} mm, {degrees:.0f}°")
     if share < _NEAR:
         text = translate("plate", "at the hub, r {radius:.2f} mm, {degrees:.0f}°")
     elif share > 1.0 - _NEAR:
         text = translate("plate", "at the rim, r {radius:.2f} mm, {degrees:.0f}°")
-    degrees = np.degrees(place.direction) % 360.0
-    return text.format(radius=1e3 * place.radius, degrees=degrees)
+    degrees = np.degrees(point.direction) % 360.0
+    return text.format(radius=1e3 * point.radius, degrees=degrees)
 
 
 def plate_text(solved: Solved) -> str:

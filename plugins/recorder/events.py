@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.display import duration_text
-from rotemina.app.recorded_events import Happening, Weight, happenings
+from rotemina.app.recorded_events import Severity, TimelineEvent, timeline_events
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
@@ -48,21 +48,21 @@ class EventsModel(QAbstractTableModel):
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
-        self.events: tuple[Happening, ...] = ()
+        self.events: tuple[TimelineEvent, ...] = ()
         self.use_theme(theme)
 
     def use_theme(self, theme: Theme) -> None:
         """Change the colours."""
         self.beginResetModel()
         self._colours = {
-            Weight.GRAVE: QColor(theme.danger_text),
-            Weight.WARNING: QColor(theme.warning),
-            Weight.REMARK: QColor(theme.accent),
-            Weight.DETAIL: QColor(theme.quiet),
+            Severity.GRAVE: QColor(theme.danger_text),
+            Severity.WARNING: QColor(theme.warning),
+            Severity.REMARK: QColor(theme.accent),
+            Severity.DETAIL: QColor(theme.quiet),
         }
         self.endResetModel()
 
-    def show_events(self, events: Sequence[Happening]) -> None:
+    def show_events(self, events: Sequence[TimelineEvent]) -> None:
         """Show others."""
         self.beginResetModel()
         self.events = tuple(events)
@@ -100,7 +100,7 @@ class EventsView(QWidget):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
         self._replaying = workbench.replaying
-        self._all: tuple[Happening, ...] = ()
+        self._all: tuple[TimelineEvent, ...] = ()
         self.model = EventsModel(workbench.theme)
         self.table = _table(self.model)
         self.table.clicked.connect(lambda index: self.jump(index.row()))
@@ -135,12 +135,12 @@ class EventsView(QWidget):
         if paced is None:
             self._all = ()
         else:
-            self._all = happenings(paced.replay.events, paced.replay.recording.began_s)
+            self._all = timeline_events(paced.replay.events, paced.replay.recording.began_s)
         self._choose()
 
     def _choose(self) -> None:
         details = self.details.isChecked()
-        chosen = [one for one in self._all if details or one.weight is not Weight.DETAIL]
+        chosen = [one for one in self._all if details or one.weight is not Severity.DETAIL]
         self.model.show_events(chosen)
         if self._replaying.paced is None:
             self.title.setText(translate("recorder", _EMPTY))

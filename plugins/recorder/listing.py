@@ -9,7 +9,7 @@ from pathlib import Path
 from rotemina.app.motion.recording.errors import RecordingError
 from rotemina.app.motion.recording.merging import SUFFIX, being_recorded, recover, unfinished
 from rotemina.app.motion.recording.reading import Recording
-from rotemina.app.recorded_events import Weight, happenings
+from rotemina.app.recorded_events import Severity, timeline_events
 from rotemina.app.shell.language import translate
 
 
@@ -44,7 +44,7 @@ class Listed:
 
 
 @dataclass(frozen=True, slots=True)
-class Left:
+class Unfinished:
     """A recording that nobody has ended; ``busy`` if a program records it still."""
 
     path: Path
@@ -57,7 +57,7 @@ class Found:
     """What a look into the folder has found, newest recordings first."""
 
     recordings: tuple[Listed, ...] = ()
-    left: tuple[Left, ...] = ()
+    unfinished: tuple[Unfinished, ...] = ()
 
 
 def look(folder: Path, own: frozenset[Path], known: Mapping[Path, Listed]) -> Found:
@@ -81,7 +81,7 @@ def look(folder: Path, own: frozenset[Path], known: Mapping[Path, Listed]) -> Fo
                 folder=folder, reason=error.strerror or error
             )
         ) from error
-    left = tuple(Left(path, _size(path), being_recorded(path)) for path in parts)
+    left = tuple(Unfinished(path, _size(path), being_recorded(path)) for path in parts)
     listed = sorted((one for one in found if one is not None), key=_age, reverse=True)
     return Found(tuple(listed), left)
 
@@ -118,7 +118,7 @@ def _listed(path: Path, known: Mapping[Path, Listed]) -> Listed | None:
         return before
     try:
         recording = Recording.open(path)
-        told = happenings(recording.events(), recording.began_s)
+        told = timeline_events(recording.events(), recording.began_s)
         return Listed(
             path,
             about.st_size,
@@ -126,7 +126,7 @@ def _listed(path: Path, known: Mapping[Path, Listed]) -> Listed | None:
             _moment(recording.metadata.get("began", "")),
             recording.ended_s - recording.began_s,
             recording.metadata.get("robot", ""),
-            sum(one.weight is not Weight.DETAIL for one in told),
+            sum(one.weight is not Severity.DETAIL for one in told),
         )
     except (RecordingError, KeyError, ValueError) as error:
         problem = (

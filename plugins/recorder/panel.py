@@ -18,10 +18,10 @@ from rotemina.app.shell.background import Background
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.recorder.events import EventsView
-from rotemina.plugins.recorder.left import LeftBox
 from rotemina.plugins.recorder.listing import Found, Listed, look
 from rotemina.plugins.recorder.recording import RecordingSection
 from rotemina.plugins.recorder.recordings import RecordingsView
+from rotemina.plugins.recorder.unfinished import UnfinishedBox
 from rotemina.plugins.recorder.words import listed
 
 _WIDTH = 272  # of the recording's own part, px
@@ -43,8 +43,8 @@ class RecorderPanel(Panel):
         self._known: dict[Path, Listed] = {}
         self._told = False
         self.recording = RecordingSection(workbench, self._background)
-        self.left = LeftBox(workbench)
-        self.recordings = RecordingsView(workbench, self.left)
+        self.unfinished = UnfinishedBox(workbench)
+        self.recordings = RecordingsView(workbench, self.unfinished)
         self.events = EventsView(workbench)
         self.views = QStackedWidget()
         self.tabs = QTabBar()
@@ -60,7 +60,7 @@ class RecorderPanel(Panel):
         self.tabs.currentChanged.connect(self.views.setCurrentIndex)
         self._lay_out()
         self.recording.changed.connect(self.look)
-        self.left.recovered.connect(self.look)
+        self.unfinished.recovered.connect(self.look)
         self.recordings.looked_for.connect(self.look)
         workbench.replaying.changed.connect(self._bring_up)
         self.follow(lambda _: self.recording.refresh())
@@ -91,11 +91,11 @@ class RecorderPanel(Panel):
             self._tell(found)
         self._known = {one.path: one for one in found.recordings}
         self.recordings.show_recordings(found.recordings)
-        self.left.show_left(found.left)
+        self.unfinished.show_unfinished(found.unfinished)
 
     def _tell(self, found: Found) -> None:
         """Say once what a crash has left: this panel may stand behind another."""
-        names = [one.path.name for one in found.left if not one.busy]
+        names = [one.path.name for one in found.unfinished if not one.busy]
         if names:
             self.workbench.notify(
                 Level.WARNING,

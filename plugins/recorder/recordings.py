@@ -35,7 +35,7 @@ _NONE = marked("recorder", "choose a recording in the table")
 
 
 class RecordingsView(QWidget):
-    """Table, with what was ``left`` over it, and what can be done with the chosen recording.
+    """Table, with what was ``unfinished`` over it, and what can be done with the chosen recording.
 
     ``other`` and ``again`` are buttons that stand elsewhere.
 
@@ -46,7 +46,7 @@ class RecordingsView(QWidget):
 
     looked_for = Signal()
 
-    def __init__(self, workbench: Workbench, left: QWidget) -> None:
+    def __init__(self, workbench: Workbench, unfinished: QWidget) -> None:
         super().__init__()
         self._workbench = workbench
         self.recordings: tuple[Listed, ...] = ()
@@ -55,7 +55,7 @@ class RecordingsView(QWidget):
         self.table.doubleClicked.connect(lambda _: self._open_chosen())
         self.table.activated.connect(lambda _: self._open_chosen())
         self._make_buttons()
-        self._lay_out(left)
+        self._lay_out(unfinished)
         self._allow()
         workbench.replaying.changed.connect(self._allow)
 
@@ -148,7 +148,7 @@ class RecordingsView(QWidget):
         self.begin_here = _button(translate("recorder", "▏Here"), lambda: self._here(self.begin))
         self.end_here = _button(translate("recorder", "Here▕"), lambda: self._here(self.end))
 
-    def _lay_out(self, left: QWidget) -> None:
+    def _lay_out(self, unfinished: QWidget) -> None:
         stretch = QHBoxLayout()
         stretch.addWidget(QLabel(translate("recorder", "From")))
         stretch.addWidget(self.begin)
@@ -164,7 +164,7 @@ class RecordingsView(QWidget):
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(4)
-        column.addWidget(left)
+        column.addWidget(unfinished)
         column.addWidget(self.table, 1)
         column.addLayout(stretch)
 

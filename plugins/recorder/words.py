@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from rotemina.app.display import PLAIN_NUMBER, duration_text, size_text
 from rotemina.app.shell.language import marked, translate
-from rotemina.plugins.recorder.listing import Left, Listed
+from rotemina.plugins.recorder.listing import Listed, Unfinished
 from rotemina.sim.errors import InputError
 
 BEGIN, END = marked("recorder", "begin"), marked("recorder", "end")
@@ -68,10 +68,10 @@ def scarce(free: int | None, written: int) -> str | None:
     ).format(free=size_text(free), size=size_text(written))
 
 
-def left_text(left: Sequence[Left]) -> str:
+def unfinished_text(unfinished: Sequence[Unfinished]) -> str:
     """Return what a crash has left, and what other programs record; "" for nothing."""
     lines = []
-    waiting = [f"{one.path.name} ({size_text(one.size)})" for one in left if not one.busy]
+    waiting = [f"{one.path.name} ({size_text(one.size)})" for one in unfinished if not one.busy]
     if waiting:
         lines.append(
             translate(
@@ -82,7 +82,7 @@ def left_text(left: Sequence[Left]) -> str:
         translate("recorder", "{name} is being recorded by another program.").format(
             name=one.path.name
         )
-        for one in left
+        for one in unfinished
         if one.busy
     ]
     return "\n".join(lines)

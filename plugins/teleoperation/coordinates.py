@@ -5,7 +5,7 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QLabel
 
 from rotemina.app.display import Scale
 from rotemina.app.motion.teleoperation.impedance import Impedance
-from rotemina.app.motion.teleoperation.operator_desk import OperatorDesk
+from rotemina.app.motion.teleoperation.input_arbiter import InputArbiter
 from rotemina.app.motion.teleoperation.views import CoordinateView, TeleoperationState
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
@@ -111,7 +111,7 @@ class CoordinateSection(Section):
         )
         self.column.addWidget(self.none)
 
-    def refresh(self, state: TeleoperationState, desk: OperatorDesk, *, stale: bool) -> None:
+    def refresh(self, state: TeleoperationState, arbiter: InputArbiter, *, stale: bool) -> None:
         """Show a moment."""
         views = state.coordinates
         if not views:
@@ -123,7 +123,7 @@ class CoordinateSection(Section):
             self._arrange(state.mode, views)
             self._shown = shown
         for view in views:
-            travel_m = desk.travel_m(view.name) or desk.travel_m(view.source)
+            travel_m = arbiter.travel_m(view.name) or arbiter.travel_m(view.source)
             self.rows[view.name].show_view(view, travel_m, stale=stale)
 
     def _fade(self, same: bool) -> None:

@@ -18,7 +18,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from rotemina.app.shell.controls import plain_tip
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
-from rotemina.plugins.teleoperation.hand import Hand, Key
+from rotemina.plugins.teleoperation.virtual_stick import Key, VirtualStick
 
 RENEW_MS = 100  # well within the lease of the pad
 _KEYS = {
@@ -55,9 +55,9 @@ _TIP = (
 class PadArea(QWidget):
     """Where the pointer and the keys of the pad act; only with the focus, and only in sight."""
 
-    def __init__(self, workbench: Workbench, hand: Hand) -> None:
+    def __init__(self, workbench: Workbench, stick: VirtualStick) -> None:
         super().__init__()
-        self._workbench, self._hand = workbench, hand
+        self._workbench, self._stick = workbench, stick
         self._why_not: str | None = None
         self._names: Mapping[str, str] = {}
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -85,13 +85,13 @@ class PadArea(QWidget):
             self.update()
             if why_not is not None:
                 self.release()
-        if self._hand.busy and not self._in_sight():
+        if self._stick.busy and not self._in_sight():
             self.release()
 
     def release(self) -> None:
         """Let go of everything."""
         self._renewing.stop()
-        self._hand.release_all()
+        self._stick.release_all()
         self.update()
 
     # --- keys -------------------------------------------------------------------------------------
@@ -102,7 +102,7 @@ class PadArea(QWidget):
             if event.key() in _KEYS:
                 event.accept()
                 return True
-        elif event.type() in _LEFT and self._hand.busy:
+        elif event.type() in _LEFT and self._stick.busy:
             self.release()
         return super().event(event)
 
@@ -118,7 +118,7 @@ class PadArea(QWidget):
         elif not event.isAutoRepeat():
             self._scale(event.modifiers())
             if self._acts():
-                self._hand.press(_KEYS[key])
+                self._stick.press(_KEYS[key])
         self._follow()
 
     def keyReleaseEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
@@ -129,7 +129,7 @@ class PadArea(QWidget):
         elif key not in _KEYS:
             super().keyReleaseEvent(event)
         elif not event.isAutoRepeat():
-            self._hand.let_go(_KEYS[key])
+            self._stick.let_go(_KEYS[key])
         self._follow()
 
     # --- pointer ----------------------------------------------------------------------------------
@@ -145,13 +145,13 @@ class PadArea(QWidget):
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
         """Move what was taken; what was let go of meanwhile has to be taken anew."""
-        if event.buttons() & Qt.MouseButton.LeftButton and self._hand.dragging:
+        if event.buttons() & Qt.MouseButton.LeftButton and self._stick.dragging:
             self._drag(event.position())
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
         """Spring back."""
         if event.button() is Qt.MouseButton.LeftButton:
-            self._hand.drop()
+            self._stick.drop()
             self._follow()
 
     def _drag(self, place: QPointF) -> None:
@@ -161,7 +161,7 @@ class PadArea(QWidget):
         ways = {"x": (place.x() - half - 2) / half, "y": (half + 2 - place.y()) / half}
         if not self._in_cross:
             ways = {"z": ways["y"]}
-        self._hand.drag(**{axis: 0.0 if abs(way) < _REST else way for axis, way in ways.items()})
+        self._stick.drag(**{axis: 0.0 if abs(way) < _REST else way for axis, way in ways.items()})
         self._follow()
 
     # --- letting go -------------------------------------------------------------------------------
@@ -182,7 +182,7 @@ class PadArea(QWidget):
         super().hideEvent(event)
 
     def _scale(self, modifiers: Qt.KeyboardModifier) -> None:
-        self._hand.modify(fine=bool(modifiers & _CONTROL), coarse=bool(modifiers & _SHIFT))
+        self._stick.modify(fine=bool(modifiers & _CONTROL), coarse=bool(modifiers & _SHIFT))
 
     def _acts(self) -> bool:
         return self._why_not is None and self.hasFocus() and self._in_sight()
@@ -193,14 +193,14 @@ class PadArea(QWidget):
 
     def _follow(self) -> None:
         """Say from time to time that what is held still is, and draw it."""
-        if not self._hand.busy:
+        if not self._stick.busy:
             self._renewing.stop()
         elif not self._renewing.isActive():
             self._renewing.start()
         self.update()
 
     def _renew(self) -> None:
-        self._hand.renew()
+        self._stick.renew()
         self._follow()
 
     # --- picture ----------------------------------------------------------------------------------
@@ -212,7 +212,7 @@ class PadArea(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         frame = QPen(QColor(theme.accent if self.hasFocus() else theme.line))
         frame.setWidthF(2.0 if self.hasFocus() else 1.0)
-        found = self._hand.deflections
+        found = self._stick.deflections
         cross = QRectF(2, 2, _SIDE, _SIDE)
         slider = QRectF(2 + _SIDE + _GAP, 2, _SLIDER, _SIDE)
         for area in (cross, slider):

@@ -9,9 +9,9 @@ from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.teleoperation import wording
-from rotemina.plugins.teleoperation.hand import SHARES, Hand
 from rotemina.plugins.teleoperation.pad_area import PadArea
 from rotemina.plugins.teleoperation.section import Section, SteadyChoice, button, plain_text
+from rotemina.plugins.teleoperation.virtual_stick import SHARES, VirtualStick
 
 _KEYS = marked("teleoperation", "arrows  x y\npage ↑ ↓  z\nshift  × 10\nctrl  × 0.1\nspace  clutch")
 
@@ -21,8 +21,8 @@ class PadSection(Section):
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(translate("teleoperation", "Pad"))
-        self._hand = Hand(workbench.operation.pad)
-        self.area = PadArea(workbench, self._hand)
+        self._stick = VirtualStick(workbench.operation.pad)
+        self.area = PadArea(workbench, self._stick)
         self.most = SteadyChoice()
         for share in SHARES:
             self.most.addItem(
@@ -37,8 +37,8 @@ class PadSection(Section):
         )
         self.most.currentIndexChanged.connect(self._use_most)
         self.take_over = button(translate("teleoperation", "Take over"), "", lambda: None)
-        self.take_over.pressed.connect(lambda: self._hand.take_over(True))
-        self.take_over.released.connect(lambda: self._hand.take_over(False))
+        self.take_over.pressed.connect(lambda: self._stick.take_over(True))
+        self.take_over.released.connect(lambda: self._stick.take_over(False))
         kept = self.take_over.sizePolicy()
         kept.setRetainSizeWhenHidden(True)  # nothing leaps when a joystick is plugged in
         self.take_over.setSizePolicy(kept)
@@ -80,4 +80,4 @@ class PadSection(Section):
 
     def _use_most(self, _: int) -> None:
         self.area.release()
-        self._hand.most = self.most.currentData()
+        self._stick.most = self.most.currentData()

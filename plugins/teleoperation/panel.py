@@ -71,6 +71,6 @@ class TeleoperationPanel(Panel):
         self.head.refresh(view, state, stale=stale)
         self.pad.refresh(view, state)
         self.choices.refresh(state, operation.intent)
-        self.coordinates.refresh(state, operation.devices.desk, stale=stale)
+        self.coordinates.refresh(state, operation.devices.arbiter, stale=stale)
         self.reserve.refresh(machine, state)
         self.editor.refresh(machine, state)

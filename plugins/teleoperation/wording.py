@@ -7,15 +7,15 @@ from typing import NamedTuple
 from rotemina.app.display import Scale, axis_scale, label
 from rotemina.app.motion.teleoperation.devices_view import DevicesView
 from rotemina.app.motion.teleoperation.impedance import Impedance
+from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.linear_position import LinearPosition
 from rotemina.app.motion.teleoperation.linear_rate import LinearRate
 from rotemina.app.motion.teleoperation.mapped_device import AxisView
 from rotemina.app.motion.teleoperation.mapping import PluggedDevice
 from rotemina.app.motion.teleoperation.modes import ALL_AXES, TIP_MODES
-from rotemina.app.motion.teleoperation.operator_desk import DeviceView
 from rotemina.app.motion.teleoperation.plain_units import tilt_text
-from rotemina.app.motion.teleoperation.profile import Seat
+from rotemina.app.motion.teleoperation.profile import OperatorRole
 from rotemina.app.motion.teleoperation.scales import LawKind
 from rotemina.app.motion.teleoperation.views import CoordinateView, TeleoperationState
 from rotemina.app.shell.language import marked, translate
@@ -216,7 +216,7 @@ def pad_of(view: DevicesView) -> DeviceView | None:
 
 def is_trainee(pad: DeviceView | None) -> bool:
     """Whether somebody else drives first, and the pad may take over."""
-    return pad is not None and pad.seat is Seat.TRAINEE
+    return pad is not None and pad.seat is OperatorRole.TRAINEE
 
 
 def _moving(device: DeviceView) -> tuple[AxisView, ...]:

@@ -7,7 +7,7 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.blind.curves import draw_curve
-from rotemina.sim.blind.part import Axis, Course, Part, Stage
+from rotemina.sim.blind.part import Axis, Part, SimulationRun, Stage
 from rotemina.sim.blind.preisach import draw_plane, run_plane
 
 
@@ -15,7 +15,7 @@ def gain_error(axis: Axis, rng: np.random.Generator) -> Part:
     """Sensitivity off by a share; size is the share."""
     sign = rng.choice([-1.0, 1.0])
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         return np.asarray(values * (1.0 + sign * size))
 
     return Part("gain_error", axis, Stage.ACTUATOR, act, (1e-5, 0.1))
@@ -25,7 +25,7 @@ def static_nonlinearity(axis: Axis, rng: np.random.Generator) -> Part:
     """Bowed characteristic; size in m or rad."""
     curve = draw_curve(axis, rng)
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         return values + size * curve(values)
 
     return Part("static_nonlinearity", axis, Stage.ACTUATOR, act, (axis.floor, 0.1 * axis.span))
@@ -44,7 +44,7 @@ def _preisach(axis: Axis, rng: np.random.Generator) -> Part:
     slope, rest = np.polyfit(np.concatenate([ramp[401:], ramp[1:401]]), loop, 1)
     width = float(np.max(loop[:400][::-1] - loop[400:]))
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         inputs = (values - axis.low) / axis.span
         bent = run_plane(plane.everett, inputs) - (slope * inputs + rest)
         return np.asarray(values + axis.span * size / width * bent)
@@ -58,7 +58,7 @@ def _maxwell_slip(axis: Axis, rng: np.random.Generator) -> Part:
     stiffness = rng.gamma(2.0, 1.0, 40)
     stiffness /= np.sum(stiffness * strengths)
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         inputs = (values - axis.low) / axis.span
         pull = _slipping(inputs, strengths, stiffness)
         return np.asarray(values - 0.5 * axis.span * size * pull)
@@ -89,8 +89,8 @@ def creep(axis: Axis, rng: np.random.Generator) -> Part:
     per_decade = 8.0 / np.log10(times[-1] / times[0])
     weights = rng.uniform(0.75, 1.25, 9) / per_decade
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
-        return values + size * _crept(values, weights, course.step_s / times, course.lead)
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
+        return values + size * _crept(values, weights, run.step_s / times, run.lead)
 
     return Part("creep", axis, Stage.ACTUATOR, act, (0.001, 0.05))
 
@@ -116,11 +116,11 @@ def lost_steps(axis: Axis, rng: np.random.Generator) -> Part:
     """Four full steps, or a multiple, lost at the highest load; size counts the events."""
     seed = int(rng.integers(2**31))
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
-        draw = course.chance(seed)
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
+        draw = run.chance(seed)
         out = values.copy()
-        for at in _busiest(values, course, round(size), draw):
-            way = np.sign(values[min(at + 20 * course.every, len(values) - 1)] - values[at])
+        for at in _busiest(values, run, round(size), draw):
+            way = np.sign(values[min(at + 20 * run.every, len(values) - 1)] - values[at])
             out[at:] -= way * 4.0 * axis.full_step * draw.choice([1.0, 1.0, 1.0, 2.0])
         return out
 
@@ -128,12 +128,12 @@ def lost_steps(axis: Axis, rng: np.random.Generator) -> Part:
 
 
 def _busiest(
-    values: FloatArray, course: Course, number: int, draw: np.random.Generator
+    values: FloatArray, run: SimulationRun, number: int, draw: np.random.Generator
 ) -> list[int]:
     """Return up to ``number`` fine steps, in different parts of the run, of the highest load."""
-    width = 20 * course.every
+    width = 20 * run.every
     load = np.abs(values[2 * width :] - 2.0 * values[width:-width] + values[: -2 * width])
-    load[: course.lead + width] = 0.0
+    load[: run.lead + width] = 0.0
     parts = np.array_split(np.arange(len(load)), 8)
     heaviest = [load[part].max() for part in parts]
     busy = [k for k in draw.permutation(8) if heaviest[k] >= 0.7 * max(heaviest)]
@@ -188,7 +188,7 @@ def microstep_error(axis: Axis, rng: np.random.Generator) -> Part:
     """Error with a period of four full steps; size is its amplitude, m."""
     wave = periodic(axis, 4.0 * axis.full_step, rng, 4, 0.0)
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         return values + size * wave(values)
 
     return Part("microstep_error", axis, Stage.ACTUATOR, act, (5e-8, 3e-6))
@@ -198,7 +198,7 @@ def leadscrew_error(axis: Axis, rng: np.random.Generator) -> Part:
     """Error with a period of one pitch or a fraction, phase slowly modulated; size in m."""
     wave = periodic(axis, axis.pitch / rng.choice([1.0, 1.0, 1.0, 2.0]), rng, 3, 0.3)
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         return values + size * wave(values)
 
     return Part("leadscrew_error", axis, Stage.ACTUATOR, act, (5e-8, 2e-5))

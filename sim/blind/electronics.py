@@ -7,14 +7,14 @@ import numpy as np
 
 from rotemina.sim.arrays import ComplexArray, FloatArray
 from rotemina.sim.blind.filters import lagged, mode_poles, shifted
-from rotemina.sim.blind.part import Axis, Course, Part, Stage
+from rotemina.sim.blind.part import Axis, Part, SimulationRun, Stage
 
 
 def delay(axis: Axis, rng: np.random.Generator) -> Part:
     """Transport delay; size in seconds."""
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
-        return shifted(values, size / course.step_s)
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
+        return shifted(values, size / run.step_s)
 
     return Part("delay", axis, Stage.DRIVE, act, (1e-4, 1.5e-2))
 
@@ -37,8 +37,8 @@ def amplifier_lag(axis: Axis, rng: np.random.Generator) -> Part:
     """Bandwidth of the amplifier; size is its low-frequency delay in seconds."""
     poles = lag_poles(rng)
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
-        return lagged(values, poles / size, course.step_s)
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
+        return lagged(values, poles / size, run.step_s)
 
     return Part("amplifier_lag", axis, Stage.DRIVE, act, (1e-4, 2e-2))
 
@@ -47,8 +47,8 @@ def slew_limit(axis: Axis, rng: np.random.Generator) -> Part:
     """Limit the current into a capacitance; size is 10 ranges/s over the greatest rate."""
     sharpness = rng.uniform(3.0, 12.0)
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
-        return _charged(values, 10.0 * axis.span / size * course.step_s, sharpness)
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
+        return _charged(values, 10.0 * axis.span / size * run.step_s, sharpness)
 
     return Part("slew_limit", axis, Stage.DRIVE, act, (1.0, 10.0))
 
@@ -72,7 +72,7 @@ def saturation(axis: Axis, rng: np.random.Generator) -> Part:
     bend = axis.span * rng.uniform(0.002, 0.03)
     ends = ((True, True), (True, False), (False, True))[rng.integers(3)]
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         low, high = axis.low + size * axis.span, axis.low + (1.0 - size) * axis.span
         out = values
         if ends[0]:
@@ -88,7 +88,7 @@ def quantization(axis: Axis, rng: np.random.Generator) -> Part:
     """Coarse converter or micro-steps, mid-tread and with an offset; size is the step, m or rad."""
     phase = rng.uniform()
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         return np.asarray((np.round(values / size + phase) - phase) * size)
 
     return Part("quantization", axis, Stage.DRIVE, act, (5.0 * axis.floor, 0.02 * axis.span))

@@ -7,7 +7,7 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.blind import mechanics
-from rotemina.sim.blind.part import Axis, Course, Part, Stage
+from rotemina.sim.blind.part import Axis, Part, SimulationRun, Stage
 
 _BRISTLES = 6
 _ALL_SHARES = 21.0  # 1 + 2 + … + 6
@@ -34,7 +34,7 @@ def backlash(axis: Axis, rng: np.random.Generator) -> Part:
     bristles = np.exp(rng.uniform(np.log(0.03), np.log(0.4)))
     power = rng.uniform(1.0, 2.0)
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         half_gap = 0.5 * size / (1.0 + flank)
         return np.asarray(half_gap * _pushed(values / half_gap, flank, bristles, power))
 
@@ -88,9 +88,9 @@ def friction(axis: Axis, rng: np.random.Generator) -> Part:
     viscous = rng.uniform(0.0, 0.1) * axis.damping
     shape = fifth.get(code, rng.uniform(0.4, 0.8))
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         # No stiffer than the fine step can follow.
-        reach = max(length, 8.0 * size * course.step_s**2 / axis.mass)
+        reach = max(length, 8.0 * size * run.step_s**2 / axis.mass)
         numbers = [size, size * other, static, shape, reach, 3e3, viscous]
         return row(code, axis, numbers)
 
@@ -104,7 +104,7 @@ def contact(axis: Axis, rng: np.random.Generator) -> Part:
     at = axis.start + (1.0 - inside if side > 0.0 else inside) * axis.travel
     power, damper = rng.choice([1.5, 1.5, 2.0]), rng.uniform(0.0, 0.5)
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         reach = 0.2 * axis.travel
         stiff = size * axis.stiffness * reach ** (1.0 - power)
         return row(mechanics.CONTACT, axis, [at, stiff, damper / reach * 1e-3, side, power])
@@ -120,7 +120,7 @@ def stiffness_nonlinearity(axis: Axis, rng: np.random.Generator) -> Part:
     # Nowhere in the range so near its pole that the tangent is cut off: it would harden no more.
     length = 1.2 * max(rest - axis.low, axis.low + axis.span - rest)
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         stiff = size * axis.stiffness * length
         return row(mechanics.HARDENING, axis, [stiff, rest, length, law, sharp])
 
@@ -132,7 +132,7 @@ def resonance_mismatch(axis: Axis, rng: np.random.Generator) -> Part:
     sign = rng.choice([-1.0, 1.0])
     damping = rng.uniform(-2.0, 2.0)
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         scales = [1.0 + sign * size, float(np.exp(damping * size)), 0.0, 0.0, 0.0]
         return row(0, axis, scales)
 
@@ -146,7 +146,7 @@ def flexible_mode(axis: Axis, rng: np.random.Generator) -> Part:
     frequencies = own * rng.choice([rng.uniform(0.3, 0.75), rng.uniform(1.4, 2.2)], number)
     damping = rng.uniform(0.005, 0.05)
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         rows = [row(1, axis, [size / (1 + i), f, damping]) for i, f in enumerate(frequencies)]
         return np.array(rows)
 

@@ -9,7 +9,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.blind import mechanics
 from rotemina.sim.blind.mechanics import Structure
-from rotemina.sim.blind.part import Axis, Course, Part, Stage
+from rotemina.sim.blind.part import Axis, Part, SimulationRun, Stage
 from rotemina.sim.robot.matrices import inertia_matrices
 from rotemina.sim.robot.model import PiezoAxis, Robot, StepperAxis
 
@@ -50,47 +50,47 @@ class Machine:
         """Run the machine over the commands, after a rise to the first one, long ago."""
         every = int(np.ceil(commands.step_s / _FINE_S - 1e-9))
         step_s = commands.step_s / every
-        course = Course(step_s, every, round(_LEAD_S / step_s), seed)
-        drive = self._driven(np.repeat(commands.values, every, axis=0), course)
-        targets = self._through(drive, course, Stage.ACTUATOR)
-        motion = self._moved(targets, course)
-        passed = self._through(motion, course, Stage.SENSOR)
-        rows = slice(course.lead, None, every)
-        reading = self._through(passed[rows], course, Stage.READING)
+        run = SimulationRun(step_s, every, round(_LEAD_S / step_s), seed)
+        drive = self._driven(np.repeat(commands.values, every, axis=0), run)
+        targets = self._through(drive, run, Stage.ACTUATOR)
+        motion = self._moved(targets, run)
+        passed = self._through(motion, run, Stage.SENSOR)
+        rows = slice(run.lead, None, every)
+        reading = self._through(passed[rows], run, Stage.READING)
         return Response(drive[rows], motion[rows], reading)
 
     def _of(self, stage: Stage) -> list[Part]:
         return [part for part in self.parts if part.stage is stage]
 
-    def _driven(self, commanded: FloatArray, course: Course) -> FloatArray:
-        share = np.arange(course.lead) * course.step_s / _LEAD_RISE_S
+    def _driven(self, commanded: FloatArray, run: SimulationRun) -> FloatArray:
+        share = np.arange(run.lead) * run.step_s / _LEAD_RISE_S
         rise = 0.5 - 0.5 * np.cos(np.pi * np.minimum(share, 1.0))
         first = commanded[0]
         low = np.array([axis.low for axis in self.axes])
         near = np.array([axis.kind == "stepper" for axis in self.axes])
         origin = np.where(near, np.maximum(low, first - _LEAD_TRAVEL_M), low)
         lead = origin + rise[:, None] * (first - origin)
-        return self._through(np.concatenate([lead, commanded]), course, Stage.DRIVE)
+        return self._through(np.concatenate([lead, commanded]), run, Stage.DRIVE)
 
-    def _through(self, values: FloatArray, course: Course, stage: Stage) -> FloatArray:
+    def _through(self, values: FloatArray, run: SimulationRun, stage: Stage) -> FloatArray:
         out = values.copy(order="F")
         for part in self._of(stage):
             i = part.axis.index
-            out[:, i] = part.act(out[:, i].copy(), course, part.size)
+            out[:, i] = part.act(out[:, i].copy(), run, part.size)
         return out
 
-    def _moved(self, targets: FloatArray, course: Course) -> FloatArray:
+    def _moved(self, targets: FloatArray, run: SimulationRun) -> FloatArray:
         nothing = np.zeros(0)
-        loads = [part.act(nothing, course, part.size) for part in self._of(Stage.LOAD)]
+        loads = [part.act(nothing, run, part.size) for part in self._of(Stage.LOAD)]
         table = np.array(loads).reshape(-1, mechanics.ROW)
         structure = self.structure
         for part in self._of(Stage.STRUCTURE):
-            for change in np.atleast_2d(part.act(nothing, course, part.size)):
+            for change in np.atleast_2d(part.act(nothing, run, part.size)):
                 structure = _changed(structure, change)
-        plain = mechanics.move(structure, targets, table, course.step_s)
+        plain = mechanics.move(structure, targets, table, run.step_s)
         motion = plain.copy()
         for part in self._of(Stage.MOTION):
-            motion[:, part.axis.index] += part.act(plain, course, part.size)
+            motion[:, part.axis.index] += part.act(plain, run, part.size)
         return motion
 
 

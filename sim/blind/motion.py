@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.blind.filters import lagged, mode_poles
-from rotemina.sim.blind.part import Axis, Course, Part, Stage
+from rotemina.sim.blind.part import Axis, Part, SimulationRun, Stage
 
 
 def cross_coupling(axis: Axis, rng: np.random.Generator, other: Axis) -> Part:
@@ -17,10 +17,10 @@ def cross_coupling(axis: Axis, rng: np.random.Generator, other: Axis) -> Part:
     through = rng.uniform() < 0.3
     poles = mode_poles(rng.uniform(15.0, 120.0), rng.uniform(0.02, 0.3))
 
-    def act(motion: FloatArray, course: Course, size: float) -> FloatArray:
-        leaking = motion[:, other.index] - motion[course.lead, other.index]
+    def act(motion: FloatArray, run: SimulationRun, size: float) -> FloatArray:
+        leaking = motion[:, other.index] - motion[run.lead, other.index]
         if through:
-            leaking = lagged(leaking, poles, course.step_s)
+            leaking = lagged(leaking, poles, run.step_s)
         return np.asarray(sign * size * leaking)
 
     sizes = (1e-5, 1.5)
@@ -33,8 +33,8 @@ def thermal_drift(axis: Axis, rng: np.random.Generator) -> Part:
     share = rng.uniform(0.15, 0.7)
     sign = rng.choice([-1.0, 1.0])
 
-    def act(motion: FloatArray, course: Course, size: float) -> FloatArray:
-        warm_s = np.maximum(np.arange(len(motion)) - course.lead, 0) * course.step_s
+    def act(motion: FloatArray, run: SimulationRun, size: float) -> FloatArray:
+        warm_s = np.maximum(np.arange(len(motion)) - run.lead, 0) * run.step_s
         rise = share * np.expm1(-warm_s / quick) + (1.0 - share) * np.expm1(-warm_s / slow)
         return np.asarray(-sign * size * rise)
 
@@ -47,9 +47,9 @@ def vibration(axis: Axis, rng: np.random.Generator) -> Part:
     swelling, turning = rng.uniform(0.0, 0.15), rng.uniform(0.0, 0.3)
     frequencies = np.exp(rng.uniform(np.log(6.0), np.log(120.0), rng.choice([1, 1, 2, 3])))
 
-    def act(motion: FloatArray, course: Course, size: float) -> FloatArray:
-        draw = course.chance(seed)
-        time_s = np.arange(len(motion)) * course.step_s
+    def act(motion: FloatArray, run: SimulationRun, size: float) -> FloatArray:
+        draw = run.chance(seed)
+        time_s = np.arange(len(motion)) * run.step_s
         total = np.zeros(len(motion))
         for order, frequency in enumerate(frequencies):
             phase = draw.uniform(0.0, 2.0 * pi) + turning * _wander(time_s, draw)

@@ -54,7 +54,7 @@ class Axis:
 
 
 @dataclass(frozen=True, slots=True)
-class Course:
+class SimulationRun:
     """One run through the machine: its fine time grid, and chance of its own.
 
     ``lead`` fine steps of ``step_s`` pass before the record's first sample; ``every`` fine steps
@@ -82,7 +82,7 @@ class Course:
 #   MOTION                   (n, m) motion of all axes -> (n,) what is added to this axis
 #   READING                  (n,) true position at the samples -> reading
 #   LOAD, STRUCTURE          (0,) -> the row of numbers that `mechanics` knows
-Act = Callable[[FloatArray, Course, float], FloatArray]
+Act = Callable[[FloatArray, SimulationRun, float], FloatArray]
 
 
 @dataclass(frozen=True, slots=True)

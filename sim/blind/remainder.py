@@ -7,7 +7,7 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.blind.filters import lagged
-from rotemina.sim.blind.part import Axis, Course, Part, Stage
+from rotemina.sim.blind.part import Axis, Part, SimulationRun, Stage
 
 REMAINDER = "remainder"
 LEAST_SHARE, MOST_SHARE = 0.05, 0.3  # of the gap's rms
@@ -29,10 +29,10 @@ def _of_motion(axis: Axis, rng: np.random.Generator) -> Part:
     waves = rng.normal(0.0, (4.0, 1.5, 1.0), (_WAVES, 3))
     phases = rng.uniform(0.0, 2.0 * pi, _WAVES)
 
-    def act(motion: FloatArray, course: Course, size: float) -> FloatArray:
-        own = course.settled(motion[:, axis.index])
-        slow = lagged(np.gradient(own, course.step_s), np.array([-1.0 / speed_s]), course.step_s)
-        active = lagged(np.abs(slow), np.array([-1.0 / active_s]), course.step_s)
+    def act(motion: FloatArray, run: SimulationRun, size: float) -> FloatArray:
+        own = run.settled(motion[:, axis.index])
+        slow = lagged(np.gradient(own, run.step_s), np.array([-1.0 / speed_s]), run.step_s)
+        active = lagged(np.abs(slow), np.array([-1.0 / active_s]), run.step_s)
         seen = ((own - axis.start) / axis.travel, slow / pace, active / pace)
         made = np.zeros(len(own))
         for (place, speed, recent), phase in zip(waves, phases, strict=True):
@@ -47,10 +47,10 @@ def _of_time(axis: Axis, rng: np.random.Generator) -> Part:
     colour = np.array([-2.0 * pi * rng.uniform(0.3, 6.0), -2.0 * pi * rng.uniform(6.0, 20.0)])
     own_seed = int(rng.integers(2**31))
 
-    def act(motion: FloatArray, course: Course, size: float) -> FloatArray:
+    def act(motion: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         # The same in every run, whatever its rate: white on a grid of its own, then between.
         grid_s = 0.01
-        time_s = np.arange(len(motion)) * course.step_s
+        time_s = np.arange(len(motion)) * run.step_s
         number = int(time_s[-1] / grid_s) + 2
         white = np.random.default_rng(own_seed).normal(0.0, 1.0, number)
         coloured = lagged(white, colour, grid_s)

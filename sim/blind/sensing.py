@@ -8,14 +8,14 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.blind.curves import draw_curve
 from rotemina.sim.blind.electronics import lag_poles
 from rotemina.sim.blind.filters import lagged, smoothly_shifted
-from rotemina.sim.blind.part import Axis, Course, Part, Stage
+from rotemina.sim.blind.part import Axis, Part, SimulationRun, Stage
 
 
 def sensor_gain(axis: Axis, rng: np.random.Generator) -> Part:
     """Sensitivity of the sensor off by a share; size is the share."""
     sign = rng.choice([-1.0, 1.0])
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         return np.asarray(values * (1.0 + sign * size))
 
     return Part("sensor_gain", axis, Stage.READING, act, (1e-5, 0.1))
@@ -25,7 +25,7 @@ def sensor_nonlinearity(axis: Axis, rng: np.random.Generator) -> Part:
     """Bowed characteristic of the sensor; size in m or rad."""
     curve = draw_curve(axis, rng)
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         return values + size * curve(values)
 
     return Part("sensor_nonlinearity", axis, Stage.READING, act, (axis.floor, 0.1 * axis.span))
@@ -35,8 +35,8 @@ def sensor_lag(axis: Axis, rng: np.random.Generator) -> Part:
     """Bandwidth of the sensor; size is its low-frequency delay in seconds."""
     poles = lag_poles(rng)
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
-        return lagged(values, poles / size, course.step_s)
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
+        return lagged(values, poles / size, run.step_s)
 
     return Part("sensor_lag", axis, Stage.SENSOR, act, (1e-4, 2e-2))
 
@@ -46,8 +46,8 @@ def sensor_noise(axis: Axis, rng: np.random.Generator) -> Part:
     seed = int(rng.integers(2**31))
     laplacian = rng.uniform() < 0.4
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
-        draw = course.chance(seed)
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
+        draw = run.chance(seed)
         if laplacian:
             return values + draw.laplace(0.0, size / 2.0**0.5, len(values))
         return values + draw.normal(0.0, size, len(values))
@@ -59,7 +59,7 @@ def sensor_quantization(axis: Axis, rng: np.random.Generator) -> Part:
     """Coarser steps than declared, mid-tread with an offset; size is the step, m or rad."""
     phase = rng.uniform()
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         return np.asarray((np.round(values / size + phase) - phase) * size)
 
     return Part(
@@ -72,9 +72,9 @@ def sensor_drift(axis: Axis, rng: np.random.Generator) -> Part:
     seed = int(rng.integers(2**31))
     power = rng.choice([1.0, 1.0, 0.5, 0.6])
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
-        step_s = course.step_s * course.every
-        draw = course.chance(seed).normal(size=max(len(values), round(64.0 / step_s)))
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
+        step_s = run.step_s * run.every
+        draw = run.chance(seed).normal(size=max(len(values), round(64.0 / step_s)))
         tones = np.fft.rfft(draw)
         hertz = np.maximum(np.fft.rfftfreq(len(draw), step_s), 1.0 / 64.0)
         walk = np.fft.irfft(tones * np.sqrt(step_s) / hertz**power, len(draw))[: len(values)]
@@ -89,8 +89,8 @@ def sensor_outliers(axis: Axis, rng: np.random.Generator) -> Part:
     rate = 10.0 ** rng.uniform(-3.0, -2.2)
     form = rng.integers(3)
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
-        draw = course.chance(seed)
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
+        draw = run.chance(seed)
         out = values.copy()
         for k in np.flatnonzero(draw.uniform(size=len(values)) < rate):
             length = int(draw.integers(1, 4)) if form else 1
@@ -112,7 +112,7 @@ def encoder_interpolation(axis: Axis, rng: np.random.Generator) -> Part:
     offsets, gain = rng.normal(0.0, 1.0, 2), rng.normal(0.0, 0.7)
     skew = rng.normal(0.0, 0.7)
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         turn = 2.0 * pi * values / period
         sine = (1.0 + size * gain) * np.sin(turn + size * skew) + size * offsets[0]
         cosine = np.cos(turn) + size * offsets[1]
@@ -128,8 +128,8 @@ def clock_skew(axis: Axis, rng: np.random.Generator) -> Part:
     """Time base off by a share of the time since the start; size is the share."""
     sign = rng.choice([-1.0, 1.0])
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
-        late = sign * size * np.maximum(np.arange(len(values)) - course.lead, 0)
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
+        late = sign * size * np.maximum(np.arange(len(values)) - run.lead, 0)
         return smoothly_shifted(values, late)
 
     return Part("clock_skew", axis, Stage.SENSOR, act, (5e-6, 2e-3))

@@ -103,7 +103,7 @@ class Trial:
         added = []
         for part in parts:
             rest = self.readings([other for other in parts if other is not part])
-            added.append(strung(whole, rest, part.axis))
+            added.append(residual_difference(whole, rest, part.axis))
         for number, part in enumerate(parts):
             others = [a for a, p in zip(added, parts, strict=True) if p.axis is part.axis]
             shapes = [one for one in others if one is not added[number]]
@@ -131,7 +131,9 @@ class Trial:
         return list(np.concatenate(records, axis=1))
 
 
-def strung(first: list[FloatArray], second: list[FloatArray], axis: Axis) -> FloatArray:
+def residual_difference(
+    first: list[FloatArray], second: list[FloatArray], axis: Axis
+) -> FloatArray:
     """Return the difference of two sets of readings (rows,), the mean of each record removed."""
     gaps = [a[:, axis.index] - b[:, axis.index] for a, b in zip(first, second, strict=True)]
     return np.concatenate([gap - gap.mean() for gap in gaps])
@@ -153,4 +155,4 @@ def record_seed(seed: int, number: int) -> int:
 
 def difference(first: list[FloatArray], second: list[FloatArray], axis: Axis) -> float:
     """Return the rms of the difference of two sets of readings, means removed, in floors."""
-    return float(np.sqrt(np.mean(strung(first, second, axis) ** 2)) / axis.floor)
+    return float(np.sqrt(np.mean(residual_difference(first, second, axis) ** 2)) / axis.floor)

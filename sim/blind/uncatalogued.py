@@ -9,24 +9,24 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.blind import mechanics
 from rotemina.sim.blind.filters import lagged, mode_poles, shifted
 from rotemina.sim.blind.loads import row
-from rotemina.sim.blind.part import Axis, Course, Part, Stage
+from rotemina.sim.blind.part import Axis, Part, SimulationRun, Stage
 
 
 def speed_history_gain(axis: Axis, rng: np.random.Generator) -> Part:
     """Gain that depends on how fast the axis moved lately; size is the share."""
     memory_s = rng.uniform(0.3, 1.5)
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
-        speed = np.abs(np.gradient(_smoothed(values, course)))
-        recent = lagged(speed, np.array([-1.0 / memory_s]), course.step_s)
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
+        speed = np.abs(np.gradient(_smoothed(values, run)))
+        recent = lagged(speed, np.array([-1.0 / memory_s]), run.step_s)
         middle = axis.start + 0.5 * axis.travel
         return np.asarray(values + size * (values - middle) * recent / (recent.std() + 1e-30))
 
     return Part("unknown", axis, Stage.ACTUATOR, act, (1e-4, 0.1))
 
 
-def _smoothed(values: FloatArray, course: Course) -> FloatArray:
-    return lagged(course.settled(values), mode_poles(40.0, 0.8), course.step_s)
+def _smoothed(values: FloatArray, run: SimulationRun) -> FloatArray:
+    return lagged(run.settled(values), mode_poles(40.0, 0.8), run.step_s)
 
 
 def breathing_stiffness(axis: Axis, rng: np.random.Generator) -> Part:
@@ -36,7 +36,7 @@ def breathing_stiffness(axis: Axis, rng: np.random.Generator) -> Part:
     within = (0.0, 0.03) if axis.kind == "stepper" else (0.3, 0.7)
     rest = axis.start + rng.uniform(*within) * axis.travel
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         return row(mechanics.BREATHING, axis, [size * axis.stiffness, rate, phase, rest])
 
     return Part("unknown", axis, Stage.LOAD, act, (1e-5, 0.3))
@@ -47,10 +47,10 @@ def quadratic_mode(axis: Axis, rng: np.random.Generator) -> Part:
     poles = mode_poles(rng.uniform(0.4, 3.0), rng.uniform(0.05, 0.4))
     at = rng.uniform(0.4, 0.6)
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
-        x = (course.settled(values) - axis.start) / axis.travel - at
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
+        x = (run.settled(values) - axis.start) / axis.travel - at
         curve = 4.0 * x**2
-        swing = lagged(curve, poles, course.step_s) - curve
+        swing = lagged(curve, poles, run.step_s) - curve
         return np.asarray(values + size * axis.travel * swing)
 
     return Part("unknown", axis, Stage.ACTUATOR, act, (1e-5, 0.1))
@@ -61,9 +61,9 @@ def wandering_detents(axis: Axis, rng: np.random.Generator) -> Part:
     period = axis.travel * rng.uniform(0.02, 0.12)
     drift_hz, memory_s = rng.uniform(0.1, 0.6), rng.uniform(0.3, 2.0)
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
-        time_s = np.arange(len(values)) * course.step_s
-        past = lagged(course.settled(values), np.array([-1.0 / memory_s]), course.step_s)
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
+        time_s = np.arange(len(values)) * run.step_s
+        past = lagged(run.settled(values), np.array([-1.0 / memory_s]), run.step_s)
         turn = (values - 0.7 * past) / period + drift_hz * time_s
         return np.asarray(values + size * np.sin(2.0 * pi * turn))
 
@@ -74,12 +74,12 @@ def busy_delay(axis: Axis, rng: np.random.Generator) -> Part:
     """Delay that grows while the other end of the program is busy; size in seconds."""
     period_s, duty = rng.uniform(0.7, 2.5), rng.uniform(0.3, 0.6)
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         x = (values - axis.start) / axis.travel
-        time_s = np.arange(len(values)) * course.step_s
+        time_s = np.arange(len(values)) * run.step_s
         busy = ((time_s / period_s) % 1.0 < duty) * 1.0
-        late = lagged(busy * (0.3 + np.abs(x)), np.array([-20.0]), course.step_s)
-        return shifted(values, size / course.step_s * late)
+        late = lagged(busy * (0.3 + np.abs(x)), np.array([-20.0]), run.step_s)
+        return shifted(values, size / run.step_s * late)
 
     return Part("unknown", axis, Stage.DRIVE, act, (2e-4, 3e-2))
 
@@ -88,9 +88,9 @@ def weary_damping(axis: Axis, rng: np.random.Generator) -> Part:
     """Slow relaxation whose rate depends on the direction of past motion; size is its share."""
     up, down = rng.uniform(0.1, 0.4), rng.uniform(0.8, 3.0)
 
-    def act(values: FloatArray, course: Course, size: float) -> FloatArray:
-        start = course.settled(values)
-        late = start - _limping(start, course.step_s / up, course.step_s / down)
+    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
+        start = run.settled(values)
+        late = start - _limping(start, run.step_s / up, run.step_s / down)
         return values - size * late
 
     return Part("unknown", axis, Stage.ACTUATOR, act, (1e-5, 0.1))
@@ -111,13 +111,13 @@ def product_of_axes(axis: Axis, rng: np.random.Generator, others: tuple[Axis, ..
     first, second = others[0], others[-1]
     memory_s = rng.uniform(0.1, 1.0)
 
-    def act(motion: FloatArray, course: Course, size: float) -> FloatArray:
-        motion = course.settled(motion)
+    def act(motion: FloatArray, run: SimulationRun, size: float) -> FloatArray:
+        motion = run.settled(motion)
         x = (motion[:, first.index] - first.start) / first.travel - 0.5
         y = (motion[:, axis.index] - axis.start) / axis.travel - 0.5
         z = (motion[:, second.index] - second.start) / second.travel - 0.5
-        out = 4.0 * lagged(x, np.array([-1.0 / memory_s]), course.step_s) * y
-        out = out + 4.0 * z * lagged(y, np.array([-1.0 / memory_s]), course.step_s)
-        return np.asarray(size * (out - out[course.lead]))
+        out = 4.0 * lagged(x, np.array([-1.0 / memory_s]), run.step_s) * y
+        out = out + 4.0 * z * lagged(y, np.array([-1.0 / memory_s]), run.step_s)
+        return np.asarray(size * (out - out[run.lead]))
 
     return Part("unknown", axis, Stage.MOTION, act, (axis.floor, 0.05 * axis.span))

@@ -33,7 +33,7 @@ class Approaches(NamedTuple):
             )
 
 
-def found_holds(time_s: FloatArray, command: FloatArray) -> IntArray:
+def find_holds(time_s: FloatArray, command: FloatArray) -> IntArray:
     """Return begins and ends (h, 2) of where a command (n,) rests for 0.1 s after a move."""
     changes = np.flatnonzero(np.diff(command) != 0.0) + 1
     begins = np.concatenate([[0], changes])
@@ -48,7 +48,7 @@ def approaches(time_s: FloatArray, command: FloatArray) -> Approaches | None:
 
     A target that was reached more often from one side counts as often as from the other.
     """
-    begins, ends = found_holds(time_s, command).T
+    begins, ends = find_holds(time_s, command).T
     rising = command[begins] > command[begins - 1]
     span = float(np.ptp(command)) or 1.0
     place = np.rint(command[begins] / (_SAME * span)).astype(np.int64)

@@ -20,7 +20,7 @@ from rotemina.sim.calibration.interpolation import found_period
 from rotemina.sim.calibration.iso230 import Positioning, positioning
 from rotemina.sim.calibration.parts import Comparison
 from rotemina.sim.calibration.sensor import SHARES, SensorModel
-from rotemina.sim.calibration.wander import wandering
+from rotemina.sim.calibration.zero_drift import zero_drifts
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import PiezoAxis, Robot
 
@@ -132,7 +132,7 @@ def calibrated(
             fitted, (before, after) = plain, held
     notes = [note for each in comparisons for note in each.losses]
     left = [_remainder(fitted.model, run, bounds) for run in runs]
-    notes += wandering(runs, left, robot.unit(axis) or "m")
+    notes += zero_drifts(runs, left, robot.unit(axis) or "m")
     model = fitted.model if absolute else _kept_middle(fitted.model, travel)
     unit = robot.unit(axis) or "m"
     iso = _positionings(comparisons, model, travel)

@@ -12,7 +12,7 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.errors import CompensationError
-from rotemina.sim.compensate.inverse import Beyond, Inverse
+from rotemina.sim.compensate.inverse import Exceedance, Inverse
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
@@ -80,7 +80,7 @@ def _sweep(start: float, low: float, high: float, inset: float, limits: MotionLi
 def _can_be_told(model: InverseModel, path: FloatArray) -> bool:
     inverse = Inverse(model, 1.0 / _RATE_HZ)
     inverse.run(path)
-    return not inverse.beyond & Beyond.COMMAND
+    return not inverse.beyond & Exceedance.COMMAND
 
 
 def _leg(start: float, end: float, limits: MotionLimits) -> FloatArray:

@@ -24,7 +24,7 @@ _REST = 1e-3  # share of the span by which a command at rest may be missed at th
 _HALVINGS = 50
 
 
-class Beyond(IntFlag):
+class Exceedance(IntFlag):
     """In what a sample went beyond what an inverse saw or the machine can do; 0: in nothing.
 
     LOW, HIGH: the desired position, which was clamped. FAST: its speed, which was not. COMMAND: the
@@ -53,7 +53,7 @@ class Inverse:
 
     Attributes
     ----------
-    beyond : Beyond
+    beyond : Exceedance
         In what the last sample, or the last run, went beyond.
 
     Raises
@@ -69,7 +69,7 @@ class Inverse:
             )
         self.model = model
         self.sample_s = sample_s
-        self.beyond = Beyond(0)
+        self.beyond = Exceedance(0)
         self._numbers = numbers_of(model, sample_s, preview=preview)
         self._state = np.zeros(kernel.FIXED + len(model.creep_times_s) + len(model.radii))
 
@@ -90,7 +90,7 @@ class Inverse:
     def reset(self) -> Self:
         """Forget everything; the next sample begins at rest. Return the inverse itself."""
         self._state[:] = 0.0
-        self.beyond = Beyond(0)
+        self.beyond = Exceedance(0)
         return self
 
     def step(self, desired: float) -> float:
@@ -102,7 +102,7 @@ class Inverse:
         if not np.isfinite(desired):
             return float("nan")
         command, said = kernel.advance(self._numbers, self._state, desired)
-        self.beyond = Beyond(said)
+        self.beyond = Exceedance(said)
         return float(command)
 
     def run(self, desired: FloatArray) -> FloatArray:
@@ -125,7 +125,7 @@ class Inverse:
             )
         command = np.empty_like(desired)
         said = kernel.advance_all(self._numbers, self._state, desired, command)
-        self.beyond = Beyond(int(np.bitwise_or.reduce(said)) if len(said) else 0)
+        self.beyond = Exceedance(int(np.bitwise_or.reduce(said)) if len(said) else 0)
         return command, said
 
     def check(self, desired: FloatArray) -> None:

@@ -98,7 +98,7 @@ def find_stages(
 
     every = max(sum(len(each.command) for each in samples) // _ROWS, 1)
 
-    def left(values: FloatArray) -> FloatArray:
+    def tail(values: FloatArray) -> FloatArray:
         rows, goals = _rows(of(values), samples, every)
         apart = goals - rows @ solved(rows, goals)
         odd = np.concatenate(
@@ -111,7 +111,7 @@ def find_stages(
     high = np.concatenate([[least + MOST_LAG, 1.0, _MOST_LOW], np.full(len(times_s), _MOST_CREEP)])
     scale = np.concatenate([[0.3, 0.3, 0.03], np.full(len(times_s), 1e-2)])
     found = least_squares(
-        left,
+        tail,
         start,
         bounds=(low, high),
         x_scale=scale,

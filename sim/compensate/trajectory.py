@@ -6,7 +6,7 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.errors import CompensationError
-from rotemina.sim.compensate.inverse import Beyond, Inverse
+from rotemina.sim.compensate.inverse import Exceedance, Inverse
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import PiezoAxis, Robot
@@ -91,7 +91,7 @@ def _sent(
         ahead = model.lag_s + 0.5 * (sample_s - model.sample_s)
         desired = np.interp(rows + ahead / sample_s, rows, desired)
     sent, said = inverse.run_and_tell(desired)
-    beyond = (said & Beyond.COMMAND) != 0
+    beyond = (said & Exceedance.COMMAND) != 0
     if beyond.any():
         low, high = model.command_range
         row = int(np.argmax(beyond))

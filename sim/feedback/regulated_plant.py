@@ -140,7 +140,7 @@ def _by_sample(
 ) -> tuple[Motion, PlantState, FloatArray]:
     """Do it sample by sample, which serves every plant: inputs may act late."""
     asked, parts, begin_s = command.copy(), [], float(state.time_s[-1])
-    columns, told_of = list(controllers), plant.open_loop_inputs
+    columns, open_loop = list(controllers), plant.open_loop_inputs
     offsets = np.array([axis.offset for axis in plant.robot.axes.values()], dtype=np.float64)
     added = np.empty((len(command), len(columns)))
     for k in range(len(command)):
@@ -153,7 +153,7 @@ def _by_sample(
             one, read = controllers[index], float(motion.reading[0, index] - offsets[index])
             told[0, index] = one.answer(float(reference[k, index]), read)
             added[k, number] = one.integral
-        state.inputs[-1, columns] = motion.inputs[0, columns] = told_of(told)[0, columns]
+        state.inputs[-1, columns] = motion.inputs[0, columns] = open_loop(told)[0, columns]
         parts.append(motion)
     whole = Motion(*(np.concatenate(one) for one in zip(*parts, strict=True)))
     for number, (index, one) in enumerate(controllers.items()):

@@ -21,13 +21,13 @@ _ROUNDING = 4.0 * float(np.finfo(np.float64).eps)
 
 
 class Aim(NamedTuple):
-    """``pose`` (..., 3) within the bounds, and ``wish``, each joint as it would be without its own.
+    """``pose`` (..., 3) within the bounds, and ``free``, each joint as it would be without its own.
 
     Both thx, thy (rad), zn (m).
     """
 
     pose: FloatArray
-    wish: FloatArray
+    free: FloatArray
 
 
 def aim(chain: Chain, reach: FloatArray, lower: FloatArray, upper: FloatArray) -> Aim:
@@ -39,12 +39,12 @@ def aim(chain: Chain, reach: FloatArray, lower: FloatArray, upper: FloatArray) -
     """
     length = np.clip(_free_length(chain, reach), lower[..., 2], upper[..., 2]) - chain.pin_length
     for _ in range(_TURNS):
-        wish = _wish(chain, reach, length, lower, upper)
-        pose = np.clip(wish, lower, upper)
+        free = _free_joints(chain, reach, length, lower, upper)
+        pose = np.clip(free, lower, upper)
         before, length = length, pose[..., 2] - chain.pin_length
         if np.abs(length - before).max(initial=0.0) <= _ROUNDING * chain.pin_length:
             break
-    return Aim(pose, wish)
+    return Aim(pose, free)
 
 
 def free_pose(chain: Chain, reach: FloatArray) -> FloatArray:
@@ -55,7 +55,7 @@ def free_pose(chain: Chain, reach: FloatArray) -> FloatArray:
     zn = _free_length(chain, reach)
     length = zn - chain.pin_length
     end = np.full(3, np.pi / 2)
-    pose = _wish(chain, reach, np.where(length == 0.0, -chain.pin_length, length), -end, end)
+    pose = _free_joints(chain, reach, np.where(length == 0.0, -chain.pin_length, length), -end, end)
     pose[..., 2] = zn
     return pose
 
@@ -67,7 +67,7 @@ def _free_length(chain: Chain, reach: FloatArray) -> FloatArray:
     return np.asarray(chain.pin_length + np.where(below, -distance, distance))
 
 
-def _wish(
+def _free_joints(
     chain: Chain, reach: FloatArray, length: FloatArray, lower: FloatArray, upper: FloatArray
 ) -> FloatArray:
     thx = _arcsine(-reach[..., 1] / length)

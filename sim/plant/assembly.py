@@ -21,7 +21,7 @@ from rotemina.sim.plant.group import Group, PlacedPart, coupled_axes, groups_of,
 from rotemina.sim.plant.lead import is_led
 from rotemina.sim.plant.machine import (
     Machine,
-    Placed,
+    PlacedEffect,
     machine_of,
     phase_of,
     states_of,
@@ -176,22 +176,22 @@ _LEAK = Motion(step=_leak)
 
 def _placed(
     axes: Sequence[str], effects: Sequence[Attached]
-) -> tuple[list[PlacedPart], list[Placed]]:
+) -> tuple[list[PlacedPart], list[PlacedEffect]]:
     """Return the linear parts, and the step functions with what they see of other axes."""
     parts: list[PlacedPart] = []
-    placed: list[Placed] = []
+    placed: list[PlacedEffect] = []
     ports = 0
     for one in effects:
         source = one.asked.from_axis
         acts = one.formulation.acts
         if not isinstance(acts, Part):
-            placed.append(Placed(one, axes.index(source) if source is not None else -1))
+            placed.append(PlacedEffect(one, axes.index(source) if source is not None else -1))
         elif source is None:
             parts.append(PlacedPart(one.asked.axis, acts.part(one.values, one.facts)))
         else:
             parts.append(PlacedPart(source, acts.part(one.values, one.facts), ports))
             leaking = replace(one.formulation, acts=_LEAK, prepare=_no_numbers)
-            placed.append(Placed(replace(one, formulation=leaking), len(axes) + ports))
+            placed.append(PlacedEffect(replace(one, formulation=leaking), len(axes) + ports))
             ports += 1
     return parts, placed
 

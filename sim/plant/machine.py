@@ -85,7 +85,7 @@ class Machine(NamedTuple):
     member: IntArray
 
 
-class Placed(NamedTuple):
+class PlacedEffect(NamedTuple):
     """An attached effect with the output that it sees as ``other``, -1 for none."""
 
     attached: Attached
@@ -93,7 +93,7 @@ class Placed(NamedTuple):
 
 
 def machine_of(
-    robot: Robot, groups: Sequence[Group], placed: Sequence[Placed]
+    robot: Robot, groups: Sequence[Group], placed: Sequence[PlacedEffect]
 ) -> tuple[Machine, list[Attached]]:
     """Give axes, states and outputs their numbers, and line the step functions up.
 
@@ -217,7 +217,7 @@ def phase_of(attached: Attached) -> str | None:
     return None
 
 
-def _ranked(axes: Sequence[str], placed: Sequence[Placed]) -> list["_Ranked"]:
+def _ranked(axes: Sequence[str], placed: Sequence[PlacedEffect]) -> list["_Ranked"]:
     """Sort the effects that have a step function by axis and phase; equal ones stay in order."""
     ranked = [
         _Ranked(axes.index(one.attached.asked.axis), PHASES.index(phase), one)
@@ -230,7 +230,7 @@ def _ranked(axes: Sequence[str], placed: Sequence[Placed]) -> list["_Ranked"]:
 class _Ranked(NamedTuple):
     axis: int
     phase: int
-    placed: Placed
+    placed: PlacedEffect
 
 
 def _numbers(attached: Attached) -> FloatArray:

@@ -72,8 +72,8 @@ def applied(robot: Robot, solutions: UnitSolutions) -> tuple[Robot, tuple[Entry,
     if least.factor < 1.0:
         zn, thx, thy = least.pose
         raise PlateError(
-            f"the plate yields within the range of motion: {1e-6 * least.place.stress:.0f} MPa "
-            f"{place_text(least.place, robot.plate)} at zn {1e6 * zn:.1f} µm, thx "
+            f"the plate yields within the range of motion: {1e-6 * least.point.stress:.0f} MPa "
+            f"{place_text(least.point, robot.plate)} at zn {1e6 * zn:.1f} µm, thx "
             f"{1e6 * thx:.0f} µrad, thy {1e6 * thy:.0f} µrad; it bears "
             f"{1e-6 * robot.plate.yield_stress:.0f} MPa: make it thinner or wider"
         )

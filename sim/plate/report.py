@@ -28,7 +28,7 @@ def pose_text(pose: tuple[float, float, float]) -> str:
 def safety_text(found: Safety, plate: Plate) -> str:
     """Say how safe the plate is, and whether it yields."""
     said = (
-        f"{1e-6 * found.place.stress:.1f} MPa von Mises {place_text(found.place, plate)}; safety "
+        f"{1e-6 * found.point.stress:.1f} MPa von Mises {place_text(found.point, plate)}; safety "
         f"{found.factor:.2f} against yield at {1e-6 * plate.yield_stress:.0f} MPa"
     )
     return f"THE PLATE YIELDS: {said}" if found.factor < 1.0 else said

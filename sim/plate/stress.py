@@ -13,7 +13,7 @@ from rotemina.sim.robot.model import Robot
 from rotemina.sim.robot.plate import Plate
 
 
-class Place(NamedTuple):
+class StressPoint(NamedTuple):
     """A stress (von Mises, Pa) and where on the plate it is: radius m, direction rad."""
 
     stress: float
@@ -29,12 +29,12 @@ class Safety:
     ----------
     factor : float
         Yield stress over von Mises stress; below 1 the plate yields.
-    place : Place
+    point : StressPoint
     pose : (zn m, thx rad, thy rad)
     """
 
     factor: float
-    place: Place
+    point: StressPoint
     pose: tuple[float, float, float]
 
 
@@ -64,21 +64,21 @@ def principal(stress: FloatArray) -> tuple[FloatArray, FloatArray]:
     return middle + radius, middle - radius
 
 
-def greatest(solutions: UnitSolutions, pose: FloatArray) -> Place:
+def greatest(solutions: UnitSolutions, pose: FloatArray) -> StressPoint:
     """Return the largest von Mises stress and its place."""
     mises = von_mises(surface_stress(solutions, pose))
     point = int(np.argmax(mises))
     x, y = solutions.held.mesh.points[:, point]
-    return Place(float(mises[point]), float(np.hypot(x, y)), float(np.arctan2(y, x)))
+    return StressPoint(float(mises[point]), float(np.hypot(x, y)), float(np.arctan2(y, x)))
 
 
 def safety(solutions: UnitSolutions, pose: FloatArray) -> Safety:
     """Return the safety against yield at one pose (zn m, thx rad, thy rad)."""
-    place = greatest(solutions, pose)
+    point = greatest(solutions, pose)
     yields = solutions.held.plate.yield_stress
-    factor = yields / place.stress if place.stress > 0.0 else float("inf")
+    factor = yields / point.stress if point.stress > 0.0 else float("inf")
     zn, thx, thy = (float(value) for value in pose)
-    return Safety(factor, place, (zn, thx, thy))
+    return Safety(factor, point, (zn, thx, thy))
 
 
 def least_safety(solutions: UnitSolutions, ranges: FloatArray) -> Safety:
@@ -108,9 +108,9 @@ def motion_ranges(robot: Robot) -> FloatArray:
     return np.array([robot.axes[name].range for name in AXES], dtype=np.float64)
 
 
-def place_text(place: Place, plate: Plate) -> str:
+def place_text(point: StressPoint, plate: Plate) -> str:
     """Say where on the plate a place is."""
-    share = (place.radius - plate.hub_radius) / (plate.rim_radius - plate.hub_radius)
+    share = (point.radius - plate.hub_radius) / (plate.rim_radius - plate.hub_radius)
     where = "at the hub" if share < 0.02 else "at the rim" if share > 0.98 else "between"
-    degrees = np.degrees(place.direction) % 360.0
-    return f"{where}, r {1e3 * place.radius:.2f} mm, {degrees:.0f}°"
+    degrees = np.degrees(point.direction) % 360.0
+    return f"{where}, r {1e3 * point.radius:.2f} mm, {degrees:.0f}°"

@@ -15,7 +15,7 @@ _FADES = 0.6  # share of the swing that is gone at the end
 _SOFT_S = 1.0  # of the beginning and of the end
 
 
-def wear(robot: Robot) -> tuple[AxisEffect, ...]:
+def worn_effects(robot: Robot) -> tuple[AxisEffect, ...]:
     """Return what years do to a RoTeMiNa; nothing where the robot is another one."""
     worn = load_robot(WORN)
     return worn.effects if worn.axes == robot.axes else ()

@@ -6,7 +6,7 @@ from enum import StrEnum
 from rotemina.sim.feedback.stability import PEAK_SENSITIVITY
 
 
-class Against(StrEnum):
+class SecondObjective(StrEnum):
     """The second objective, beside the tracking error."""
 
     SETTLING = "settling"

@@ -49,7 +49,7 @@ _TRACKING = 2.0  # over ω·I: how soon the integral is led back
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Try:
+class Evaluation:
     """A loop on one scenario: what is fed forward (n,), and what happened."""
 
     scenario: Scenario
@@ -140,7 +140,7 @@ class TuningProblem:
             return replace(UNUSABLE, peak_sensitivity=peak)
         return worst([self._figures(loop, gains, peak) for loop in self._simulated])
 
-    def try_out(self, gains: Gains) -> tuple[tuple[Try, Try], Figures]:
+    def try_out(self, gains: Gains) -> tuple[tuple[Evaluation, Evaluation], Figures]:
         """Return step and triangle with the axis as it is, and the figures of these two.
 
         Raises
@@ -156,9 +156,9 @@ class TuningProblem:
         step, triangle = self._tries(loop, gains)
         return self._judged(step, triangle, peak)
 
-    def _tries(self, loop: AxisLoop, gains: Gains) -> tuple[Try, Try]:
+    def _tries(self, loop: AxisLoop, gains: Gains) -> tuple[Evaluation, Evaluation]:
         step, triangle = (
-            Try(
+            Evaluation(
                 scenario,
                 feed,
                 loop.follow(gains, scenario.reference, feed=feed, rng=np.random.default_rng(_SEED)),
@@ -167,7 +167,7 @@ class TuningProblem:
         )
         return step, triangle
 
-    def _judged(self, step: Try, triangle: Try, peak: float) -> Figures:
+    def _judged(self, step: Evaluation, triangle: Evaluation, peak: float) -> Figures:
         return figures_of(
             (step.scenario, step.traces, step.feed),
             (triangle.scenario, triangle.traces, triangle.feed),

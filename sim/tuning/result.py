@@ -15,7 +15,7 @@ from rotemina.sim.input_files import parse_toml, read_text
 from rotemina.sim.robot.numbers import FORBID_UNKNOWN
 from rotemina.sim.tuning.errors import TuningError
 from rotemina.sim.tuning.front import Point, knee_of
-from rotemina.sim.tuning.objectives import Against
+from rotemina.sim.tuning.objectives import SecondObjective
 from rotemina.sim.tuning.problem import TuningProblem
 from rotemina.sim.tuning.search import Generation, SearchSettings, objectives_of
 from rotemina.sim.whole_files import replaced
@@ -49,7 +49,7 @@ class Provenance:
     done: int
     population: int
     seed: int
-    against: Against
+    against: SecondObjective
     peak_sensitivity: float
     overshoot: float
     spread: float
@@ -199,4 +199,4 @@ def _without_none(value: Any) -> Any:
         return {key: _without_none(own) for key, own in value.items() if own is not None}
     if isinstance(value, list | tuple):
         return [_without_none(own) for own in value]
-    return str(value) if isinstance(value, Against) else value
+    return str(value) if isinstance(value, SecondObjective) else value

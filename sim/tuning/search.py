@@ -19,7 +19,7 @@ from rotemina.sim.feedback.gains import Gains
 from rotemina.sim.tuning.errors import TuningError
 from rotemina.sim.tuning.figures import Figures
 from rotemina.sim.tuning.front import Point
-from rotemina.sim.tuning.objectives import Against
+from rotemina.sim.tuning.objectives import SecondObjective
 from rotemina.sim.tuning.problem import VARIABLES, TuningProblem
 
 _NEVER = 1e6  # an objective, and a broken constraint, of what cannot be simulated
@@ -41,7 +41,7 @@ class SearchSettings:
     generations: int = 50
     population: int = 60
     seed: int = 1
-    against: Against = Against.EFFORT
+    against: SecondObjective = SecondObjective.EFFORT
 
     def __post_init__(self) -> None:
         for name, (least, most) in _BOUNDS.items():
@@ -98,9 +98,9 @@ def generations(
         yield Generation(done, settings.generations, _front(algorithm.opt, known, problem))
 
 
-def objectives_of(figures: Figures, against: Against) -> tuple[float, float]:
+def objectives_of(figures: Figures, against: SecondObjective) -> tuple[float, float]:
     """Return what is to be least."""
-    second = figures.settling_s if against is Against.SETTLING else figures.effort
+    second = figures.settling_s if against is SecondObjective.SETTLING else figures.effort
     return min(figures.tracking_rms, _NEVER), min(second, _NEVER)
 
 

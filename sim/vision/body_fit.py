@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.vision.image import Image, over
+from rotemina.sim.vision.image import Image, relative_to
 from rotemina.sim.vision.pipette import Pipette
 from rotemina.sim.vision.tip_fit import DEPTH_FLOOR, Depth, TipFit, least_squares, tukey
 
@@ -79,7 +79,7 @@ def fit_body(
     background : (rows, columns), optional
         The same view without the tip.
     """
-    return _looked_at(image, pipette, start, depth, contrast, background, learning=False)
+    return _fit_near(image, pipette, start, depth, contrast, background, learning=False)
 
 
 def learn_body(
@@ -94,10 +94,10 @@ def learn_body(
 
     Parameters as of :func:`fit_body`.
     """
-    return _looked_at(image, pipette, start, depth, contrast, background, learning=True)
+    return _fit_near(image, pipette, start, depth, contrast, background, learning=True)
 
 
-def _looked_at(
+def _fit_near(
     image: NDArray[Any],
     pipette: Pipette,
     start: FloatArray,
@@ -117,13 +117,13 @@ def _looked_at(
     window = slice(low[1], high[1]), slice(low[0], high[0])
     part = np.asarray(image[window], dtype=np.float32)
     if background is not None:
-        part = over(part, background[window])
+        part = relative_to(part, background[window])
     place = np.asarray(start, dtype=np.float64) - low
     blind = 0.0 if learning else pipette.yielding
     fitting = _Fitting(_binned(part, body.stride), place, body.stride, blind)
     if not fitting.settle(pipette, depth, contrast):
         return None
-    return fitting.told(low)
+    return fitting.result(low)
 
 
 def _binned(part: Image, stride: int) -> FloatArray:
@@ -167,7 +167,7 @@ class _Fitting:
                 break
         return moved < _UNSETTLED_PX
 
-    def told(self, low: FloatArray) -> TipFit | None:
+    def result(self, low: FloatArray) -> TipFit | None:
         """Return the fit; ``low`` (2,) is where the part begins, px."""
         normal = (self.rows * self.weights) @ self.rows.T
         for index, weight, _ in self.ties:

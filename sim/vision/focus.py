@@ -96,7 +96,7 @@ def fit_peak(places: FloatArray, values: FloatArray) -> FocusPeak:
 class Autofocus:
     """A search for the sharpest place; go to :attr:`target`, look, and tell it.
 
-    Make one by :meth:`over`; each :meth:`told` returns the search after one more look.
+    Make one by :meth:`between`; each :meth:`with_sharpness` returns the search after one more look.
 
     Attributes
     ----------
@@ -117,7 +117,7 @@ class Autofocus:
     peak: FocusPeak | None = None
 
     @classmethod
-    def over(cls, low: float, high: float) -> Self:
+    def between(cls, low: float, high: float) -> Self:
         """Return a search between two places, m, upwards: backlash is taken up one way.
 
         Raises
@@ -141,7 +141,7 @@ class Autofocus:
         """Whether it is found."""
         return self.peak is not None
 
-    def told(self, value: float) -> Self:
+    def with_sharpness(self, value: float) -> Self:
         """Return the search after the look at :attr:`target`, which was so sharp.
 
         Raises

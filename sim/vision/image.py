@@ -42,7 +42,7 @@ def grey(image: NDArray[Any]) -> Image:
     return plane
 
 
-def over(image: Image, background: Image) -> Image:
+def relative_to(image: Image, background: Image) -> Image:
     """Return an image as a share of one that was taken without what is looked for.
 
     Whatever stays, such as vignetting, dust and a cell at rest, goes out.

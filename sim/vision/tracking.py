@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.vision.body_fit import fit_body, learn_body
 from rotemina.sim.vision.errors import VisionError
-from rotemina.sim.vision.image import Image, over
+from rotemina.sim.vision.image import Image, relative_to
 from rotemina.sim.vision.pipette import Pipette
 from rotemina.sim.vision.tip import (
     LEAST_USED,
@@ -141,7 +141,7 @@ def follow(
     if lost_for % _ANEW == 0:
         whole = np.asarray(image, dtype=np.float32)
         try:
-            whole = whole if background is None else over(whole, background)
+            whole = whole if background is None else relative_to(whole, background)
             fit = find_tip(whole, track.pipette, turning=False)
         except VisionError as error:
             reason = str(error)
@@ -192,7 +192,7 @@ def _near(
     window = slice(low[1], high[1]), slice(low[0], high[0])
     part = np.ascontiguousarray(image[window], dtype=np.float32)
     if background is not None:
-        part = over(part, background[window])
+        part = relative_to(part, background[window])
     fit = _fitted(replace(track, pixel=expected - low), part)
     return None if fit is None else replace(fit, pixel=fit.pixel + low)
 

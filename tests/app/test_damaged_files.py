@@ -25,7 +25,7 @@ from rotemina.app.motion.saved_positions import FOLDER, SavedPositions
 from rotemina.app.motion.teleoperation.calibration import CalibrationFolder
 from rotemina.app.motion.teleoperation.profile import load_profile
 from rotemina.app.motion.teleoperation.scales import Scales
-from rotemina.app.recorded_events import happenings
+from rotemina.app.recorded_events import timeline_events
 from rotemina.app.settings import Settings
 from rotemina.drivers.cameras.errors import CameraLostError
 from rotemina.drivers.cameras.sequence import ImageSequences
@@ -201,7 +201,7 @@ def classified(_):
 
 def read_recording(path):
     recording = Recording.open(path)
-    happenings(recording.events(), recording.began_s)
+    timeline_events(recording.events(), recording.began_s)
     list(recording.pieces())
     for name in recording.channels:
         recording.channel(name)

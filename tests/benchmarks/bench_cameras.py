@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 import pytest
 
-from rotemina.app.cameras.watch import Watch
+from rotemina.app.cameras.frame_check import FrameCheck
 from rotemina.drivers.cameras.camera import CameraIdentity
 from rotemina.drivers.cameras.frame import Frame, Region
 from rotemina.drivers.cameras.simulated import SimulatedCamera
@@ -103,7 +103,7 @@ def test_a_frame_from_the_simulator_to_its_watch():
         wait=clock.advance,
     )
     camera.open()
-    watch = Watch()
+    watch = FrameCheck()
 
     def grab(_):
         frame = camera.grab(1.0)

@@ -225,9 +225,9 @@ def measure(seconds):
     used.plan(seconds=6.0)
     used.play()
     window.bring_up("microscope")
-    used.until(lambda: microscope.sight.cameras)
+    used.until(lambda: microscope.status.cameras)
     microscope.open_camera("simulated:microscope")
-    used.until(lambda: microscope.sight.feed.state is FeedState.LIVE)
+    used.until(lambda: microscope.status.feed.state is FeedState.LIVE)
     told = {"load_before": round(load, 2), "cores": os.cpu_count()}
     told["in_use"] = in_use(used, seconds)
     told["frames"] = frames(used, min(seconds, 15.0))

@@ -55,9 +55,9 @@ def test_from_the_camera_to_the_screen(tmp_path):
             time.sleep(0.01)
         assert done()
 
-    until(lambda: microscope.sight.cameras)
+    until(lambda: microscope.status.cameras)
     microscope.open_camera("simulated:microscope")
-    until(lambda: microscope.sight.feed.state is FeedState.LIVE and panel.view.frame is not None)
+    until(lambda: microscope.status.feed.state is FeedState.LIVE and panel.view.frame is not None)
     panel.view.painted.connect(painted)
     QTimer.singleShot(60_000, loop.quit)
     wall, cpu = time.perf_counter(), time.process_time()
@@ -82,7 +82,7 @@ def test_pictures_of_16_bits(size):
     from PySide6.QtWidgets import QApplication
 
     from rotemina.app.cameras.feed import FeedState, FeedView
-    from rotemina.app.microscope.sight import Sight
+    from rotemina.app.microscope.status import MicroscopeStatus
     from rotemina.app.shell.theme import DARK
     from rotemina.app.shell.window_run import make_application
     from rotemina.drivers.cameras.frame import Frame, Region
@@ -106,9 +106,11 @@ def test_pictures_of_16_bits(size):
         spent = []
         for number in range(60):
             frame = Frame(pictures[number % 4], 0.0, number, 16, Region(0, 0, 1300, 1030))
-            sight = replace(Sight(), feed=FeedView(FeedState.LIVE, frame=frame, age_s=0.0))
+            status = replace(
+                MicroscopeStatus(), feed=FeedView(FeedState.LIVE, frame=frame, age_s=0.0)
+            )
             before = time.process_time()
-            view.show_sight(sight)
+            view.show_status(status)
             view.repaint()
             spent.append(time.process_time() - before)
         rates[table.value] = 1.0 / np.median(spent[5:])

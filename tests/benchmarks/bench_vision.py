@@ -16,7 +16,7 @@ from rotemina.sim.microscope.renderer import Renderer
 from rotemina.sim.microscope.scene import Pin, Scene
 from rotemina.sim.vision.calibration import StageMap, fit_stage
 from rotemina.sim.vision.cell import find_cell
-from rotemina.sim.vision.image import grey, over
+from rotemina.sim.vision.image import grey, relative_to
 from rotemina.sim.vision.pipette import Pipette
 from rotemina.sim.vision.tip import find_tip
 from rotemina.sim.vision.tip_fit import fit_tip
@@ -114,7 +114,9 @@ def test_track_through_a_penetration(known, told):
     focus_m = float(bench.optics.depth_of(np.array(CELL.centre_m)))
     away = np.array([5e-3, 0.0, 0.0])
     ground = np.mean([bench.image(away, focus_m) for _ in range(8)], axis=0)
-    track = begin_track(over(bench.image(np.zeros(3), focus_m), ground), bench.pipette, dimple=True)
+    track = begin_track(
+        relative_to(bench.image(np.zeros(3), focus_m), ground), bench.pipette, dimple=True
+    )
     for _ in range(30):  # armed: it stands above the cell
         track = learn(track, bench.image(np.zeros(3), focus_m), background=ground)
     state, lost, rows, times = UNTOUCHED, 0, [], []

@@ -19,7 +19,7 @@ from PySide6.QtWidgets import QApplication, QDialog, QMenu, QMessageBox
 
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.settings import Settings
-from rotemina.app.shell.allocator import give_memory_back
+from rotemina.app.shell.allocator import trim_heap
 from rotemina.app.shell.entries import Entry
 from rotemina.app.shell.layouts import OPERATE
 from rotemina.app.shell.window_run import SWITCH_S, make_application, make_window
@@ -49,7 +49,7 @@ class UsedWindow:
         size: tuple[int, int] = (1280, 800),
         times_as_fast: float = TIMES_AS_FAST,
     ) -> None:
-        give_memory_back()  # as the program does
+        trim_heap()  # as the program does
         sys.setswitchinterval(SWITCH_S)
         self.application = make_application()
         self.folder = Path(tempfile.mkdtemp(prefix="rotemina-use-"))

@@ -16,7 +16,7 @@ LEASE_S = 0.15  # of the approach: without a host it ends after that
 _OVERSHOOT_S = 0.2  # of approach: until a contact is sure, seen, and the axis at rest
 
 
-class Room(NamedTuple):
+class TravelMargin(NamedTuple):
     """The way that a penetration takes at most, and what the range leaves for it; m.
 
     Attributes
@@ -85,11 +85,13 @@ def planned(session: MotionSession, parameters: PenetrationParameters) -> Thrust
     return plan_thrust(session.robot, parameters, session.setpoint_period_s)
 
 
-def room(robot: Robot, parameters: PenetrationParameters, plan: ThrustPlan, start: float) -> Room:
+def travel_margin(
+    robot: Robot, parameters: PenetrationParameters, plan: ThrustPlan, start: float
+) -> TravelMargin:
     """Return the room that is needed and left, from a position ``start`` of the axis, m."""
     low, high = plan.ends
     ends = robot.axes[parameters.axis].range
-    return Room(
+    return TravelMargin(
         parameters.approach_distance,
         parameters.approach_speed * _OVERSHOOT_S,
         high if parameters.sign > 0.0 else -low,
@@ -136,7 +138,7 @@ def _check_way(
     session: MotionSession, parameters: PenetrationParameters, plan: ThrustPlan, start: float
 ) -> None:
     """Refuse a way that leaves the range or the tip's bounds, or a thrust that is too fast."""
-    name, taken = parameters.axis, room(session.robot, parameters, plan, start)
+    name, taken = parameters.axis, travel_margin(session.robot, parameters, plan, start)
     _check_room(parameters, taken)
     plan.profile.check(session.robot, start)
     farthest = start + parameters.sign * taken.needed
@@ -145,7 +147,7 @@ def _check_way(
     session.check_thrust(name, _sorted(contact, farthest), plan.peak_speed)
 
 
-def _check_room(parameters: PenetrationParameters, taken: Room) -> None:
+def _check_room(parameters: PenetrationParameters, taken: TravelMargin) -> None:
     if taken.needed > taken.left:
         raise PenetrationError(
             f"axis {parameters.axis}: {readable(taken.left, 'm')} of its range are left "

@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from rotemina.app.motion.live_models import Answers
+from rotemina.app.motion.live_models import ModelOutputs
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.samples import Samples
 from rotemina.sim.arrays import BoolArray, FloatArray
@@ -58,7 +58,7 @@ class AxisFeed:
         self._portions: deque[AxisSamples] = deque(maxlen=_MOST_PORTIONS)
         self.end = session.tap(self._take)
 
-    def _take(self, samples: Samples, answers: Answers) -> None:
+    def _take(self, samples: Samples, answers: ModelOutputs) -> None:
         column = self._column
         measured = samples.measured[:, column]
         self._portions.append(

@@ -11,17 +11,17 @@ from datetime import UTC, datetime
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.penetration.arming import armed, check_now
 from rotemina.app.motion.penetration.attempt import Attempt
-from rotemina.app.motion.penetration.course import OWNER, Course
 from rotemina.app.motion.penetration.feed import AxisFeed, AxisSamples
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.run_log import RunLog, Verdict
+from rotemina.app.motion.penetration.sequence import OWNER, PenetrationSequence
 from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
 from rotemina.app.motion.penetration.thrust import ThrustPlan
 from rotemina.app.motion.session import MotionSession
 from rotemina.sim.errors import InputError
 
 
-class Penetration(Course):
+class Penetration(PenetrationSequence):
     """The state machine; it has no thread: somebody calls :meth:`step`, at about 200 Hz.
 
     Every method may be called from any thread.

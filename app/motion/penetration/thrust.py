@@ -166,7 +166,7 @@ def plan_thrust(robot: Robot, parameters: PenetrationParameters, hold_s: float) 
     return ThrustPlan(wanted, Profile(parameters.axis, _segments(fit.shape)), fit.error)
 
 
-def followed(
+def thrust_response(
     plan: ThrustPlan, time_s: FloatArray, measured: FloatArray, begin_s: float
 ) -> ThrustMeasured:
     """Return how readings (n,) followed a thrust that was triggered at about ``begin_s``.
@@ -205,7 +205,7 @@ def followed(
     )
 
 
-def traced(
+def thrust_trace(
     plan: ThrustPlan, time_s: FloatArray, measured: FloatArray, begin_s: float, delay_s: float
 ) -> ThrustTrace:
     """Return readings (n,) beside the profile that they followed by ``delay_s``; as `followed`."""

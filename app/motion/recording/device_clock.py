@@ -28,7 +28,7 @@ class DeviceClock:
     def __init__(self) -> None:
         self._delays_s: deque[float] = deque(maxlen=_PORTIONS)
 
-    def heard(self, received_s: float, device_time_s: float) -> ClockFit:
+    def observe(self, received_s: float, device_time_s: float) -> ClockFit:
         """Take in that the sample of a device time came in at a host time; return the fit."""
         self._delays_s.append(received_s - device_time_s)
         least_s = min(self._delays_s)

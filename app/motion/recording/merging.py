@@ -12,7 +12,7 @@ import pyarrow as pa  # type: ignore[import-untyped,unused-ignore] # it comes wi
 
 from rotemina.app.motion.recording.errors import RecordingError
 from rotemina.app.motion.recording.locking import locked
-from rotemina.app.motion.recording.segments import Place, WholeSegments
+from rotemina.app.motion.recording.segments import ByteRange, WholeSegments
 from rotemina.app.motion.recording.tables import (
     EVENTS,
     FORMAT,
@@ -86,10 +86,10 @@ class _Table:
 
     def __init__(self, schema: pa.Schema) -> None:
         self.schema = schema
-        self.places: list[Place] = []
+        self.ranges: list[ByteRange] = []
 
-    def add(self, place: Place, schema: pa.Schema) -> None:
-        self.places.append(place)
+    def add(self, byte_range: ByteRange, schema: pa.Schema) -> None:
+        self.ranges.append(byte_range)
         if schema != self.schema:
             self.schema = pa.unify_schemas([self.schema, schema])
 
@@ -103,9 +103,9 @@ def _contents(source: Path, segments: WholeSegments) -> tuple[dict[str, str], di
             f"{source}: it was cut off before anything was recorded; delete it"
         ) from None
     tables = {SAMPLES: _Table(samples_schema(json.loads(metadata["units"])))}
-    for place, content in found:
+    for byte_range, content in found:
         schema = pa.ipc.read_schema(pa.py_buffer(content))
-        tables.setdefault(name_of(schema), _Table(schema)).add(place, schema)
+        tables.setdefault(name_of(schema), _Table(schema)).add(byte_range, schema)
     order = sorted(tables, key=lambda name: (name != SAMPLES, name != EVENTS, name))
     return metadata, {name: tables[name] for name in order}
 
@@ -151,8 +151,8 @@ def _merge(segments: WholeSegments, table: _Table, schema: pa.Schema, file: Bina
 
 
 def _batches(segments: WholeSegments, table: _Table, schema: pa.Schema) -> Iterator[pa.RecordBatch]:
-    for place in table.places:
-        with pa.ipc.open_stream(pa.py_buffer(segments.read(place))) as stream:
+    for byte_range in table.ranges:
+        with pa.ipc.open_stream(pa.py_buffer(segments.read(byte_range))) as stream:
             for batch in stream:
                 columns = [_column(batch, field) for field in schema]
                 yield pa.record_batch(columns, schema=schema)

@@ -33,7 +33,7 @@ def new_file(path: Path) -> BinaryIO:
     return path.open("xb", buffering=0)
 
 
-class Place(NamedTuple):
+class ByteRange(NamedTuple):
     """Where in a file the content of a segment lies, bytes."""
 
     offset: int
@@ -183,8 +183,8 @@ class WholeSegments:
     def __exit__(self, *_: object) -> None:
         self._file.close()
 
-    def __iter__(self) -> Iterator[tuple[Place, bytes]]:
-        """Give place and content of one after the other, up to the first that is not whole."""
+    def __iter__(self) -> Iterator[tuple[ByteRange, bytes]]:
+        """Give range and content of one after the other, up to the first that is not whole."""
         at = number = 0
         while True:
             self._file.seek(at)
@@ -194,17 +194,17 @@ class WholeSegments:
             magic, found, length, crc = _HEADER.unpack(head)
             if magic != MAGIC or found != number or length > self._left():
                 return
-            place = Place(at + _HEADER.size, length)
-            content = self.read(place)
+            byte_range = ByteRange(at + _HEADER.size, length)
+            content = self.read(byte_range)
             if _crc(number, content) != crc:
                 return
-            yield place, content
-            at, number = place.offset + length, number + 1
+            yield byte_range, content
+            at, number = byte_range.offset + length, number + 1
 
-    def read(self, place: Place) -> bytes:
-        """Return the content at a place that was given before."""
-        self._file.seek(place.offset)
-        return self._file.read(place.length)
+    def read(self, byte_range: ByteRange) -> bytes:
+        """Return the content at a range that was given before."""
+        self._file.seek(byte_range.offset)
+        return self._file.read(byte_range.length)
 
     def _left(self) -> int:
         return os.fstat(self._file.fileno()).st_size - self._file.tell()

@@ -10,7 +10,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from rotemina.app.motion.device_session import DeviceSession
-from rotemina.app.motion.live_models import Answers
+from rotemina.app.motion.live_models import ModelOutputs
 from rotemina.app.motion.recording.segments import Opener, new_file
 from rotemina.app.motion.recording.tables import units_of
 from rotemina.app.motion.recording.writer import RecorderNotice, RecordingWriter
@@ -143,7 +143,7 @@ class SessionRecorder:
         """Record what somebody remarks."""
         self.writer.event("note", text)
 
-    def _on_samples(self, samples: Samples, answers: Answers) -> None:
+    def _on_samples(self, samples: Samples, answers: ModelOutputs) -> None:
         """Take a portion; on the session's thread."""
         state = self._session.snapshot()
         self._note_stop(state)

@@ -150,7 +150,7 @@ class RecordingWriter:
         if samples.device_time_s[0] <= self._device_time_s:  # nobody said that it begins anew
             self.connected()
         self._device_time_s = float(samples.device_time_s[-1])
-        fit = self._device_clock.heard(received_s, self._device_time_s)
+        fit = self._device_clock.observe(received_s, self._device_time_s)
         # A better estimate must not make what is later earlier.
         host_time_s = np.maximum(samples.device_time_s + fit.offset_s, self._host_time_s)
         self._host_time_s = float(host_time_s[-1])

@@ -60,10 +60,10 @@ class Threshold:
         self._sign = 1.0 if at > 0 else -1.0
         self._at = abs(at)
         self._back = max(abs(at) - hysteresis, 0.0)
-        self._beyond = False
+        self._prediction = False
 
     def feed(self, deflection: float) -> bool:
         """Return whether it is beyond now."""
         way = self._sign * deflection
-        self._beyond = way > self._back if self._beyond else way >= self._at
-        return self._beyond
+        self._prediction = way > self._back if self._prediction else way >= self._at
+        return self._prediction

@@ -1,6 +1,6 @@
 """A calibration run: the stick is let go of, then moved to all its ends.
 
-Nothing is sent meanwhile (the desk's mapping is open); readings are all it needs.
+Nothing is sent meanwhile (the arbiter has its mapping open); readings are all it needs.
 """
 
 from collections.abc import Mapping, Sequence

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from math import inf
 
-from rotemina.app.motion.teleoperation.operator_desk import DeviceView
-from rotemina.app.motion.teleoperation.profile import Profile, Seat
+from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
+from rotemina.app.motion.teleoperation.profile import OperatorRole, Profile
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,7 +17,7 @@ class DevicesView:
         Of the step; −inf before the first.
     devices : tuple of DeviceView
         Those that are open.
-    driving : Seat
+    driving : OperatorRole
     setting_up : bool
         Whether nothing is sent but stops.
     profile : Profile or None
@@ -29,7 +29,7 @@ class DevicesView:
 
     host_time_s: float = -inf
     devices: tuple[DeviceView, ...] = ()
-    driving: Seat = Seat.TRAINER
+    driving: OperatorRole = OperatorRole.TRAINER
     setting_up: bool = False
     profile: Profile | None = None
     automatic: bool = True

@@ -11,15 +11,15 @@ from types import MappingProxyType
 from rotemina.app.motion.teleoperation.calibration import Calibration, CalibrationFolder
 from rotemina.app.motion.teleoperation.default_profile import default_profile
 from rotemina.app.motion.teleoperation.devices_view import DevicesView
+from rotemina.app.motion.teleoperation.input_arbiter import InputArbiter
 from rotemina.app.motion.teleoperation.intent import Intent
 from rotemina.app.motion.teleoperation.mapping import PluggedDevice, assigned
-from rotemina.app.motion.teleoperation.operator_desk import OperatorDesk
 from rotemina.app.motion.teleoperation.profile import (
     DeviceMapping,
     ListedProfile,
+    OperatorRole,
     Profile,
     ProfileError,
-    Seat,
     listed_profiles,
     save_profile,
 )
@@ -36,7 +36,7 @@ _RANKS = {"board": 1, _PAD: 2}
 
 
 @dataclass(frozen=True, slots=True)
-class Heard:
+class InputSnapshot:
     """What came of one look at all devices.
 
     Attributes
@@ -51,7 +51,7 @@ class Heard:
 
 
 class InputDevices:
-    """Keeps every device that is plugged in open, and the operator's desk told of it.
+    """Keeps every device that is plugged in open, and the input arbiter informed.
 
     :meth:`look` may take some ms and is for a thread of its own, about once a second;
     :meth:`step` is for the thread that steers. Everything else may be called from any thread.
@@ -66,17 +66,17 @@ class InputDevices:
 
     def __init__(self, hub: InputHub, robot_axes: Sequence[str], folder: Path) -> None:
         self.hub = hub
-        self.desk = OperatorDesk(robot_axes)
+        self.arbiter = InputArbiter(robot_axes)
         self.calibrations = CalibrationFolder(folder / "calibrations")
         self._profiles = folder / "profiles"
         self._chosen: Profile | None = None  # None: one is made for what is plugged in
         self._used: Profile | None = None
         self._open: dict[str, InputDevice] = {}
         self._changes: deque[Changes] = deque()
-        self._listeners: tuple[Callable[[Heard], None], ...] = ()
+        self._listeners: tuple[Callable[[InputSnapshot], None], ...] = ()
         self._view = DevicesView()
         self._changed = True  # by somebody, and not yet in the view
-        # Guards the desk and what is open; held for a step, and never while a device is opened.
+        # Guards the arbiter and what is open; held for a step, and never while a device is opened.
         self._lock = threading.RLock()
 
     # --- profiles and calibrations ----------------------------------------------------------------
@@ -102,11 +102,11 @@ class InputDevices:
         Raises
         ------
         ProfileError
-            As :meth:`OperatorDesk.use`; then the one before stays.
+            As :meth:`InputArbiter.use`; then the one before stays.
         """
         with self._lock:
             if profile is not None:
-                self._hand_to_desk(profile)
+                self._hand_to_arbiter(profile)
             self._chosen = profile
             self._changed = True
             if profile is None:
@@ -131,7 +131,7 @@ class InputDevices:
             If it is for another device, that is not there, or it cannot be kept.
         """
         with self._lock:
-            self.desk.calibrate(key, calibration)
+            self.arbiter.calibrate(key, calibration)
             self._changed = True
             device = self._open.get(key)
         if device is not None:
@@ -153,7 +153,7 @@ class InputDevices:
         """
         return self._view
 
-    def listen(self, tell: Callable[[Heard], None]) -> Callable[[], None]:
+    def listen(self, tell: Callable[[InputSnapshot], None]) -> Callable[[], None]:
         """Have every step told, on its thread, until what is returned is called.
 
         ``tell`` must neither wait nor raise; that of a queue is good.
@@ -171,7 +171,7 @@ class InputDevices:
     def problems(self) -> tuple[str, ...]:
         """What is wrong with sources, devices and the profile, in words."""
         with self._lock:
-            return (*self.hub.problems.values(), *self.desk.problems)
+            return (*self.hub.problems.values(), *self.arbiter.problems)
 
     def look(self) -> None:
         """Look what has been plugged in or unplugged; the next step deals with it."""
@@ -179,7 +179,7 @@ class InputDevices:
         if changes.arrived or changes.left:
             self._changes.append(changes)
 
-    def step(self, now_s: float) -> Heard:
+    def step(self, now_s: float) -> InputSnapshot:
         """Read every device and return what the operator wants; never waits for one."""
         while self._changes:
             self._follow(self._changes.popleft())
@@ -188,28 +188,28 @@ class InputDevices:
             for key, device in tuple(self._open.items()):
                 try:
                     readings[key] = device.read()
-                    self.desk.inform(key, streams=device.streams)
+                    self.arbiter.inform(key, streams=device.streams)
                 except Exception as error:  # a plugin may raise anything; the device is then gone
                     self._drop(key, str(error))
                     self.hub.lost(key)
-            heard = Heard(self.desk.step(readings, now_s), MappingProxyType(readings))
+            snapshot = InputSnapshot(self.arbiter.step(readings, now_s), MappingProxyType(readings))
             if self._changed or now_s - self._view.host_time_s >= VIEW_S:
                 self._changed, self._view = False, self._viewed(now_s)
             listeners = self._listeners
         for tell in listeners:
-            tell(heard)
-        return heard
+            tell(snapshot)
+        return snapshot
 
     def open_mapping(self) -> None:
         """Send nothing but stops from now on: mappings are made, or sticks calibrated."""
         with self._lock:
-            self.desk.open_mapping()
+            self.arbiter.open_mapping()
             self._changed = True
 
     def close_mapping(self) -> None:
         """Send again, after every stick was seen at rest."""
         with self._lock:
-            self.desk.close_mapping()
+            self.arbiter.close_mapping()
             self._changed = True
 
     def rumble(self, strength: float) -> None:
@@ -239,15 +239,15 @@ class InputDevices:
     # --- inside -----------------------------------------------------------------------------------
 
     def _viewed(self, now_s: float) -> DevicesView:
-        desk = self.desk
+        arbiter = self.arbiter
         return DevicesView(
             now_s,
-            desk.views,
-            desk.driving,
-            desk.mapping_open,
+            arbiter.views,
+            arbiter.driving,
+            arbiter.mapping_open,
             self._used,
             self._chosen is None,
-            desk.problems,
+            arbiter.problems,
         )
 
     def _follow(self, changes: Changes) -> None:
@@ -263,7 +263,7 @@ class InputDevices:
             calibration = self.calibrations.load(identity)
             with self._lock:
                 self._open[identity.key] = device
-                self.desk.plug(_plugged(device), calibration)
+                self.arbiter.plug(_plugged(device), calibration)
         with self._lock:
             if self._chosen is None:
                 self._use_automatic()
@@ -273,7 +273,7 @@ class InputDevices:
             device = self._open.pop(key, None)
             if device is None:
                 return
-            self.desk.unplug(key, why)
+            self.arbiter.unplug(key, why)
             try:
                 device.close()
             except Exception:  # it has gone, and closing is all that is left to do
@@ -294,14 +294,14 @@ class InputDevices:
             if profile is None or not _fits(profile, plugged):
                 continue
             try:
-                self._hand_to_desk(profile)
+                self._hand_to_arbiter(profile)
             except ProfileError as error:
                 _LOG.warning("%s", error)
                 continue
             return
 
-    def _hand_to_desk(self, profile: Profile) -> None:
-        self.desk.use(profile)
+    def _hand_to_arbiter(self, profile: Profile) -> None:
+        self.arbiter.use(profile)
         self._used = profile
 
 
@@ -319,7 +319,9 @@ def automatic_profile(devices: Iterable[PluggedDevice]) -> Profile | None:
             (mapping,) = default_profile(device).devices
         except ProfileError:
             continue
-        mappings.append(replace(mapping, seat=Seat.TRAINEE if mappings else Seat.TRAINER))
+        mappings.append(
+            replace(mapping, seat=OperatorRole.TRAINEE if mappings else OperatorRole.TRAINER)
+        )
     return Profile(name="Automatic", devices=tuple(mappings)) if mappings else None
 
 

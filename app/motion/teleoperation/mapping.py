@@ -9,9 +9,9 @@ from rotemina.app.motion.teleoperation.profile import (
     ActionMapping,
     AxisMapping,
     DeviceMapping,
+    OperatorRole,
     Profile,
     ProfileError,
-    Seat,
 )
 from rotemina.drivers.inputs.device import InputIdentity
 
@@ -53,7 +53,7 @@ def check_profile(profile: Profile, robot_axes: Collection[str]) -> None:
         If something is to be driven that the robot does not have, two controls of one seat would
         drive one axis, a control does two things, or nobody is the trainer.
     """
-    for seat in Seat:
+    for seat in OperatorRole:
         owners: dict[str, AxisMapping] = {}
         for mapping in _axes_of(profile, seat):
             for axis in _driven(profile, mapping, robot_axes):
@@ -66,7 +66,7 @@ def check_profile(profile: Profile, robot_axes: Collection[str]) -> None:
                     )
     for device in profile.devices:
         _check_single_use(profile, device)
-    if not any(device.seat is Seat.TRAINER for device in profile.devices):
+    if not any(device.seat is OperatorRole.TRAINER for device in profile.devices):
         raise ProfileError(
             f"profile {profile.name!r}: every device has seat = 'trainee'; one must have 'trainer'"
         )
@@ -141,7 +141,7 @@ def check(
             check_controls(found[device.identity.key], device)
 
 
-def _axes_of(profile: Profile, seat: Seat) -> Iterator[AxisMapping]:
+def _axes_of(profile: Profile, seat: OperatorRole) -> Iterator[AxisMapping]:
     for device in profile.devices:
         if device.seat is seat:
             yield from device.axes

@@ -22,7 +22,7 @@ class ProfileError(InputError):
     """A profile that cannot be read, kept or used."""
 
 
-class Seat(StrEnum):
+class OperatorRole(StrEnum):
     """Who sits at a device; of two seats only one drives."""
 
     TRAINER = "trainer"
@@ -81,13 +81,13 @@ class DeviceMapping:
     ----------
     key : str
         The device's key; ``*`` stands for any letters, ``?`` for one.
-    seat : Seat
+    seat : OperatorRole
     axes : tuple of AxisMapping
     actions : tuple of ActionMapping
     """
 
     key: Text
-    seat: Seat = Seat.TRAINER
+    seat: OperatorRole = OperatorRole.TRAINER
     axes: tuple[AxisMapping, ...] = ()
     actions: tuple[ActionMapping, ...] = ()
 

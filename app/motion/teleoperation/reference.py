@@ -75,26 +75,28 @@ class Bounds:
         position, velocity = motion
         return position + velocity * abs(velocity) / (2.0 * self.max_acceleration)
 
-    def speed(self, motion: Motion, wish: float, dt: float) -> float:
-        """Return the speed after ``dt`` s that is nearest to the wish."""
+    def speed(self, motion: Motion, wanted: float, dt: float) -> float:
+        """Return the speed after ``dt`` s that is nearest to the wanted."""
         position, velocity = motion
         most = self.max_acceleration * dt
         up = self.approach_speed(self.high - position, velocity, dt)
         down = -self.approach_speed(position - self.low, -velocity, dt)
-        wish = min(max(wish, -self.max_speed, down), self.max_speed, up)
-        return min(max(wish, velocity - most), velocity + most)
+        wanted = min(max(wanted, -self.max_speed, down), self.max_speed, up)
+        return min(max(wanted, velocity - most), velocity + most)
 
-    def place(self, motion: Motion, velocity: float, dt: float, wish: float | None = None) -> float:
-        """Return the position after ``dt`` s nearest to the wish, at a speed from :meth:`speed`.
+    def place(
+        self, motion: Motion, velocity: float, dt: float, wanted: float | None = None
+    ) -> float:
+        """Return the position after ``dt`` s nearest to the wanted, at a speed from :meth:`speed`.
 
-        Without a wish the speed changes evenly on the way.
+        Without a wanted the speed changes evenly on the way.
         """
         most = self.max_acceleration
         middle = motion.position + 0.5 * (motion.velocity + velocity) * dt
         room = (most * dt) ** 2 - (velocity - motion.velocity) ** 2
         room = max(room, 0.0) / (4.0 * most)
         braking = velocity**2 / (2.0 * most)
-        place = middle if wish is None else min(max(wish, middle - room), middle + room)
+        place = middle if wanted is None else min(max(wanted, middle - room), middle + room)
         low = self.low + (braking if velocity < 0.0 else 0.0)
         high = self.high - (braking if velocity > 0.0 else 0.0)
         return self.clip(min(max(place, low), high))
@@ -109,11 +111,11 @@ class Bounds:
         target = self.clip(target)
         gap = target - motion.position
         if gap >= 0.0:
-            wish = self.approach_speed(gap, motion.velocity, dt)
+            wanted = self.approach_speed(gap, motion.velocity, dt)
         else:
-            wish = -self.approach_speed(-gap, -motion.velocity, dt)
-        velocity = self.speed(motion, wish, dt)
-        if wish == 0.0 and velocity == 0.0:
+            wanted = -self.approach_speed(-gap, -motion.velocity, dt)
+        velocity = self.speed(motion, wanted, dt)
+        if wanted == 0.0 and velocity == 0.0:
             return Motion(self._landing(motion, target, dt), 0.0)
         return Motion(self.place(motion, velocity, dt), velocity)
 

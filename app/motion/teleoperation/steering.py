@@ -21,7 +21,7 @@ class Step:
 
 
 @dataclass(slots=True)
-class _Lever:
+class _SteeredCoordinate:
     """One coordinate: its law, what of the operator's devices moves it, and whether that may."""
 
     coordinate: Coordinate
@@ -32,7 +32,7 @@ class _Lever:
     deflection: float = 0.0  # the latest one that counted
     held: bool = False  # the stick moves without it: clutch, distrust
 
-    def told(self, deflections: Mapping[str, float]) -> float | None:
+    def deflection_in(self, deflections: Mapping[str, float]) -> float | None:
         """Return the deflection for it: that of its own axis, or of its degree of freedom."""
         name = self.coordinate.name
         own = name in deflections and name not in DEGREES_OF_FREEDOM
@@ -82,8 +82,8 @@ class Steering:
         self.frame = frame
         self.kind = kind
         self._indexed = kind is LawKind.POSITION
-        self._levers = {
-            name: _Lever(
+        self._steered = {
+            name: _SteeredCoordinate(
                 coordinate,
                 make(coordinate),
                 source_of(frame, name),
@@ -93,39 +93,39 @@ class Steering:
             )
             for name, coordinate in frame.coordinates.items()
         }
-        for name, lever in self._levers.items():
-            lever.law.start(frame.coordinates[name].start, 0.0, 0.0)
+        for name, one in self._steered.items():
+            one.law.start(frame.coordinates[name].start, 0.0, 0.0)
 
     @property
     def laws(self) -> dict[str, ScalingLaw]:
         """The law of each coordinate."""
-        return {name: lever.law for name, lever in self._levers.items()}
+        return {name: one.law for name, one in self._steered.items()}
 
     @property
     def coordinates(self) -> dict[str, float]:
         """Where the coordinates are to be."""
-        return {name: lever.law.motion.position for name, lever in self._levers.items()}
+        return {name: one.law.motion.position for name, one in self._steered.items()}
 
     @property
     def sources(self) -> dict[str, str]:
         """What of the operator's devices moves each coordinate."""
-        return {name: lever.source for name, lever in self._levers.items()}
+        return {name: one.source for name, one in self._steered.items()}
 
     @property
     def waiting(self) -> frozenset[str]:
         """Coordinates whose stick must be seen in the middle first."""
-        return frozenset(name for name, lever in self._levers.items() if not lever.engaged)
+        return frozenset(name for name, one in self._steered.items() if not one.engaged)
 
     @property
     def released(self) -> bool:
         """Whether every stick was in the middle when it was last looked at."""
-        return all(lever.engaged and lever.deflection == 0.0 for lever in self._levers.values())
+        return all(one.engaged and one.deflection == 0.0 for one in self._steered.values())
 
-    def told(self, name: str, deflections: Mapping[str, float]) -> float | None:
+    def deflection_of(self, name: str, deflections: Mapping[str, float]) -> float | None:
         """Return the deflection of a coordinate's stick, in the coordinate's direction, if any."""
-        lever = self._levers[name]
-        told = lever.told(deflections)
-        return None if told is None else lever.sign * told
+        one = self._steered[name]
+        told = one.deflection_in(deflections)
+        return None if told is None else one.sign * told
 
     def begin(
         self,
@@ -134,20 +134,20 @@ class Steering:
         deflections: Mapping[str, float],
     ) -> None:
         """Go on from a motion of the coordinates, with the sticks where they are."""
-        for name, lever in self._levers.items():
-            told = self.told(name, deflections)
+        for name, one in self._steered.items():
+            told = self.deflection_of(name, deflections)
             seen = 0.0 if told is None else told
-            if not lever.engaged:
+            if not one.engaged:
                 seen = 0.0
-            lever.deflection = seen
-            lever.held = told is None
-            lever.law.start(positions[name], velocities.get(name, 0.0), seen)
+            one.deflection = seen
+            one.held = told is None
+            one.law.start(positions[name], velocities.get(name, 0.0), seen)
 
     def rescale(self, factor: float) -> None:
         """Multiply all scales by a factor, in mid-move too."""
-        for lever in self._levers.values():
-            if lever.law.factor != factor:
-                lever.law.rescale(factor)
+        for one in self._steered.values():
+            if one.law.factor != factor:
+                one.law.rescale(factor)
 
     def step(
         self,
@@ -158,24 +158,24 @@ class Steering:
         reactions: Mapping[str, float],
     ) -> Step:
         """Go on for ``dt`` s; without ``free`` the sticks move and the machine does not."""
-        for name, lever in self._levers.items():
-            told = self.told(name, deflections) if free else None
-            lever.step(told, dt, reactions.get(name, 0.0), indexed=self._indexed)
+        for name, one in self._steered.items():
+            told = self.deflection_of(name, deflections) if free else None
+            one.step(told, dt, reactions.get(name, 0.0), indexed=self._indexed)
         return self.now()
 
     def now(self) -> Step:
         """Return what the axes are to do now."""
         coordinates = self.coordinates
-        velocities = {name: lever.law.motion.velocity for name, lever in self._levers.items()}
+        velocities = {name: one.law.motion.velocity for name, one in self._steered.items()}
         speeds = self.frame.speeds(coordinates, velocities)
         return Step(self.frame.joints(coordinates), speeds)
 
     def hold_back(self, before: Mapping[str, float], share: float) -> None:
         """Take note that the machine went only this share of the way from ``before``, 0 to 1."""
-        for name, lever in self._levers.items():
-            position, velocity = lever.law.motion
+        for name, one in self._steered.items():
+            position, velocity = one.law.motion
             begin = before[name]
-            lever.law.hold(begin + share * (position - begin), share * velocity)
+            one.law.hold(begin + share * (position - begin), share * velocity)
 
 
 def source_of(frame: Frame, coordinate: str) -> str:

@@ -2,14 +2,14 @@
 
 from dataclasses import dataclass
 
-from rotemina.app.motion.teleoperation.profile import Seat
+from rotemina.app.motion.teleoperation.profile import OperatorRole
 
 #: Deflection by which the trainer takes over: clearly beyond the dead zone, well below an end.
 MOVED = 0.25
 
 
 @dataclass(frozen=True, slots=True)
-class SeatState:
+class RoleState:
     """What a seat's devices do now.
 
     Attributes
@@ -36,12 +36,12 @@ class Takeover:
     """
 
     def __init__(self) -> None:
-        self.driving = Seat.TRAINER
+        self.driving = OperatorRole.TRAINER
 
-    def decide(self, trainer: SeatState, trainee: SeatState) -> str | None:
+    def decide(self, trainer: RoleState, trainee: RoleState) -> str | None:
         """Let the seats have their say; return why the one that drove does so no more, or None."""
         reason = None
-        if self.driving is Seat.TRAINEE:
+        if self.driving is OperatorRole.TRAINEE:
             if not trainer.present:
                 reason = "the trainer's device is not there: the trainee does not drive alone"
             elif trainer.asks or trainer.most >= MOVED:
@@ -49,10 +49,14 @@ class Takeover:
         elif trainee.asks and self._granted(trainer, trainee):
             reason = "the trainee has taken over"
         if reason is not None:
-            self.driving = Seat.TRAINER if self.driving is Seat.TRAINEE else Seat.TRAINEE
+            self.driving = (
+                OperatorRole.TRAINER
+                if self.driving is OperatorRole.TRAINEE
+                else OperatorRole.TRAINEE
+            )
         return reason
 
     @staticmethod
-    def _granted(trainer: SeatState, trainee: SeatState) -> bool:
+    def _granted(trainer: RoleState, trainee: RoleState) -> bool:
         still = trainer.present and not trainer.asks and trainer.most < MOVED
         return still and trainee.present

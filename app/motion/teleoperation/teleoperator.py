@@ -35,7 +35,7 @@ DIRECT = "direct"  # axes that a control drives by their own name
 
 
 @dataclass(slots=True)
-class _Arm:
+class _Channel:
     """A steering with what it was sent last."""
 
     steering: Steering
@@ -67,7 +67,7 @@ class Teleoperator:
         self._mode = self.modes.names[0]
         self._law = LawKind.RATE
         self._preset = 1.0
-        self._arms: dict[str, _Arm] = {}
+        self._channels: dict[str, _Channel] = {}
         self._before_s: float | None = None
         self._permit = session.permit()  # of the latest step
         self._refused: str | None = None
@@ -148,16 +148,20 @@ class Teleoperator:
             self._let_go(None)
         else:
             self._steer(intent, state, now_s, dt)
-        arm = self._arms.get(self._mode)
+        channel = self._channels.get(self._mode)
         self.state = TeleoperationState(
             self._mode,
             self._law,
             self._preset,
             self._factor(intent),
-            any(any(one.sent.values()) for one in self._arms.values()),
+            any(any(one.sent.values()) for one in self._channels.values()),
             self._reason,
             self._refused,
-            *(() if arm is None else shown(arm.steering, intent.deflections, self._reactions)),
+            *(
+                ()
+                if channel is None
+                else shown(channel.steering, intent.deflections, self._reactions)
+            ),
         )
 
     def _stop_if_asked(self, intent: Intent) -> str | None:
@@ -207,14 +211,14 @@ class Teleoperator:
     def _steer(self, intent: Intent, state: SessionState, now_s: float, dt: float) -> None:
         factor = self._factor(intent)
         try:
-            arms = self._arms_for(intent, state)
-            for arm in arms:
-                arm.steering.rescale(factor)
+            channels = self._channels_for(intent, state)
+            for channel in channels:
+                channel.steering.rescale(factor)
         except InputError as error:
             self._let_go(str(error))
             return
-        for arm in arms:
-            steering, driving = arm.steering, any(arm.sent.values())
+        for channel in channels:
+            steering, driving = channel.steering, any(channel.sent.values())
             before = steering.coordinates
             wanted = steering.step(
                 intent.deflections,
@@ -222,23 +226,25 @@ class Teleoperator:
                 free=Action.CLUTCH not in intent.held,
                 reactions=self._felt(steering.frame, state),
             )
-            arm.following.wanted(now_s, wanted.joints)
-            speeds = arm.following.speeds(wanted.speeds, state, driving)
-            self._send(arm, before, speeds, now_s, state)
+            channel.following.wanted(now_s, wanted.joints)
+            speeds = channel.following.speeds(wanted.speeds, state, driving)
+            self._send(channel, before, speeds, now_s, state)
 
     def _send(
         self,
-        arm: _Arm,
+        channel: _Channel,
         before: Mapping[str, float],
         speeds: Mapping[str, float],
         now_s: float,
         state: SessionState,
     ) -> None:
         # An axis that rests is nobody's: somebody else may move it meanwhile.
-        speeds = {axis: v for axis, v in speeds.items() if v or arm.sent.get(axis)}
-        if not speeds or (now_s - arm.sent_s < _RENEW_S and self._as_sent(speeds, arm.sent)):
+        speeds = {axis: v for axis, v in speeds.items() if v or channel.sent.get(axis)}
+        if not speeds or (
+            now_s - channel.sent_s < _RENEW_S and self._as_sent(speeds, channel.sent)
+        ):
             return
-        lost = arm.following.lost(speeds, state)
+        lost = channel.following.lost(speeds, state)
         if lost is not None:
             self._let_go(f"axis {lost} does not follow the stick")
             return
@@ -249,17 +255,17 @@ class Teleoperator:
                 self._let_go(None)
                 return
             self._refused = str(error)
-            arm.steering.hold_back(before, 0.0)
-            arm.following.forget()
-            arm.sent, arm.refused = {}, True
+            channel.steering.hold_back(before, 0.0)
+            channel.following.forget()
+            channel.sent, channel.refused = {}, True
             return
-        arm.sent, arm.sent_s, arm.refused = dict(speeds), now_s, False
+        channel.sent, channel.sent_s, channel.refused = dict(speeds), now_s, False
         share = _share(speeds, used)
         self._refused = None
         if share < 1.0:
             self._refused = "slowed: the tip is close to its bounds"
-            arm.steering.hold_back(before, share)
-            arm.following.forget()
+            channel.steering.hold_back(before, share)
+            channel.following.forget()
 
     def _as_sent(self, speeds: Mapping[str, float], sent: Mapping[str, float]) -> bool:
         """Whether speeds are so near to those sent that they may wait for the next renewal.
@@ -275,11 +281,11 @@ class Teleoperator:
             for axis, speed in speeds.items()
         )
 
-    def _elsewhere(self, arm: _Arm, state: SessionState) -> bool:
+    def _elsewhere(self, channel: _Channel, state: SessionState) -> bool:
         """Whether the axes rest where the reference is not."""
-        if any(arm.sent.values()) or state.activity is not DeviceState.IDLE or state.queued:
+        if any(channel.sent.values()) or state.activity is not DeviceState.IDLE or state.queued:
             return False
-        targets = arm.steering.now().joints
+        targets = channel.steering.now().joints
         return any(
             abs(state.command.get(axis, at) - at) > self._slack(axis)
             for axis, at in targets.items()
@@ -287,29 +293,33 @@ class Teleoperator:
 
     # --- modes and laws ---------------------------------------------------------------------------
 
-    def _arms_for(self, intent: Intent, state: SessionState) -> tuple[_Arm, ...]:
+    def _channels_for(self, intent: Intent, state: SessionState) -> tuple[_Channel, ...]:
         """Return what steers now, begun where the machine stands if it has not begun."""
-        for name, arm in tuple(self._arms.items()):
-            if not self._elsewhere(arm, state):
+        for name, channel in tuple(self._channels.items()):
+            if not self._elsewhere(channel, state):
                 continue
-            del self._arms[name]
+            del self._channels[name]
             # A stick that was in the middle a moment ago counts at once.
-            if arm.refused or arm.steering.released:
-                axes = arm.steering.frame.axes
-                anew = self._arm(self._begun(name, axes, state), self._law, engaged=True)
+            if channel.refused or channel.steering.released:
+                axes = channel.steering.frame.axes
+                anew = self._channel(self._begun(name, axes, state), self._law, engaged=True)
                 anew.steering.begin(anew.steering.frame.start, {}, intent.deflections)
-                self._arms[name] = anew
-        if self._mode not in self._arms:
-            self._arms[self._mode] = self._arm(self._begun(self._mode, (), state), self._law)
-        own = self._arms[self._mode].steering.frame.axes
+                self._channels[name] = anew
+        if self._mode not in self._channels:
+            self._channels[self._mode] = self._channel(
+                self._begun(self._mode, (), state), self._law
+            )
+        own = self._channels[self._mode].steering.frame.axes
         direct = tuple(
             axis
             for axis in self._robot.axes
             if axis in intent.deflections and axis not in (*DEGREES_OF_FREEDOM, *own)
         )
-        if direct and DIRECT not in self._arms:
-            self._arms[DIRECT] = self._arm(self._begun(DIRECT, direct, state), self._law)
-        return tuple(self._arms[name] for name in (self._mode, DIRECT) if name in self._arms)
+        if direct and DIRECT not in self._channels:
+            self._channels[DIRECT] = self._channel(self._begun(DIRECT, direct, state), self._law)
+        return tuple(
+            self._channels[name] for name in (self._mode, DIRECT) if name in self._channels
+        )
 
     def _begun(self, name: str, axes: tuple[str, ...], state: SessionState) -> Frame:
         """Return a frame begun where the machine stands; ``axes`` are those driven directly."""
@@ -317,45 +327,47 @@ class Teleoperator:
             return AxesFrame(self._robot, DIRECT, axes, state.command)
         return self.modes.begin(name, state.command)
 
-    def _arm(self, frame: Frame, kind: LawKind, *, engaged: bool = False) -> _Arm:
+    def _channel(self, frame: Frame, kind: LawKind, *, engaged: bool = False) -> _Channel:
         def law(coordinate: Coordinate) -> ScalingLaw:
             scale = self._scales.of(frame.name, coordinate)
             return scale.law(kind, coordinate, self._noise(coordinate))
 
-        return _Arm(Steering(frame, kind, law, engaged=engaged), Following(self._robot, self._lag))
+        return _Channel(
+            Steering(frame, kind, law, engaged=engaged), Following(self._robot, self._lag)
+        )
 
     def _change_mode(self, name: str) -> None:
         """Begin another mode at the present reference; what it does not move, brakes."""
-        old = self._arms.get(self._mode)
+        old = self._channels.get(self._mode)
         if name == self._mode or old is None:
             self._mode = name
             return
         now = old.steering.now()
         joints = {**self._session.snapshot().command, **now.joints}
-        arm = self._arm(self.modes.begin(name, joints), self._law)
-        velocities = arm.steering.frame.velocities(now.speeds)
+        channel = self._channel(self.modes.begin(name, joints), self._law)
+        velocities = channel.steering.frame.velocities(now.speeds)
         self._mode = name
-        del self._arms[old.steering.frame.name]
+        del self._channels[old.steering.frame.name]
         self._drop_all()
-        arm.steering.begin(arm.steering.frame.start, velocities, self._intent.deflections)
-        self._arms[name] = arm
-        self._halt(axis for axis in old.sent if axis not in arm.steering.frame.axes)
-        arm.sent = {axis: old.sent.get(axis, 0.0) for axis in arm.steering.frame.axes}
+        channel.steering.begin(channel.steering.frame.start, velocities, self._intent.deflections)
+        self._channels[name] = channel
+        self._halt(axis for axis in old.sent if axis not in channel.steering.frame.axes)
+        channel.sent = {axis: old.sent.get(axis, 0.0) for axis in channel.steering.frame.axes}
 
     def _change_law(self, kind: LawKind) -> None:
         """Begin another law with the motion of the one before."""
-        arms = {}
-        for name, old in self._arms.items():
+        channels = {}
+        for name, old in self._channels.items():
             motions = {name: law.motion for name, law in old.steering.laws.items()}
-            arm = self._arm(old.steering.frame, kind, engaged=True)
-            arm.steering.rescale(self._factor(self._intent))
-            arm.steering.begin(
+            channel = self._channel(old.steering.frame, kind, engaged=True)
+            channel.steering.rescale(self._factor(self._intent))
+            channel.steering.begin(
                 {name: motion.position for name, motion in motions.items()},
                 {name: motion.velocity for name, motion in motions.items()},
                 self._intent.deflections,
             )
-            arms[name] = replace(arm, following=old.following, sent=old.sent)
-        self._law, self._arms = kind, arms
+            channels[name] = replace(channel, following=old.following, sent=old.sent)
+        self._law, self._channels = kind, channels
 
     def _let_go(self, reason: str | None) -> None:
         """Halt what it moves, and begin anew where the machine then stands."""
@@ -364,9 +376,9 @@ class Teleoperator:
         self._drop_all()
 
     def _drop_all(self) -> None:
-        for arm in tuple(self._arms.values()):
-            self._halt(axis for axis, speed in arm.sent.items() if speed)
-        self._arms.clear()
+        for channel in tuple(self._channels.values()):
+            self._halt(axis for axis, speed in channel.sent.items() if speed)
+        self._channels.clear()
 
     def _halt(self, axes: Iterable[str]) -> None:
         still = dict.fromkeys(axes, 0.0)
@@ -382,8 +394,8 @@ class Teleoperator:
             self._requests.append(change)
 
     def _frame(self) -> Frame | None:
-        arm = self._arms.get(self._mode)
-        return None if arm is None else arm.steering.frame
+        channel = self._channels.get(self._mode)
+        return None if channel is None else channel.steering.frame
 
     def _factor(self, intent: Intent) -> float:
         factor = self._preset

@@ -107,7 +107,7 @@ def _viewed(
         name,
         steering.frame.coordinates[name].unit,
         steering.sources[name],
-        steering.told(name, deflections),
+        steering.deflection_of(name, deflections),
         *law.motion,
         name in steering.waiting,
         law,

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rotemina.app.bench.left import Left, left_of
 from rotemina.app.bench.machine import BenchError, Machine, Truth, machines
-from rotemina.app.bench.result import Named, Result
+from rotemina.app.bench.residual import Residual, residual_of
+from rotemina.app.bench.result import NamedCause, Result
 from rotemina.app.bench.run import result_of, run_bench
 from rotemina.app.bench.words import line, page
 from rotemina.app.cli.main import main
@@ -59,9 +59,9 @@ def table(tmp_path_factory):
 
 def of(named=(), before=1e-3, after=2e-5, seconds=5.0, **known):
     machine = Machine("table", Path("robot.toml"), (), (), Truth(**known))
-    lefts = (Left(gap, 1e-2, 1e-5) for gap in (before, after))
-    causes = tuple(Named("q", *one) for one in named)
-    return Result(machine, "A table", "explained", causes, *lefts, seconds, "m")
+    residuals = (Residual(gap, 1e-2, 1e-5) for gap in (before, after))
+    causes = tuple(NamedCause("q", *one) for one in named)
+    return Result(machine, "A table", "explained", causes, *residuals, seconds, "m")
 
 
 def test_a_machine_is_diagnosed_and_tried_on_what_no_fit_saw(table, capsys, tmp_path):
@@ -86,9 +86,9 @@ def test_what_is_left_takes_off_offset_but_no_gain(table):
     command = 5e-3 + 1e-3 * np.sin(time_s)
     signals = {("q", Tap.CMD): command, ("q", Tap.MEAS): 1.01 * command + 1e-4}
     record = Record.from_signals(time_s, signals, {"q": "m"})
-    left = left_of(robot, [record], Tap.MEAS)
-    assert left.gap == pytest.approx(0.01 * np.std(command), rel=1e-3)
-    assert left.relative == pytest.approx(0.01 / 1.01, rel=1e-3)
+    residual = residual_of(robot, [record], Tap.MEAS)
+    assert residual.gap == pytest.approx(0.01 * np.std(command), rel=1e-3)
+    assert residual.relative == pytest.approx(0.01 / 1.01, rel=1e-3)
 
 
 def test_a_folder_of_machines_is_each_of_them(table, tmp_path):

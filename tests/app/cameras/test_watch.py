@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotemina.app.cameras.watch import Showing, Watch
+from rotemina.app.cameras.frame_check import FrameCheck, PictureState
 from rotemina.drivers.cameras.frame import Frame, Region
 
 
@@ -21,31 +21,31 @@ def noisy(count, level=100.0, seed=1, dtype=np.uint8, spread=3.0):
 
 
 def judged(pictures, **kwargs):
-    watch = Watch()
-    return [watch.judge(frame) for frame in frames(pictures, **kwargs)]
+    check = FrameCheck()
+    return [check.judge(frame) for frame in frames(pictures, **kwargs)]
 
 
 def test_a_live_stream():
-    assert set(judged(noisy(30))) == {Showing.LIVE}
+    assert set(judged(noisy(30))) == {PictureState.LIVE}
 
 
 def test_a_stream_that_freezes_and_recovers():
     live = noisy(3)
     shown = judged([*live, *[live[-1]] * 12, *noisy(2, seed=2)])
-    first = shown.index(Showing.FROZEN)
+    first = shown.index(PictureState.FROZEN)
     assert first == 12  # a second after the last new one
-    assert shown[-1] is Showing.LIVE
-    assert set(shown[first:15]) == {Showing.FROZEN}
+    assert shown[-1] is PictureState.LIVE
+    assert set(shown[first:15]) == {PictureState.FROZEN}
 
 
 def test_a_slow_stream_is_not_frozen_by_one_repetition():
     picture = noisy(1)[0]
-    assert set(judged([picture] * 3, period_s=2.0)) == {Showing.LIVE}
+    assert set(judged([picture] * 3, period_s=2.0)) == {PictureState.LIVE}
 
 
 @pytest.mark.parametrize(("bits", "level", "dtype"), [(8, 2.0, np.uint8), (12, 45.0, np.uint16)])
 def test_a_black_stream(bits, level, dtype):
-    assert set(judged(noisy(5, level, dtype=dtype, spread=1.0), bits=bits)) == {Showing.BLACK}
+    assert set(judged(noisy(5, level, dtype=dtype, spread=1.0), bits=bits)) == {PictureState.BLACK}
 
 
 def test_a_dark_picture_with_something_in_it_is_not_black():
@@ -53,4 +53,4 @@ def test_a_dark_picture_with_something_in_it_is_not_black():
     for picture in pictures:
         picture[::3, ::3] = 0
         picture[8:24, 8:24] = 90
-    assert set(judged(pictures)) == {Showing.LIVE}
+    assert set(judged(pictures)) == {PictureState.LIVE}

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from rotemina.app.cameras.feed import FeedState, FeedView
-from rotemina.app.cameras.watch import Showing, Watch
+from rotemina.app.cameras.frame_check import FrameCheck, PictureState
 from rotemina.app.microscope.calibration_file import (
     MICRO,
     NANO,
@@ -20,7 +20,7 @@ from rotemina.app.microscope.calibration_file import (
 from rotemina.app.microscope.calibration_run import CalibrationRun, Phase
 from rotemina.app.microscope.click_run import Visit
 from rotemina.app.microscope.microscope import Microscope
-from rotemina.app.microscope.sight import TipState
+from rotemina.app.microscope.status import TipState
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.cameras.hub import CameraHub
 from rotemina.drivers.cameras.simulated import SimulatedMicroscope
@@ -183,7 +183,7 @@ class SteppedFeed:
         self.camera = camera
         self.view = FeedView()
         self._listeners = []
-        self._watch = Watch()
+        self._watch = FrameCheck()
         self.spoil = lambda frame: frame
 
     @property
@@ -219,7 +219,7 @@ class SteppedFeed:
             return
         frame = self.spoil(frame)
         showing = self._watch.judge(frame)
-        state = {Showing.FROZEN: FeedState.FROZEN, Showing.BLACK: FeedState.BLACK}
+        state = {PictureState.FROZEN: FeedState.FROZEN, PictureState.BLACK: FeedState.BLACK}
         self.view = FeedView(state.get(showing, FeedState.LIVE), f"it is {showing}", frame)
         for tell in self._listeners:
             tell(frame)
@@ -266,15 +266,15 @@ class Workplace:
 
     def look(self):
         """Have somebody look at the picture from now on."""
-        assert not self.microscope.sight.cameras
+        assert not self.microscope.status.cameras
         self.step(3)
 
     def until(self, done, most=2000):
         for _ in range(most):
             self.step()
-            if done(self.microscope.sight):
-                return self.microscope.sight
-        raise AssertionError(f"still {self.microscope.sight}")
+            if done(self.microscope.status):
+                return self.microscope.status
+        raise AssertionError(f"still {self.microscope.status}")
 
     @property
     def optics(self):
@@ -298,15 +298,15 @@ class Workplace:
             residual_px=0.05,
         )
         for name in (MICRO, NANO):
-            self.microscope.known.keep_stage(name, stage, self.feed.newest.region)
+            self.microscope.setup.keep_stage(name, stage, self.feed.newest.region)
 
     def tracking(self):
         """Track the tip, whose direction is roughly known."""
         body = self.optics.mapping @ np.array([1.0, 0.0, 0.0])
-        self.microscope.known.learn_direction(float(np.arctan2(body[1], body[0])) + 0.03)
+        self.microscope.setup.learn_direction(float(np.arctan2(body[1], body[0])) + 0.03)
         self.microscope.track(True)
         self.step(2)
-        assert self.microscope.sight.tip.state is TipState.TRACKED
+        assert self.microscope.status.tip.state is TipState.TRACKED
         return self
 
 

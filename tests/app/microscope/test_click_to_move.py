@@ -1,4 +1,4 @@
-"""Clicks: the acceptance of the microscope, what is refused, and tours of targets."""
+"""Clicks: the acceptance of the microscope, what is refused, and sequences of targets."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,7 @@ from rotemina.app.microscope.calibration_file import MICRO, NANO
 from rotemina.app.microscope.click_run import ClickRun, Visit
 from rotemina.app.microscope.click_to_move import ClickToMove
 from rotemina.app.microscope.errors import MicroscopeError
-from rotemina.app.microscope.targets import Tour
+from rotemina.app.microscope.targets import TargetSequence
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.trajectory.limits import OutOfLimitsError
@@ -133,22 +133,22 @@ def test_a_tip_that_is_not_where_it_should_be_moves_nothing_more(bench, clicks):
 
 
 def test_targets_are_visited_in_their_order(bench, clicks):
-    tour = Tour(lambda pixel: visit(bench, clicks, pixel))
+    sequence = TargetSequence(lambda pixel: visit(bench, clicks, pixel))
     places = [(300.0, 220.0), (340.0, 260.0)]
     for place in places:
-        tour.mark(np.array(place))
+        sequence.mark(np.array(place))
     for place in places:
-        target = tour.next()
+        target = sequence.next()
         with pytest.raises(MicroscopeError, match="on its way"):
-            tour.next()
+            sequence.next()
         for _ in range(200):
             bench.step()
-            target = tour.step(bench.clock())
+            target = sequence.step(bench.clock())
             if target.visit is Visit.ARRIVED:
                 break
         assert (target.column, target.row) == place
         assert bench.true_pixel() == pytest.approx(place, abs=0.5)
     with pytest.raises(MicroscopeError, match="every target"):
-        tour.next()
-    tour.clear()
-    assert not tour.targets
+        sequence.next()
+    sequence.clear()
+    assert not sequence.targets

@@ -12,7 +12,7 @@ from rotemina.app.microscope.click_run import Visit
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.focus_run import Search
 from rotemina.app.microscope.recorded_reference import recorded_reference
-from rotemina.app.microscope.sight import Activity, ScaleSource, TipState
+from rotemina.app.microscope.status import Activity, ScaleSource, TipState
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.penetration.status import Phase as PenetrationPhase
 from rotemina.app.motion.recording.reading import Recording
@@ -34,15 +34,15 @@ def test_nothing_is_opened_before_somebody_looks_and_then_by_itself(tmp_path, ma
     work = make_work(tmp_path)
     work.step(3)
     assert work.feed is None
-    assert work.microscope.sight.feed.frame is None
+    assert work.microscope.status.feed.frame is None
     work.step(3)
-    sight = work.microscope.sight
-    assert sight.camera.key == "simulated:microscope"
-    assert sight.feed.frame is not None
-    assert sight.scale_source is ScaleSource.ROBOT_FILE
+    status = work.microscope.status
+    assert status.camera.key == "simulated:microscope"
+    assert status.feed.frame is not None
+    assert status.scale_source is ScaleSource.ROBOT_FILE
     work.microscope.close_camera()
     work.step(40)
-    assert work.microscope.sight.camera is None  # who closed it wants none
+    assert work.microscope.status.camera is None  # who closed it wants none
 
 
 def test_another_machine_than_the_simulated_is_said_in_words():
@@ -66,23 +66,23 @@ def test_the_tip_is_found_in_whatever_direction_and_pictures_are_passed_over(wor
         work.clock.advance(0.05)
         work.feed.grab()
     work.microscope.step(work.clock())
-    sight = work.microscope.sight
-    assert sight.tip.state is TipState.TRACKED
-    assert sight.tip.pixel == pytest.approx(work.true_pixel(), abs=0.2)
-    assert sight.tip.place_m == pytest.approx(work.true_tip()[:2], abs=0.1e-6)
-    assert 0.0 < sight.tip.sigma_px < 0.2
-    assert sight.frames_looked_at == 3
-    assert sight.frames_passed_over >= 3
+    status = work.microscope.status
+    assert status.tip.state is TipState.TRACKED
+    assert status.tip.pixel == pytest.approx(work.true_pixel(), abs=0.2)
+    assert status.tip.place_m == pytest.approx(work.true_tip()[:2], abs=0.1e-6)
+    assert 0.0 < status.tip.sigma_px < 0.2
+    assert status.frames_processed == 3
+    assert status.frames_skipped >= 3
     work.microscope.track(False)
     work.step()
-    assert work.microscope.sight.tip.state is TipState.OFF
+    assert work.microscope.status.tip.state is TipState.OFF
 
 
 def test_a_click_lands_and_one_run_is_allowed_at_a_time(work):
     work.tracking()
     goal = work.true_pixel() + np.array([60.0, -40.0])
     move = work.microscope.plan(goal)
-    assert work.microscope.sight.planned.ghost == pytest.approx(goal, abs=0.1)
+    assert work.microscope.status.planned.ghost == pytest.approx(goal, abs=0.1)
     assert still(work)
     assert not move.confirm
     work.microscope.go()
@@ -90,11 +90,11 @@ def test_a_click_lands_and_one_run_is_allowed_at_a_time(work):
         work.microscope.calibrate("micro")
     with pytest.raises(MicroscopeError, match="click is under way"):
         work.microscope.choose_objective("40x")
-    sight = work.until(lambda sight: sight.activity is Activity.NONE)
-    assert sight.visiting.visit is Visit.ARRIVED, sight.visiting.reason
+    status = work.until(lambda status: status.activity is Activity.NONE)
+    assert status.visiting.visit is Visit.ARRIVED, status.visiting.reason
     assert work.true_pixel() == pytest.approx(goal, abs=0.5)
-    assert sight.path is not None
-    assert np.ptp(sight.nano_limits, axis=0).min() > 50.0
+    assert status.path is not None
+    assert np.ptp(status.nano_limits, axis=0).min() > 50.0
     with pytest.raises(MicroscopeError, match="no move is planned"):
         work.microscope.go()
 
@@ -107,7 +107,7 @@ def test_a_click_wants_the_tip_tracked_and_a_far_one_confirmed(work):
     work.microscope.plan(np.array([600.0, 60.0]))
     with pytest.raises(MicroscopeError, match="confirm"):
         work.microscope.go()
-    assert work.microscope.sight.activity is Activity.NONE
+    assert work.microscope.status.activity is Activity.NONE
     work.microscope.mark_target(np.array([600.0, 60.0]))
     with pytest.raises(MicroscopeError, match="confirm"):
         work.microscope.visit_next()
@@ -135,13 +135,13 @@ def test_a_camera_that_cannot_be_trusted_ends_what_moves_by_it(work, spoil, told
     work.tracking()
     work.microscope.calibrate("micro")
     work.step(6)
-    assert work.microscope.sight.activity is Activity.CALIBRATION
+    assert work.microscope.status.activity is Activity.CALIBRATION
     spoil(work)
     work.step(2)
-    sight = work.microscope.sight
-    assert sight.activity is Activity.NONE
-    assert sight.calibrating.phase is Phase.FAILED
-    assert told in sight.calibrating.reason
+    status = work.microscope.status
+    assert status.activity is Activity.NONE
+    assert status.calibrating.phase is Phase.FAILED
+    assert told in status.calibrating.reason
     work.step(5)
     assert still(work)
     with pytest.raises(MicroscopeError, match=told):
@@ -154,9 +154,9 @@ def test_a_lost_tip_ends_a_click(work):
     work.microscope.plan(work.true_pixel() + np.array([250.0, 0.0]))
     work.microscope.go(confirmed=True)
     work.feed.camera.move_focus(450e-6)
-    sight = work.until(lambda sight: sight.activity is Activity.NONE)
-    assert sight.visiting.visit is Visit.FAILED
-    assert "tip is" in sight.visiting.reason
+    status = work.until(lambda status: status.activity is Activity.NONE)
+    assert status.visiting.visit is Visit.FAILED
+    assert "tip is" in status.visiting.reason
     work.step(5)
     assert still(work)
 
@@ -183,9 +183,9 @@ def test_stop_ends_a_calibration_where_it_is(work):
     work.step(8)
     work.microscope.stop()
     work.step(2)
-    sight = work.microscope.sight
-    assert sight.activity is Activity.NONE
-    assert sight.stopped == "it was stopped"
+    status = work.microscope.status
+    assert status.activity is Activity.NONE
+    assert status.stopped == "it was stopped"
     assert still(work)
 
 
@@ -193,19 +193,19 @@ def test_stop_ends_a_calibration_where_it_is(work):
 def test_what_the_autofocus_found_is_kept_for_the_next_start(work, tmp_path, make_work):
     work.tracking()
     work.microscope.autofocus()
-    sight = work.until(lambda sight: sight.activity is Activity.NONE)
-    assert sight.focusing.search is Search.DONE, sight.focusing.reason
-    assert 0.0 < sight.calibration.focus.uncertainty < 1e-6
+    status = work.until(lambda status: status.activity is Activity.NONE)
+    assert status.focusing.search is Search.DONE, status.focusing.reason
+    assert 0.0 < status.calibration.focus.uncertainty < 1e-6
     # The body climbs from the tip away: what is sharpest about it lies a little higher.
-    assert abs(sight.calibration.focus.sharpest) < 6e-6
-    assert sight.focus_places[0].sharpest == sight.calibration.focus.sharpest
+    assert abs(status.calibration.focus.sharpest) < 6e-6
+    assert status.focus_axes[0].sharpest == status.calibration.focus.sharpest
     again = make_work(tmp_path)
     again.look()
-    assert again.microscope.sight.calibration == sight.calibration
+    assert again.microscope.status.calibration == status.calibration
     again.microscope.choose_objective("40x")
     again.step()
-    assert again.microscope.sight.calibration is None
-    assert again.microscope.sight.pixel_m == pytest.approx(0.1675e-6)
+    assert again.microscope.status.calibration is None
+    assert again.microscope.status.pixel_m == pytest.approx(0.1675e-6)
     with pytest.raises(MicroscopeError, match="'axes' does not focus"):
         again.microscope.autofocus("axes")
 
@@ -223,9 +223,9 @@ def test_targets_are_visited_one_after_the_other(work):
         work.microscope.visit_next()
         with pytest.raises(MicroscopeError, match="on its way"):
             work.microscope.clear_targets()
-        sight = work.until(lambda sight: sight.activity is Activity.NONE)
+        status = work.until(lambda status: status.activity is Activity.NONE)
         assert work.true_pixel() == pytest.approx(here + away * aside, abs=0.5)
-    assert [one.visit for one in sight.targets] == [Visit.ARRIVED, Visit.ARRIVED]
+    assert [one.visit for one in status.targets] == [Visit.ARRIVED, Visit.ARRIVED]
     with pytest.raises(MicroscopeError, match="every target"):
         work.microscope.visit_next()
 
@@ -238,15 +238,15 @@ def test_cell_line_and_drift(work):
     work.microscope.measure(middle, work.true_pixel())
     work.microscope.watch_drift(True)
     work.step(3)
-    sight = work.microscope.sight
-    assert sight.cell.outline.centre == pytest.approx(middle, abs=1.0)
+    status = work.microscope.status
+    assert status.cell.outline.centre == pytest.approx(middle, abs=1.0)
     away = np.linalg.norm(work.true_pixel() - middle) * 0.33e-6
-    assert sight.measured.length_m == pytest.approx(away, rel=0.03)
-    assert sight.drift.watched
+    assert status.measured.length_m == pytest.approx(away, rel=0.03)
+    assert status.drift.watched
     work.microscope.outline_cell(np.array([20.0, 20.0]))
     work.step()
-    assert work.microscope.sight.cell.outline is None
-    assert work.microscope.sight.cell.reason
+    assert work.microscope.status.cell.outline is None
+    assert work.microscope.status.cell.reason
 
 
 def test_while_a_penetration_is_armed_the_body_is_learnt(tmp_path, make_work):
@@ -316,9 +316,9 @@ def test_over_the_edge_of_a_cell_the_nano_stage_lands_within_half_a_pixel(tmp_pa
     work.look()
     for stage in ("micro", "nano"):
         work.microscope.calibrate(stage)
-        sight = work.until(lambda sight: sight.activity is Activity.NONE)
-        assert sight.calibrating.phase is Phase.DONE, sight.calibrating.reason
-    assert sight.tip.state is TipState.TRACKED
+        status = work.until(lambda status: status.activity is Activity.NONE)
+        assert status.calibrating.phase is Phase.DONE, status.calibrating.reason
+    assert status.tip.state is TipState.TRACKED
     cell = work.feed.camera.scene.cell
     middle = work.optics.pixel_of(np.array(cell.centre_m))
     rng = np.random.default_rng(3)
@@ -327,8 +327,8 @@ def test_over_the_edge_of_a_cell_the_nano_stage_lands_within_half_a_pixel(tmp_pa
         goal = middle + 60.0 * np.array([np.cos(angle), np.sin(angle)])  # about where it ends
         stages.append(work.microscope.plan(goal).stage)
         work.microscope.go(confirmed=True)
-        sight = work.until(lambda sight: sight.activity is Activity.NONE)
-        assert sight.visiting.visit is Visit.ARRIVED, sight.visiting.reason
+        status = work.until(lambda status: status.activity is Activity.NONE)
+        assert status.visiting.visit is Visit.ARRIVED, status.visiting.reason
         assert np.linalg.norm(work.true_pixel() - goal) < 0.5
     assert stages.count("nano") >= 5
 
@@ -342,9 +342,9 @@ def test_the_whole_picture_is_calibrated_and_a_click_lands_within_half_a_pixel(t
     true = StageMap(work.optics.mapping[:, :2], np.zeros((4, 4))).geometry
     for stage in ("micro", "nano"):
         work.microscope.calibrate(stage)
-        sight = work.until(lambda sight: sight.activity is Activity.NONE)
-        assert sight.calibrating.phase is Phase.DONE, sight.calibrating.reason
-        told = sight.calibration.stage(stage).map.geometry
+        status = work.until(lambda status: status.activity is Activity.NONE)
+        assert status.calibrating.phase is Phase.DONE, status.calibrating.reason
+        told = status.calibration.stage(stage).map.geometry
         assert told.handedness == true.handedness
         assert told.pixel_size == pytest.approx(true.pixel_size, rel=1e-3)
         assert np.degrees(told.rotation) == pytest.approx(np.degrees(true.rotation), abs=0.05)
@@ -353,6 +353,6 @@ def test_the_whole_picture_is_calibrated_and_a_click_lands_within_half_a_pixel(t
     for goal in ((250.4, 300.7), (1000.0, 800.3), (700.2, 500.0), (680.0, 510.0)):
         work.microscope.plan(np.array(goal))
         work.microscope.go(confirmed=True)
-        sight = work.until(lambda sight: sight.activity is Activity.NONE)
-        assert sight.visiting.visit is Visit.ARRIVED, sight.visiting.reason
+        status = work.until(lambda status: status.activity is Activity.NONE)
+        assert status.visiting.visit is Visit.ARRIVED, status.visiting.reason
         assert np.linalg.norm(work.true_pixel() - goal) < 0.5

@@ -15,9 +15,9 @@ PROGRAMS = {
     "stop": STOP,
     "emergency": STOP,
     "release": ("release",),
-    "disconnect": (*STOP, "wish nothing"),
-    "reconnect": ("wish own",),
-    "use": (*STOP, "exchange", "reconnected", "wish own"),
+    "disconnect": (*STOP, "connection nothing"),
+    "reconnect": ("connection own",),
+    "use": (*STOP, "exchange", "reconnected", "connection own"),
     "lose": ("lose",),  # the link
     "wait": ("wait",),  # until leases have run out
 }
@@ -69,7 +69,7 @@ class State:
     queue: tuple[Request, ...] = ()
     hand: Request | None = None
     worker: tuple[str, ...] = ()  # what it does next
-    wish: str | None = None
+    connection_request: str | None = None
     session_driver: str = "a"
     worker_driver: str = "a"
     open: str | None = "a"
@@ -128,7 +128,7 @@ class Model:
             for actor, program, at in zip(self.actors, self.programs, state.at, strict=True)
             if at < len(program)
         ]
-        waits = state.wish or (state.connected and (state.queue or state.lost))
+        waits = state.connection_request or (state.connected and (state.queue or state.lost))
         return [*able, "worker"] if state.worker or waits else able
 
     def step(self, state: State, actor: str) -> State:
@@ -203,12 +203,12 @@ class Model:
         if step == "release":
             counts = state.counts._replace(releases=state.counts.releases + 1)
             return replace(state, counts=counts, latched=False)
-        if step == "wish own":
+        if step == "connection own":
             if actor == "reconnect" and state.connected:
                 return state
-            return replace(state, wish=state.session_driver)
-        if step == "wish nothing":
-            return replace(state, wish="nothing")
+            return replace(state, connection_request=state.session_driver)
+        if step == "connection nothing":
+            return replace(state, connection_request="nothing")
         if step == "exchange":
             return replace(state, session_driver="b")
         if step == "reconnected":
@@ -258,15 +258,15 @@ class Model:
         """Return what the worker does next: what it has begun, or what waits for it."""
         if state.worker:
             return state.worker
-        if state.wish is not None:
-            return ("take wish",)
+        if state.connection_request is not None:
+            return ("take connection",)
         return ("take", "hand over", "write") if state.queue else ("fail", *LET_GO)
 
     def _work(self, state: State) -> State:
         step, *left = self._plan(state)
         state = replace(state, worker=tuple(left))
-        if step == "take wish":
-            return self._take_wish(state)
+        if step == "take connection":
+            return self._take_connection(state)
         if step == "take":
             return self._take(state)
         if step in ("hand over", "write"):
@@ -290,15 +290,15 @@ class Model:
             return replace(state, open=state.worker_driver, opening=state.opening + 1, lost=False)
         return replace(state, connected=True) if step == "connected" else state
 
-    def _take_wish(self, state: State) -> State:
-        wish, steps = state.wish, ()
-        if wish != state.worker_driver:
+    def _take_connection(self, state: State) -> State:
+        wanted, steps = state.connection_request, ()
+        if wanted != state.worker_driver:
             steps = LET_GO
-        if wish not in (state.worker_driver, "nothing"):
-            steps = (*steps, "exchange", str(wish), *CONNECT)
-        elif wish == state.worker_driver and not state.connected:
+        if wanted not in (state.worker_driver, "nothing"):
+            steps = (*steps, "exchange", str(wanted), *CONNECT)
+        elif wanted == state.worker_driver and not state.connected:
             steps = CONNECT
-        return replace(state, wish=None, worker=steps)
+        return replace(state, connection_request=None, worker=steps)
 
     def _take(self, state: State) -> State:
         if not state.queue:  # a stop has dropped it meanwhile

@@ -12,7 +12,7 @@ from rotemina.app.motion.state import CommandRefused, PlaybackFinished
 from rotemina.drivers.profile import Profile, ProfileSegment
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.compensate.errors import CompensationError
-from rotemina.sim.compensate.inverse import Beyond, Inverse
+from rotemina.sim.compensate.inverse import Exceedance, Inverse
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record, Tap
@@ -153,7 +153,7 @@ def test_beyond_what_it_saw_nothing_goes(machine):
     session.move_velocity({"zn": 1e-3}, 0.15)  # halts at the end
     settle(machine)
     assert session.snapshot().command["zn"] <= 60e-6
-    assert session.beyond_inverse("zn") == Beyond(0)
+    assert session.beyond_inverse("zn") == Exceedance(0)
 
 
 def test_what_the_inverse_asks_for_is_held_against_the_limits(machine):

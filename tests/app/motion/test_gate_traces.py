@@ -148,8 +148,8 @@ class Traced:
                 self.steps.arrive("queue")
 
         self._set(mailbox, "refuse_overtaken", compared)
-        names = {"disconnect": "wish nothing", "use": "wish own"}
-        self._before(Mailbox, "wish", lambda: names.get(self.steps.actor))
+        names = {"disconnect": "connection nothing", "use": "connection own"}
+        self._before(Mailbox, "request_connection", lambda: names.get(self.steps.actor))
 
     def _hook_stops(self):
         self._before(Gate, "stop", "shut")
@@ -168,7 +168,12 @@ class Traced:
 
     def _hook_the_worker(self):
         box, driver = self.session._mailbox, type(self.first)
-        self._before(Mailbox, "take_wish", "take wish", lambda: self._works() and box._wish)
+        self._before(
+            Mailbox,
+            "take_connection_request",
+            "take connection",
+            lambda: self._works() and box._connection_request,
+        )
         self._before(Mailbox, "take", "take", lambda: self._works() and len(box) > 0)
         self._before(Gate, "reconnected", "reconnected")
         self._before(Worker, "_use", "exchange")

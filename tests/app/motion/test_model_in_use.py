@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotemina.app.motion.carried_model import CarriedModel
+from rotemina.app.motion.bracketed_model import BracketedModel
 from rotemina.app.motion.command_memory import CommandMemory
 from rotemina.app.motion.deviation import DeviationWatch
 from rotemina.app.motion.live_model import LiveModel
@@ -238,7 +238,7 @@ def test_the_truth_lies_within_the_doubt():
     before = np.interp(time_s, [0.0, 1.0, 3.0, 4.0], [way[0], 0.9 * high, 0.2 * high, way[0]])
     truth = LiveModel(robot)
     truth.follow(samples(time_s - 5.0, before))
-    told, doubt = CarriedModel(robot).answer(time_s, samples(time_s, way).command)
+    told, doubt = BracketedModel(robot).answer(time_s, samples(time_s, way).command)
     error = np.abs(truth.follow(samples(time_s, way)) - told)[:, -1]
     assert (error <= doubt[:, -1] + 1e-10).all()
     assert error.max() > 3.0 * FLOOR
@@ -246,7 +246,7 @@ def test_the_truth_lies_within_the_doubt():
 
 def test_a_model_without_memory_has_no_doubt():
     gain = AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.02})
-    model = CarriedModel(replace(ROBOT, effects=(gain,)), {"zn": 3e-7})
+    model = BracketedModel(replace(ROBOT, effects=(gain,)), {"zn": 3e-7})
     still = samples(np.arange(5) * 1e-3, 3e-5)
     told, doubt = model.answer(still.device_time_s, still.command)
     nominal = LiveModel(ROBOT).follow(still)
@@ -261,12 +261,12 @@ def test_a_rest_takes_two_rows_of_the_memory_and_a_motion_all_of_its_own():
     for first in range(0, 10_000, 16):
         part = slice(first, first + 16)
         memory.add(samples(time_s[part], way[part]))
-    kept_s, command = memory.told()
+    kept_s, command = memory.history()
     assert 1000 < len(kept_s) < 1300
     assert (kept_s[0], kept_s[-1]) == (time_s[0], time_s[-1])
     np.testing.assert_allclose(np.interp(time_s, kept_s, command[:, -1]), way, atol=1e-12)
     memory.clear()
-    assert not len(memory.told()[0])
+    assert not len(memory.history()[0])
 
 
 def test_the_memory_is_bounded():
@@ -274,7 +274,7 @@ def test_the_memory_is_bounded():
     for first in range(0, 2000, 100):
         time_s = np.arange(first, first + 100) * 1e-3
         memory.add(samples(time_s, time_s * 1e-6))
-    assert len(memory.told()[0]) <= 601
+    assert len(memory.history()[0]) <= 601
 
 
 # --- of one machine ---------------------------------------------------------------------------

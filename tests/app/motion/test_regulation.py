@@ -21,7 +21,7 @@ from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.trajectory.limits import OutOfLimitsError
 from rotemina.sim.tuning.figures import UNUSABLE
 from rotemina.sim.tuning.front import Point
-from rotemina.sim.tuning.objectives import Against
+from rotemina.sim.tuning.objectives import SecondObjective
 from rotemina.sim.tuning.result import Provenance, Tuning
 
 ROBOT = load_robot("rotemina")
@@ -61,7 +61,7 @@ def tuning(gains=GAINS, **changed):
         done=1,
         population=4,
         seed=1,
-        against=Against.EFFORT,
+        against=SecondObjective.EFFORT,
         peak_sensitivity=1.7,
         overshoot=0.02,
         spread=0.05,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rotemina.app.motion.mailbox import RefusedError
-from rotemina.app.motion.safe_way import safe_way
+from rotemina.app.motion.safe_path import safe_path
 from rotemina.app.motion.saved_positions import SavedPositionError, SavedPositions
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.robot.file import load_robot
@@ -78,13 +78,13 @@ def test_a_bad_file_is_used_in_no_part_and_never_written_over(positions, change,
 
 
 def test_the_way_lifts_crosses_and_comes_down():
-    lift, across, down = safe_way(ROBOT, MIDDLE, ABOVE)
+    lift, across, down = safe_path(ROBOT, MIDDLE, ABOVE)
     assert lift == {"z": pytest.approx(max(MIDDLE["z"], ABOVE["z"]) + 1e-3)}
     assert across == {axis: at for axis, at in ABOVE.items() if axis != "z"}
     assert down == {"z": ABOVE["z"]}
-    assert safe_way(ROBOT, MIDDLE, {**MIDDLE, "z": 0.05}) == ({"z": 0.05},)
+    assert safe_path(ROBOT, MIDDLE, {**MIDDLE, "z": 0.05}) == ({"z": 0.05},)
     highest = ROBOT.axes["z"].range[1]
-    assert safe_way(ROBOT, MIDDLE, {**ABOVE, "z": highest})[0] == {"z": highest}
+    assert safe_path(ROBOT, MIDDLE, {**ABOVE, "z": highest})[0] == {"z": highest}
 
 
 def test_a_session_goes_there_safely_and_can_come_back(make_stepped):

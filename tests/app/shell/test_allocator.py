@@ -11,12 +11,12 @@ from rotemina.app.shell import allocator
 PROGRAM = """
 import numpy as np
 from pathlib import Path
-from rotemina.app.shell.allocator import give_memory_back
+from rotemina.app.shell.allocator import trim_heap
 
 def resident_mb():
     return int(Path("/proc/self/statm").read_text().split()[1]) * 4096 / 1e6
 
-if give_memory_back():
+if trim_heap():
     np.ones(3_000_000)  # after which such sizes would be kept, left to itself
     before = resident_mb()
     kept, freed = [], []
@@ -38,4 +38,4 @@ def test_large_arrays_that_are_freed_leave_nothing():
 
 def test_elsewhere_nothing_is_asked(monkeypatch):
     monkeypatch.setattr(allocator.sys, "platform", "win32")
-    assert not allocator.give_memory_back()
+    assert not allocator.trim_heap()

@@ -25,7 +25,7 @@ def test_a_better_estimate_of_the_clock_turns_no_sample_back():
     run.sampled()
     parts = []
     for begin in (0, 2, 4):
-        run.heard(Captured(begin, np.array([begin, begin + 1], dtype=">u2").tobytes()))
+        run.receive(Captured(begin, np.array([begin, begin + 1], dtype=">u2").tobytes()))
         parts.append(run.take())
     assert parts[-1].complete
     time_s = np.concatenate([part.device_time_s for part in parts])

@@ -11,12 +11,12 @@ from rotemina.drivers.mc68hc11.codes import Refusal
 from rotemina.drivers.mc68hc11.dialogue import Dialogue, Request, Urgency
 from rotemina.drivers.mc68hc11.framing import RESYNC, STOP_BYTES, Decoder, Frame, encoded
 from rotemina.drivers.mc68hc11.grid import Grid
-from rotemina.drivers.mc68hc11.joined import joined
 from rotemina.drivers.mc68hc11.link import Link
 from rotemina.drivers.mc68hc11.messages import message_of
 from rotemina.drivers.mc68hc11.reports import Done, Inputs, Refused
 from rotemina.drivers.mc68hc11.requests import MoveTo, Poll, SetPoint, Stop, Watch
 from rotemina.drivers.mc68hc11.setpoints import Due, SetpointWindow
+from rotemina.drivers.mc68hc11.total_quality import total_quality
 
 TURN = 1 << 32
 
@@ -29,9 +29,9 @@ def test_a_request_is_repeated_after_its_time_until_it_is_answered():
     assert dialogue.offer(0.011) is None
     assert dialogue.offer(0.013) is Urgency.COMMAND
     assert dialogue.take(0.013, 8, 0.002).data == RESYNC + frame
-    assert not dialogue.heard(Done(6), 0.02)
-    assert dialogue.heard(Done(7), 0.02)
-    assert not dialogue.heard(Done(7), 0.021)
+    assert not dialogue.receive(Done(6), 0.02)
+    assert dialogue.receive(Done(7), 0.02)
+    assert not dialogue.receive(Done(7), 0.021)
     assert answers == [0.02]
     assert dialogue.repeated == 1
 
@@ -46,7 +46,7 @@ def test_the_most_urgent_request_goes_first_and_a_stop_is_not_dropped():
     dialogue.take(0.0, 1, 0.0)
     dialogue.drop()
     assert dialogue.waiting
-    dialogue.heard(Done(1), 0.001)
+    dialogue.receive(Done(1), 0.001)
     assert not dialogue.busy
 
 
@@ -102,7 +102,7 @@ def test_set_points_arrive_once_each_and_in_order_whatever_is_lost(seed):
         if answers and generator.random() < 0.7:
             answer = answers.pop(0)
             if generator.random() > 0.05:
-                window.heard(answer, now_s)
+                window.receive(answer, now_s)
         if window.offer(now_s):
             number = (number + 1) % 256
             data = window.take(now_s, number, 0.002).data
@@ -121,7 +121,7 @@ def test_no_more_set_points_than_four_are_under_way_and_none_before_its_turn():
         assert window.offer(0.0)
         window.take(0.0, number, 0.0)
     assert not window.offer(0.0)
-    window.heard(Done(1), 0.001)
+    window.receive(Done(1), 0.001)
     assert window.taken == 2
     assert window.offer(0.001)
 
@@ -130,7 +130,7 @@ def test_a_refused_set_point_ends_the_window():
     window = SetpointWindow(1, 10, lambda one: Due(one, (0, 0, 0)), 0.02, Gate().permit())
     window.release(10)
     window.take(0.0, 3, 0.0)
-    window.heard(Refused(3, Refusal.FAULTY), 0.001)
+    window.receive(Refused(3, Refusal.FAULTY), 0.001)
     assert window.refusal == Refusal.FAULTY
     assert not window.offer(1.0)
 
@@ -143,7 +143,7 @@ def test_the_clock_follows_its_board_over_the_turn_and_its_drift():
         board_us = round(begin_us + 1e6 * (true_s - 100.0) * (1.0 + 60e-6))
         time_us = clock.unwrapped(board_us % TURN)
         assert time_us == board_us
-        clock.heard(time_us, true_s + float(generator.exponential(2e-3)))
+        clock.observe(time_us, true_s + float(generator.exponential(2e-3)))
     later_us = round(begin_us + 1e6 * 65.0 * (1.0 + 60e-6))
     assert clock.host_time_s(later_us) == pytest.approx(165.0, abs=3e-3)
     assert abs(clock.time_us(165.0) - later_us) < 3000
@@ -151,7 +151,7 @@ def test_the_clock_follows_its_board_over_the_turn_and_its_drift():
 
 def test_a_late_answer_is_no_jump_but_a_time_before_or_to_come_is():
     clock = BoardClock()
-    clock.heard(10_000_000, 50.0)
+    clock.observe(10_000_000, 50.0)
     assert not clock.jumped(clock.unwrapped(10_005_000), 53.0)
     assert clock.jumped(clock.unwrapped(100_000), 50.01)
     assert clock.jumped(clock.unwrapped(20_000_000), 50.01)
@@ -257,5 +257,5 @@ def test_qualities_of_lines_are_joined():
     for link in links:
         link.dialogues[1].ask(Request(message=Watch(1)))
         link.send()
-    assert joined([link.quality() for link in links]).sent == 2
-    assert joined([]).round_trip_s is None
+    assert total_quality([link.quality() for link in links]).sent == 2
+    assert total_quality([]).round_trip_s is None

@@ -14,7 +14,7 @@ import pytest
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import Connection, Phase
 from rotemina.drivers.samples import DeviceState
-from rotemina.drivers.virtual_board.faults import Mishaps, inject
+from rotemina.drivers.virtual_board.faults import RandomFaults, inject
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record, Tap
 
@@ -53,7 +53,7 @@ class Soak:
         self.rng = np.random.default_rng(seed)
         self.session = MotionSession(bench.driver)
         self.session.connect()
-        self.mishaps = Mishaps(bench.boards, MISHAPS_HZ, seed)
+        self.mishaps = RandomFaults(bench.boards, MISHAPS_HZ, seed)
         self.ranges = np.array([axis.range for axis in self.session.robot.axes.values()])
         self.steps = np.array([1e-7, 1e-7, 1e-7, 2e-8, 2e-8, 1e-9])
         self.accepted = self.refused = self.connections = self.stops = 0

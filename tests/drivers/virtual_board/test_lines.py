@@ -19,7 +19,7 @@ from rotemina.drivers.mc68hc11.requests import (
     SetTelemetry,
 )
 from rotemina.drivers.virtual_board.clock import BoardClock
-from rotemina.drivers.virtual_board.faults import FaultCommandError, Mishaps, inject
+from rotemina.drivers.virtual_board.faults import FaultCommandError, RandomFaults, inject
 
 BYTE_S = 80e-6
 
@@ -154,7 +154,7 @@ def test_captured_samples_wait_on_a_shared_bus_until_they_are_polled(hosts):
 
 def test_disturbed_bytes_never_make_a_board_do_what_nobody_said(hosts):
     host = hosts(seed=3).patient()
-    mishaps = Mishaps(host.boards, 20.0, seed=5)
+    mishaps = RandomFaults(host.boards, 20.0, seed=5)
     answers = []
     for k in range(150):
         mishaps.live(host.time_s + 0.01)

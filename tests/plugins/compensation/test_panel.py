@@ -10,21 +10,21 @@ from shiboken6 import isValid
 from rotemina.app.motion.state import PlaybackFinished
 from rotemina.app.shell.workbench import Run
 from rotemina.plugins.compensation.learning import Learned, learned_from
-from rotemina.plugins.compensation.trial import NAME, Help, trial_motion, trial_of
+from rotemina.plugins.compensation.trial import NAME, Aid, trial_motion, trial_of
 from rotemina.plugins.compensation.words import (
     KINDS,
     REASONS,
     WHY,
-    beyond,
+    exceedance_text,
     judged,
-    left,
     micro,
+    residual_text,
 )
 from rotemina.sim.comparison.comparison import compare
 from rotemina.sim.compensate import anfis
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.file import Provenance, write_trained
-from rotemina.sim.compensate.inverse import Beyond
+from rotemina.sim.compensate.inverse import Exceedance
 from rotemina.sim.compensate.judgement import NAMES, Residual, recommended
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.compensate.training import Trained
@@ -126,17 +126,17 @@ def test_learn_put_on_and_take_off(qtbot, panel, tmp_path, monkeypatch):
     motion = trial_motion(ROBOT, "zn")
     on = {"compensation zn": "PI"}, {"feedback zn": "zn.toml"}
     for metadata, state in (
-        ({}, Help.NONE),
-        (on[0], Help.INVERSE),
-        (on[1], Help.LOOP),
-        (on[0] | on[1], Help.BOTH),
+        ({}, Aid.NONE),
+        (on[0], Aid.INVERSE),
+        (on[1], Aid.LOOP),
+        (on[0] | on[1], Aid.BOTH),
     ):
         wanted = motion.signal("zn", Tap.CMD)
         signals = {("zn", Tap.CMD): wanted, ("zn", Tap.MEAS): 1.01 * wanted}
         said = {"trajectory": motion.metadata["name"], **metadata}
         played = Record.from_signals(motion.time_s, signals, {"zn": "m"}, said)
         panel._happened.emit(PlaybackFinished(played, True))
-        assert state in panel.acting.trials
+        assert state in panel.actuation.trials
     for told in controls.residuals.values():
         qtbot.waitUntil(lambda told=told: "rms, mean" in told.text(), timeout=LONG_MS)
 
@@ -186,7 +186,7 @@ def test_a_search_is_stopped_and_a_point_of_its_front_tried_kept_applied_and_tak
     search.tuning = replace(search.tuning, points=(bad,), chosen=0, recommended=0)
     told = []
     panel.workbench.noticed.connect(lambda *notice: told.append(notice))
-    panel.acting.apply(search.tuning, "bad.toml")
+    panel.actuation.apply(search.tuning, "bad.toml")
     qtbot.waitUntil(lambda: any("nothing was applied" in str(one) for one in told), timeout=LONG_MS)
     assert session.regulated == {}
 
@@ -214,25 +214,25 @@ def test_before_and_after_on_the_simulated_machine(qtbot, panel):
     controls.axis.setCurrentIndex(2)
     panel.learn_simulated()
     qtbot.waitUntil(lambda: panel.learned is not None, timeout=4 * LONG_MS)
-    for by in (Help.NONE, Help.INVERSE):
-        if by is Help.INVERSE:
+    for by in (Aid.NONE, Aid.INVERSE):
+        if by is Aid.INVERSE:
             qtbot.waitUntil(controls.switch.isEnabled, timeout=LONG_MS)
             controls.switch.click()
             qtbot.waitUntil(lambda: "zn" in session.compensated, timeout=LONG_MS)
         qtbot.waitUntil(controls.trial.isEnabled, timeout=LONG_MS)
         controls.trial.click()
-        qtbot.waitUntil(lambda by=by: by in panel.acting.trials, timeout=LONG_MS)
-    trials = panel.acting.trials
-    assert trials[Help.INVERSE].rms < 0.15 * trials[Help.NONE].rms
-    mean = trials[Help.INVERSE].offset
+        qtbot.waitUntil(lambda by=by: by in panel.actuation.trials, timeout=LONG_MS)
+    trials = panel.actuation.trials
+    assert trials[Aid.INVERSE].rms < 0.15 * trials[Aid.NONE].rms
+    mean = trials[Aid.INVERSE].offset
     qtbot.waitUntil(controls.sweep.isEnabled, timeout=LONG_MS)
     controls.sweep.click()
     qtbot.waitUntil(lambda: not controls.trial.isEnabled(), timeout=LONG_MS)
     qtbot.waitUntil(controls.trial.isEnabled, timeout=LONG_MS)
-    panel.acting.forget()
+    panel.actuation.forget()
     controls.trial.click()
-    qtbot.waitUntil(lambda: Help.INVERSE in trials, timeout=LONG_MS)
-    assert abs(trials[Help.INVERSE].offset) < max(abs(mean), 0.2e-6)
+    qtbot.waitUntil(lambda: Aid.INVERSE in trials, timeout=LONG_MS)
+    assert abs(trials[Aid.INVERSE].offset) < max(abs(mean), 0.2e-6)
 
 
 def test_a_window_that_closes_right_after_a_trial_leaves_nothing_behind(qtbot, panel):
@@ -262,7 +262,7 @@ def test_a_trial_is_told_from_other_plays():
     said = {"trajectory": "compensation trial"}
     trial = trial_of(Record.from_signals(motion.time_s, signals, {"zn": "m"}, said), "zn")
     assert trial is not None
-    assert trial.by is Help.NONE
+    assert trial.by is Aid.NONE
     assert (trial.rms, trial.offset) == pytest.approx((0.0, 2e-7), abs=1e-12)
     assert trial_of(Record.from_signals(motion.time_s, signals, {"zn": "m"}), "zn") is None
     assert trial_of(Record.from_signals(motion.time_s, signals, {"zn": "m"}, said), "thx") is None
@@ -287,10 +287,10 @@ def test_words():
     rows = judged(learned.trained)
     assert rows[0] == ("Prandtl–Ishlinskii ◂", "50 nm", "0.2 µm", "0.08%")
     assert rows[1][0] == "linear"
-    assert left(None, "m") == "–"
+    assert residual_text(None, "m") == "–"
     assert micro(-1.5e-6, "rad") == "-1.5 µrad"
-    assert beyond(Beyond(0)) == ""
-    assert beyond(Beyond.FAST | Beyond.COMMAND) == (
+    assert exceedance_text(Exceedance(0)) == ""
+    assert exceedance_text(Exceedance.FAST | Exceedance.COMMAND) == (
         "It has been faster than it saw, at an end of the machine's range (clamped)."
     )
 

@@ -36,7 +36,7 @@ def panel(window):
 
 
 def phase_is(qtbot, panel, word):
-    qtbot.waitUntil(lambda: panel.standing.phase.text() == word, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: panel.state.phase.text() == word, timeout=LONG_MS)
 
 
 def notices(window):
@@ -49,10 +49,10 @@ def unhomed(robot):
 
 def test_a_homed_simulator_is_ready(qtbot, window, panel):
     phase_is(qtbot, panel, "ready")
-    assert panel.standing.phase.property("tone") == "good"
-    assert panel.standing.reason.text() == "Motion is possible."
-    assert not panel.standing.release.isEnabled()
-    assert "no emergency stop is latched" in panel.standing.release.toolTip()
+    assert panel.state.phase.property("tone") == "good"
+    assert panel.state.reason.text() == "Motion is possible."
+    assert not panel.state.release.isEnabled()
+    assert "no emergency stop is latched" in panel.state.release.toolTip()
     assert "no line" in panel.line.text.text()
 
 
@@ -61,7 +61,7 @@ def test_an_unhomed_machine_is_homed_from_here(qtbot, make_robot_window, press):
     panel = window.panels["connection"]
     phase_is(qtbot, panel, "position unknown")
     assert panel.position.text.text() == "Unknown, to be homed: X, Y, Z"
-    assert "home first" in panel.standing.reason.text()
+    assert "home first" in panel.state.reason.text()
     assert panel.tip.figures.values["Tip height"].text() == "unknown"
     assert not panel.tip.teach.isEnabled()
     press(panel.position.home["y"])
@@ -86,14 +86,14 @@ def test_the_owner_is_shown_while_homing(qtbot, make_robot_window, press):
 
 def test_the_latch_locks_until_it_is_released_here(qtbot, window, panel, press):
     phase_is(qtbot, panel, "ready")
-    press(panel.standing.emergency)
-    qtbot.waitUntil(lambda: "latched" in panel.standing.reason.text(), timeout=LONG_MS)
-    assert panel.standing.phase.property("tone") == "danger"
-    assert not panel.standing.emergency.isEnabled()
+    press(panel.state.emergency)
+    qtbot.waitUntil(lambda: "latched" in panel.state.reason.text(), timeout=LONG_MS)
+    assert panel.state.phase.property("tone") == "danger"
+    assert not panel.state.emergency.isEnabled()
     assert not panel.position.home_all.isEnabled()
     assert "latched" in panel.position.home_all.toolTip()
-    press(panel.standing.release)
-    qtbot.waitUntil(panel.standing.emergency.isEnabled, timeout=LONG_MS)
+    press(panel.state.release)
+    qtbot.waitUntil(panel.state.emergency.isEnabled, timeout=LONG_MS)
 
 
 def test_a_move_is_taken_back(qtbot, window, panel, press):
@@ -163,9 +163,9 @@ def test_a_device_that_cannot_be_opened_leaves_a_window_with_the_reason(
     window = make_robot_window(driver=absent)
     panel = window.panels["connection"]
     phase_is(qtbot, panel, "failed")
-    assert "nothing answers on port <COM9>" in panel.standing.reason.text()
+    assert "nothing answers on port <COM9>" in panel.state.reason.text()
     qtbot.waitUntil(lambda: "port <COM9>" in notices(window), timeout=LONG_MS)
-    assert panel.standing.reason.textFormat() is Qt.TextFormat.PlainText
+    assert panel.state.reason.textFormat() is Qt.TextFormat.PlainText
     assert not panel.position.home_all.isEnabled()
     qtbot.waitUntil(window._bar.reconnect.isVisible, timeout=LONG_MS)
     window.workbench.session.driver.plugged_in = True
@@ -183,7 +183,7 @@ def test_a_lost_connection_is_distrusted_until_confirmed(qtbot, make_robot_windo
     driver.cut = False
     press(panel.device.reconnect_button)
     phase_is(qtbot, panel, "locked")
-    assert "may be wrong" in panel.standing.reason.text()
+    assert "may be wrong" in panel.state.reason.text()
     press(panel.position.confirm)
     phase_is(qtbot, panel, "ready")
     assert not panel.position.confirm.isEnabled()
@@ -193,11 +193,11 @@ def test_a_fault_is_cleared_from_here(qtbot, make_robot_window, press, losing):
     window = make_robot_window(driver=losing)
     panel, driver = window.panels["connection"], window.workbench.session.driver
     phase_is(qtbot, panel, "ready")
-    assert not panel.standing.clear.isEnabled()
+    assert not panel.state.clear.isEnabled()
     driver.trouble = "too hot"
     phase_is(qtbot, panel, "fault")
-    assert "too hot" in panel.standing.reason.text()
-    press(panel.standing.clear)
+    assert "too hot" in panel.state.reason.text()
+    press(panel.state.clear)
     phase_is(qtbot, panel, "ready")
 
 
@@ -329,7 +329,7 @@ def test_everything_that_can_be_pressed_is_reached_by_keyboard_and_named(window,
         assert widget.focusPolicy() & Qt.FocusPolicy.TabFocus
         assert widget.accessibleName()
     for name in ("emergency", "release", "clear"):
-        assert getattr(panel.standing, name).focusPolicy() & Qt.FocusPolicy.TabFocus
+        assert getattr(panel.state, name).focusPolicy() & Qt.FocusPolicy.TabFocus
     assert all(
         label.textFormat() is Qt.TextFormat.PlainText
         for label in panel.findChildren(QLabel)

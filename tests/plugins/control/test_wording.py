@@ -13,9 +13,9 @@ from rotemina.plugins.control.wording import (
     bounds_text,
     echo,
     is_little,
-    left_text,
     owners_text,
     range_tip,
+    room_left_text,
     status_text,
     taken,
     tip_short,
@@ -78,10 +78,10 @@ def test_what_matters_most_of_an_axis_is_said():
 
 def test_what_is_left_of_a_piezo_is_the_way_to_the_nearer_end():
     low, high = ZN.range
-    assert left_text(high - 2e-6, ZN, UM) == "2.0 µm left"
-    assert left_text(low + 3e-6, ZN, UM) == "3.0 µm left"
-    assert left_text(high + 1e-6, ZN, UM) == "0.0 µm left"
-    assert left_text(None, ZN, UM) == ""
+    assert room_left_text(high - 2e-6, ZN, UM) == "2.0 µm left"
+    assert room_left_text(low + 3e-6, ZN, UM) == "3.0 µm left"
+    assert room_left_text(high + 1e-6, ZN, UM) == "0.0 µm left"
+    assert room_left_text(None, ZN, UM) == ""
     assert is_little(high - 2e-6, ZN)
     assert not is_little((low + high) / 2, ZN)
     assert "2.000 µm up" in range_tip("zn", high - 2e-6, ZN, UM)

@@ -8,7 +8,7 @@ from PySide6.QtCore import QObject
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.state import CommandRefused, Connection, SessionState
 from rotemina.plugins.effects import live as module
-from rotemina.plugins.effects.live import LiveEffects, Standing
+from rotemina.plugins.effects.live import ApplyState, LiveEffects
 from rotemina.sim.robot.model import AxisEffect
 
 FIRST = (AxisEffect(axis="thx", id="hysteresis"),)
@@ -65,10 +65,10 @@ def send(qtbot, live, session, effects):
 
 def test_what_was_taken_is_applied(qtbot, live, session):
     send(qtbot, live, session, FIRST)
-    assert live.standing is Standing.UNDER_WAY
+    assert live.apply_state is ApplyState.UNDER_WAY
     session.effects = FIRST
     cycles(live, 1.0)
-    assert live.standing is Standing.APPLIED
+    assert live.apply_state is ApplyState.APPLIED
 
 
 def test_while_one_change_is_under_way_only_the_newest_waits(qtbot, live, session):
@@ -80,7 +80,7 @@ def test_while_one_change_is_under_way_only_the_newest_waits(qtbot, live, sessio
     session.effects = FIRST
     cycles(live, 1.0)
     assert session.asked == [FIRST, THIRD]
-    assert live.standing is Standing.UNDER_WAY
+    assert live.apply_state is ApplyState.UNDER_WAY
 
 
 def test_of_several_in_a_row_the_last_is_sent(qtbot, live, session):
@@ -93,10 +93,10 @@ def test_what_takes_long_is_being_prepared(qtbot, live, session, monkeypatch):
     monkeypatch.setattr(module, "LONG_MS", 0)
     send(qtbot, live, session, FIRST)
     cycles(live, 1.0, 1.0, 1.0, 1.0)  # the worker is busy: no new samples
-    assert live.standing is Standing.PREPARING
+    assert live.apply_state is ApplyState.PREPARING
     session.effects = FIRST
     cycles(live, 2.0)
-    assert live.standing is Standing.APPLIED
+    assert live.apply_state is ApplyState.APPLIED
 
 
 def test_what_a_stop_swept_away_is_sent_once_more(qtbot, live, session):
@@ -107,8 +107,8 @@ def test_what_a_stop_swept_away_is_sent_once_more(qtbot, live, session):
     assert session.asked == [FIRST, FIRST]
     cycles(live, 6.0, 7.0, 8.0)
     assert session.asked == [FIRST, FIRST]
-    assert (live.standing, live.reason) == (
-        Standing.REFUSED,
+    assert (live.apply_state, live.reason) == (
+        ApplyState.REFUSED,
         "the simulator did not take the change",
     )
 
@@ -117,7 +117,7 @@ def test_what_the_worker_refuses_is_not_sent_again(qtbot, live, session):
     send(qtbot, live, session, FIRST)
     session.tell(CommandRefused("unstable"))
     cycles(live, 1.0, 2.0, 3.0)
-    assert (live.standing, live.reason) == (Standing.REFUSED, "unstable")
+    assert (live.apply_state, live.reason) == (ApplyState.REFUSED, "unstable")
     assert session.asked == [FIRST]
 
 
@@ -127,7 +127,7 @@ def test_a_refusal_in_a_fault_ends_the_waiting_though_device_time_stands_still(
     send(qtbot, live, session, FIRST)
     session.tell(CommandRefused("width = 1"))
     live.refresh(replace(state(1.0), fault="it diverged"))
-    assert live.standing is Standing.REFUSED
+    assert live.apply_state is ApplyState.REFUSED
     send(qtbot, live, session, SECOND)
     assert session.asked == [FIRST, SECOND]
 
@@ -137,13 +137,13 @@ def test_what_the_session_refuses_at_once_is_told(qtbot, live, session):
     with qtbot.waitSignal(live.refused) as told:
         live.ask(FIRST)
     assert told.args == ["the queue is full"]
-    assert live.standing is Standing.REFUSED
+    assert live.apply_state is ApplyState.REFUSED
 
 
 def test_a_lost_device_ends_the_waiting(qtbot, live, session):
     send(qtbot, live, session, FIRST)
     cycles(live, 1.0, connection=Connection.FAILED)
-    assert live.standing is Standing.REFUSED
+    assert live.apply_state is ApplyState.REFUSED
 
 
 def test_effects_of_others_are_noticed_once_and_own_ones_never(qtbot, live, session):

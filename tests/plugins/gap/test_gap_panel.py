@@ -15,9 +15,9 @@ from rotemina.plugins.gap import actions
 from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.diagnosing import StoppedError, said
 from rotemina.plugins.gap.diagnosis_process import DiagnosisProcess
+from rotemina.plugins.gap.distribution_view import warmth
 from rotemina.plugins.gap.proof import new_motion
 from rotemina.plugins.gap.ranking_view import name_of
-from rotemina.plugins.gap.where import warmth
 from rotemina.sim.comparison.comparison import compare
 from rotemina.sim.gap.diagnosis import Experiment
 from rotemina.sim.gap.document import as_json
@@ -318,16 +318,16 @@ def test_the_time_left_is_told_once_it_can_be_guessed_and_runs_down():
 
 
 def test_where_names_axes_taps_and_shares_with_a_map_of_the_chosen_one(answered):
-    rows = answered.where.places.texts()
+    rows = answered.distribution.places.texts()
     assert rows[0][0] == "θx ref"
     assert [row[1] for row in rows if row[0].startswith("θy")] == ["noise", "noise"]
-    heat = answered.where.heat.texts()
-    assert "Click a cell" in answered.where.heat_title.text()
+    heat = answered.distribution.heat.texts()
+    assert "Click a cell" in answered.distribution.heat_title.text()
     assert {"reversal", "forward", "backward"} <= {row[0] for row in heat}
     shares = {row[0]: float(row[1].removesuffix(" %").removeprefix("< ")) for row in heat}
     assert shares["fast"] + shares["slow"] + shares["reversal"] == pytest.approx(100.0, abs=3.0)
-    answered.where.places.selectRow(1)
-    assert answered.where.heat_title.text().startswith("θx meas")
+    answered.distribution.places.selectRow(1)
+    assert answered.distribution.heat_title.text().startswith("θx meas")
 
 
 def test_warmth_goes_from_none_to_all():
@@ -338,14 +338,14 @@ def test_warmth_goes_from_none_to_all():
 
 def test_which_ranks_candidates_and_says_what_cannot_be_told_apart(answered):
     answered.tabs.setCurrentIndex(WHICH)
-    assert answered.views.currentWidget() is answered.which
-    assert answered.which.ranking.texts()[0] == [
+    assert answered.views.currentWidget() is answered.causes
+    assert answered.causes.ranking.texts()[0] == [
         "Hysteresis (prandtl ishlinskii)",
         "91 %",
         "1.2",
         "1.1 … 1.3",
     ]
-    text = answered.which.text.toPlainText()
+    text = answered.causes.text.toPlainText()
     assert "These records cannot tell it from creep." in text
     assert "width: 120 µrad (110 µrad … 130 µrad), at its high bound" in text
     assert "Not testable: sensor gain error (no reference was measured)." in text
@@ -354,24 +354,24 @@ def test_which_ranks_candidates_and_says_what_cannot_be_told_apart(answered):
 
 def test_how_far_shows_bars_and_the_gap_before_and_after(answered):
     answered.tabs.setCurrentIndex(FAR)
-    assert [(bar.name, bar.text) for bar in answered.far.bars.bars] == [
+    assert [(bar.name, bar.text) for bar in answered.shrinkage.bars.bars] == [
         ("as it is", "33 µrad"),
         ("re-tuned", "32 µrad"),
         ("+ Hysteresis", "0.78 µrad"),
         ("corrected", "0.77 µrad"),
     ]
-    assert [line.text for line in answered.far.bars.lines] == ["0.4 µrad"]
-    assert not answered.far.bars.grab().toImage().isNull()
-    assert answered.far.traces.choice.currentText() == "day one.csv: meas"
+    assert [line.text for line in answered.shrinkage.bars.lines] == ["0.4 µrad"]
+    assert not answered.shrinkage.bars.grab().toImage().isNull()
+    assert answered.shrinkage.traces.choice.currentText() == "day one.csv: meas"
     before, after = (
-        np.asarray(answered.far.traces.plot._curves[name].getData()[1])
+        np.asarray(answered.shrinkage.traces.plot._curves[name].getData()[1])
         for name in ("before", "after")
     )
     assert np.std(before) > 10 * np.std(after) > 0.0
     answered.axis.setCurrentIndex(answered.axis.findData("thy"))
     answered.axis.activated.emit(answered.axis.currentIndex())
-    assert answered.far.bars.bars == ()
-    assert answered.far.title.text() == "No gap to close was found on this axis."
+    assert answered.shrinkage.bars.bars == ()
+    assert answered.shrinkage.title.text() == "No gap to close was found on this axis."
 
 
 def test_another_theme_recolours_everything(window, answered):
@@ -381,11 +381,11 @@ def test_another_theme_recolours_everything(window, answered):
             answered.tabs.setCurrentIndex(view)
             assert not answered.grab().toImage().isNull()
     quiet = answered.workbench.theme.quiet
-    assert answered.which.ranking.item(1, 0).foreground().color().name() == quiet
+    assert answered.causes.ranking.item(1, 0).foreground().color().name() == quiet
 
 
 def test_a_cell_of_the_map_leads_to_its_traces_and_back(qtbot, answered):
-    where = answered.where
+    where = answered.distribution
     texts = where.heat.texts()
     row = next(n for n, each in enumerate(texts) if each[0] == "reversal")
     place = where.heat.visualItemRect(where.heat.item(row, 2)).center()
@@ -421,7 +421,7 @@ def test_a_suggested_experiment_is_played_after_a_question_and_diagnosed_with_th
 ):
     assert answered.plan.isHidden()
     command = experimental(answered, diagnosis, record)
-    text = answered.which.text.toPlainText()
+    text = answered.causes.text.toPlainText()
     assert "Next experiment: A long hold parts them." in text
     assert "Press “Play next experiment …”: it parts them." in text
     click(qtbot, answered.plan)

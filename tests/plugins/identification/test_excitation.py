@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotemina.plugins.identification.excitation import Wave, Wish, prepared, steady
+from rotemina.plugins.identification.excitation import ExcitationRequest, Wave, prepared, steady
 from rotemina.sim.errors import InputError
 from rotemina.sim.kinematics.keep_out import KeepOutZone
 from rotemina.sim.records.record import Record, Tap
@@ -19,7 +19,7 @@ def robot():
 
 @pytest.fixture(scope="module")
 def multisine(robot):
-    return prepared(robot, Wish("zn", Wave.MULTISINE), PERIOD_S)
+    return prepared(robot, ExcitationRequest("zn", Wave.MULTISINE), PERIOD_S)
 
 
 def played(motion, rate_hz, **metadata):
@@ -34,7 +34,7 @@ def played(motion, rate_hz, **metadata):
 
 @pytest.mark.parametrize("wave", list(Wave))
 def test_every_motion_suits_the_axis_where_nothing_is_typed(robot, wave):
-    motion = prepared(robot, Wish("zn", wave), PERIOD_S)
+    motion = prepared(robot, ExcitationRequest("zn", wave), PERIOD_S)
     assert motion.digest == motion.dry_run.checked.digest
     assert motion.objection == ""
     assert motion.name == f"{wave} of Z nano"
@@ -43,34 +43,36 @@ def test_every_motion_suits_the_axis_where_nothing_is_typed(robot, wave):
 
 
 def test_what_is_typed_is_what_moves(robot):
-    motion = prepared(robot, Wish("zn", Wave.SINE, "5um", "2 Hz", " 4", 20e-6), PERIOD_S)
+    motion = prepared(
+        robot, ExcitationRequest("zn", Wave.SINE, "5um", "2 Hz", " 4", 20e-6), PERIOD_S
+    )
     command = motion.made.record.signal("zn", Tap.CMD)
     assert (command.min(), command.max()) == pytest.approx((15e-6, 25e-6))
     assert motion.dry_run.duration_s == pytest.approx(4.0)
     assert "15 µm to 25 µm" in motion.words
-    stairs = prepared(robot, Wish("zn", Wave.STAIRCASE, "10%", "", "0.2 s"), PERIOD_S)
+    stairs = prepared(robot, ExcitationRequest("zn", Wave.STAIRCASE, "10%", "", "0.2 s"), PERIOD_S)
     assert stairs.dry_run.duration_s == pytest.approx(11 * 0.2, rel=0.05)
 
 
 def test_what_exceeds_a_limit_is_reduced_and_said(robot):
-    words = prepared(robot, Wish("zn", Wave.SINE, "1mm", "1"), PERIOD_S).words
+    words = prepared(robot, ExcitationRequest("zn", Wave.SINE, "1mm", "1"), PERIOD_S).words
     assert "Changed: axis zn: amplitude 1 mm" in words
 
 
 @pytest.mark.parametrize(
-    ("wish", "said"),
+    ("excitation", "said"),
     [
-        (Wish("zn", Wave.SINE, "5"), "has no unit"),
-        (Wish("zn", Wave.SINE, "5urad"), "not in m"),
-        (Wish("zn", Wave.SINE, "", "fast"), "frequency: 'fast' is no number of Hz"),
-        (Wish("zn", Wave.SINE, "", "", "1e999"), "must be a finite number"),
-        (Wish("zn", Wave.SINE, "", "", "-1"), "must be a finite number above 0"),
-        (Wish("zn", Wave.SINE, "", "900 Hz", about=0.0), "zn"),
+        (ExcitationRequest("zn", Wave.SINE, "5"), "has no unit"),
+        (ExcitationRequest("zn", Wave.SINE, "5urad"), "not in m"),
+        (ExcitationRequest("zn", Wave.SINE, "", "fast"), "frequency: 'fast' is no number of Hz"),
+        (ExcitationRequest("zn", Wave.SINE, "", "", "1e999"), "must be a finite number"),
+        (ExcitationRequest("zn", Wave.SINE, "", "", "-1"), "must be a finite number above 0"),
+        (ExcitationRequest("zn", Wave.SINE, "", "900 Hz", about=0.0), "zn"),
     ],
 )
-def test_what_makes_no_sense_is_refused_in_words(robot, wish, said):
+def test_what_makes_no_sense_is_refused_in_words(robot, excitation, said):
     with pytest.raises(InputError, match=said):
-        prepared(robot, wish, PERIOD_S)
+        prepared(robot, excitation, PERIOD_S)
 
 
 def test_a_motion_through_the_floor_must_not_be_played(robot):
@@ -78,10 +80,12 @@ def test_a_motion_through_the_floor_must_not_be_played(robot):
     zone = KeepOutZone.of(robot)
     tip = zone.tip(np.array(list(command.values())))
     floored = zone.taught(float(tip[2]) - 5e-6)
-    motion = prepared(robot, Wish("zn", Wave.TRIANGLE), PERIOD_S, floored, command)
+    motion = prepared(robot, ExcitationRequest("zn", Wave.TRIANGLE), PERIOD_S, floored, command)
     assert motion.digest is None
     assert motion.words.splitlines()[-1].startswith("Not playable: tip")
-    small = prepared(robot, Wish("zn", Wave.TRIANGLE, "1um"), PERIOD_S, floored, command)
+    small = prepared(
+        robot, ExcitationRequest("zn", Wave.TRIANGLE, "1um"), PERIOD_S, floored, command
+    )
     assert small.digest is not None
 
 
@@ -102,7 +106,7 @@ def test_a_record_out_of_step_with_the_motion_is_not_called_periodic(multisine):
 
 
 def test_a_motion_that_is_not_periodic_began_at_rest(robot):
-    motion = prepared(robot, Wish("zn", Wave.TRIANGLE), PERIOD_S)
+    motion = prepared(robot, ExcitationRequest("zn", Wave.TRIANGLE), PERIOD_S)
     record = steady(played(motion, 1000.0, mode="open_loop"), motion)
     assert record.history == "rest"
     assert record.metadata == {"mode": "open_loop"}

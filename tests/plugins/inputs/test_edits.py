@@ -10,9 +10,9 @@ from rotemina.app.motion.teleoperation.profile import (
     ActionMapping,
     AxisMapping,
     DeviceMapping,
+    OperatorRole,
     Profile,
     ProfileError,
-    Seat,
 )
 from rotemina.drivers.inputs.device import InputIdentity
 from rotemina.plugins.inputs.edits import Edited, exchanged, threshold, turned
@@ -30,7 +30,7 @@ BENCH = Profile(
     name="Bench",
     devices=(
         DeviceMapping(key="hid:st*", axes=(AxisMapping(control="X", drives="x", inverted=True),)),
-        DeviceMapping(key="hid:pedal", seat=Seat.TRAINEE, actions=STOPS),
+        DeviceMapping(key="hid:pedal", seat=OperatorRole.TRAINEE, actions=STOPS),
     ),
 )
 
@@ -86,7 +86,10 @@ def test_without_a_profile_one_is_made():
 
 
 def test_a_device_takes_a_seat_or_none():
-    assert edited(edited(device=PEDAL).with_seat(Seat.TRAINER), PEDAL).mapping.seat is Seat.TRAINER
+    assert (
+        edited(edited(device=PEDAL).with_seat(OperatorRole.TRAINER), PEDAL).mapping.seat
+        is OperatorRole.TRAINER
+    )
     alone = edited(device=PEDAL).with_seat(None)
     assert [each.key for each in alone.devices] == ["hid:st*"]
     with pytest.raises(ProfileError, match="without any device"):
@@ -94,7 +97,10 @@ def test_a_device_takes_a_seat_or_none():
 
 
 def test_seats_are_exchanged_at_once():
-    assert [each.seat for each in exchanged(BENCH).devices] == [Seat.TRAINEE, Seat.TRAINER]
+    assert [each.seat for each in exchanged(BENCH).devices] == [
+        OperatorRole.TRAINEE,
+        OperatorRole.TRAINER,
+    ]
     assert exchanged(exchanged(BENCH)) == BENCH
 
 

@@ -12,7 +12,7 @@ from rotemina.app.microscope.calibration_file import (
     View,
 )
 from rotemina.app.microscope.click_to_move import PlannedMove
-from rotemina.app.microscope.sight import ScaleSource, Sight
+from rotemina.app.microscope.status import MicroscopeStatus, ScaleSource
 from rotemina.drivers.cameras.camera import CameraIdentity
 from rotemina.drivers.cameras.frame import Frame, Region
 from rotemina.drivers.cameras.settings import CameraDescription, CameraSettings, PixelType, Trigger
@@ -59,7 +59,7 @@ def live_sight():
         settings=CameraSettings(exposure_s=0.01),
         description=can,
     )
-    return Sight(
+    return MicroscopeStatus(
         cameras=(identity,),
         camera=identity,
         feed=feed,
@@ -75,17 +75,17 @@ class FakeMicroscope:
     """Has the methods that the panel calls; ``asked`` has their names and arguments."""
 
     def __init__(self):
-        self.sight = live_sight()
+        self.status = live_sight()
         self.asked = []
         self.listeners = []
         self.refuses = None
         self.confirm = False
 
     def change(self, **changes):
-        self.sight = replace(self.sight, **changes)
+        self.status = replace(self.status, **changes)
 
     def feed(self, **changes):
-        self.change(feed=replace(self.sight.feed, **changes))
+        self.change(feed=replace(self.status.feed, **changes))
 
     def listen(self, tell):
         self.listeners.append(tell)

@@ -9,8 +9,8 @@ from PySide6.QtCore import QPointF, Qt
 
 from rotemina.app.cameras.feed import FeedState
 from rotemina.app.microscope.click_run import Visit
-from rotemina.app.microscope.sight import Activity, ScaleSource, TipState
-from rotemina.plugins.microscope.picture_view import Hand
+from rotemina.app.microscope.status import Activity, ScaleSource, TipState
+from rotemina.plugins.microscope.picture_view import PointerTool
 from rotemina.sim.kinematics.chain import Chain
 from rotemina.sim.kinematics.forward import tip_position
 
@@ -28,7 +28,7 @@ def open_camera(qtbot, window):
     panel, microscope = shown(window), window.workbench.microscope
     # The simulated microscope is opened by itself, where nobody has chosen a camera.
     qtbot.waitUntil(lambda: panel.view.frame is not None, timeout=LONG_MS)
-    qtbot.waitUntil(lambda: microscope.sight.feed.state is FeedState.LIVE, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: microscope.status.feed.state is FeedState.LIVE, timeout=LONG_MS)
     return panel, microscope
 
 
@@ -45,7 +45,7 @@ def test_a_picture_is_shown_kept_and_filmed_and_a_refused_setting_said(qtbot, wi
     qtbot.waitUntil(lambda: "exposure_s = 99.999" in panel.settings.problem.text(), timeout=LONG_MS)
 
     panel.bar.tools.setCurrentText("Keep")
-    qtbot.mouseClick(panel.keeping.snapshot, LEFT)
+    qtbot.mouseClick(panel.saving.snapshot, LEFT)
     qtbot.waitUntil(lambda: any("Saved" in one for one in notices(window)), timeout=LONG_MS)
     data = window.workbench.operation.data
     (tiff,) = (data / "pictures").glob("*.tif")
@@ -54,8 +54,8 @@ def test_a_picture_is_shown_kept_and_filmed_and_a_refused_setting_said(qtbot, wi
         facts = json.loads(file.pages[0].description)
     assert facts["command"]["x"] == pytest.approx(window.workbench.session.snapshot().command["x"])
 
-    qtbot.mouseClick(panel.keeping.record, LEFT)
-    status = lambda: panel.keeping.filming.status  # noqa: E731 (it is asked for twice)
+    qtbot.mouseClick(panel.saving.record, LEFT)
+    status = lambda: panel.saving.filming.status  # noqa: E731 (it is asked for twice)
     qtbot.waitUntil(lambda: status() is not None and status().pictures >= 3, timeout=LONG_MS)
     window.workbench.close()  # a film that is under way is ended with the window
     (film,) = (data / "videos").glob("*.tif")
@@ -72,19 +72,19 @@ def test_calibrate_click_and_the_true_tip_is_there(qtbot, window):
     panel.bar.tools.setCurrentText("Calibrate")
     qtbot.waitUntil(panel.calibration.micro.isEnabled, timeout=LONG_MS)
     qtbot.mouseClick(panel.calibration.micro, LEFT)
-    qtbot.waitUntil(lambda: microscope.sight.activity is Activity.CALIBRATION, timeout=LONG_MS)
-    qtbot.waitUntil(lambda: microscope.sight.activity is Activity.NONE, timeout=LONG_MS)
-    qtbot.waitUntil(lambda: microscope.sight.calibration is not None, timeout=LONG_MS)
-    assert microscope.sight.scale_source is ScaleSource.CALIBRATION
+    qtbot.waitUntil(lambda: microscope.status.activity is Activity.CALIBRATION, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: microscope.status.activity is Activity.NONE, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: microscope.status.calibration is not None, timeout=LONG_MS)
+    assert microscope.status.scale_source is ScaleSource.CALIBRATION
     panel.bar.tools.setCurrentText("Vision")
     qtbot.waitUntil(panel.tip.track.isVisible, timeout=LONG_MS)
-    qtbot.waitUntil(lambda: microscope.sight.tip.state is TipState.TRACKED, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: microscope.status.tip.state is TipState.TRACKED, timeout=LONG_MS)
 
-    move = panel.bar.buttons[Hand.MOVE]
+    move = panel.bar.buttons[PointerTool.MOVE]
     qtbot.waitUntil(move.isEnabled, timeout=LONG_MS)
     qtbot.mouseClick(move, LEFT)
-    assert panel.view.hand is Hand.MOVE
-    goal = microscope.sight.tip.pixel + np.array([60.0, -40.0])
+    assert panel.view.tool is PointerTool.MOVE
+    goal = microscope.status.tip.pixel + np.array([60.0, -40.0])
     view = panel.view
     view._view(view.viewport.zoomed(8.0, view.viewport.to_screen(*goal)))  # to click finely
     place = QPointF(*view.viewport.to_screen(*goal)).toPoint()
@@ -92,15 +92,15 @@ def test_calibrate_click_and_the_true_tip_is_there(qtbot, window):
     qtbot.mouseClick(view, LEFT, pos=place)
     qtbot.waitUntil(
         lambda: (
-            microscope.sight.visiting is not None
-            and microscope.sight.visiting.visit is not Visit.UNDER_WAY
+            microscope.status.visiting is not None
+            and microscope.status.visiting.visit is not Visit.UNDER_WAY
         ),
         timeout=LONG_MS,
     )
-    assert microscope.sight.visiting.visit is Visit.ARRIVED, microscope.sight.visiting.reason
+    assert microscope.status.visiting.visit is Visit.ARRIVED, microscope.status.visiting.reason
     chain = Chain.of(session.robot)
     true = tip_position(chain, chain.joints_of(np.array(session.driver.true_positions)))
     seen = microscope.camera.camera.scene.optics.pixel_of(true)
     assert np.linalg.norm(seen - wanted) < 0.5
     window.workbench.stop()
-    qtbot.waitUntil(lambda: view.hand is Hand.PAN, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: view.tool is PointerTool.PAN, timeout=LONG_MS)

@@ -1,4 +1,4 @@
-"""The picture and the hands in it, on a microscope that does what the test says."""
+"""The picture and the pointer tools in it, on a microscope that does what the test says."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,7 @@ from PySide6.QtGui import QColor, QWheelEvent
 
 from rotemina.app.cameras.feed import FeedState
 from rotemina.app.microscope.errors import MicroscopeError
-from rotemina.app.microscope.sight import TipSeen, TipState
+from rotemina.app.microscope.status import TipSeen, TipState
 from rotemina.app.microscope.targets import Target
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.requests import Requests
@@ -16,10 +16,10 @@ from rotemina.drivers.cameras.frame import Frame, Region
 from rotemina.drivers.gate import Gate
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.microscope.contrast import Contrast
-from rotemina.plugins.microscope.hands import Hands
 from rotemina.plugins.microscope.histogram_view import HistogramView
 from rotemina.plugins.microscope.overlays import Layer
-from rotemina.plugins.microscope.picture_view import Hand, PictureView
+from rotemina.plugins.microscope.picture_view import PictureView, PointerTool
+from rotemina.plugins.microscope.pointer_tools import PointerTools
 
 LEFT = Qt.MouseButton.LeftButton
 
@@ -29,13 +29,13 @@ def view(qtbot, microscope):
     made = PictureView(DARK)
     qtbot.addWidget(made)
     made.resize(260, 206)  # two screen pixels a pixel
-    made.show_sight(microscope.sight)
+    made.show_status(microscope.status)
     made.show()
     return made
 
 
-class Standing:
-    """A session of which hands ask state, permits and stops."""
+class FeedNotice:
+    """A session of which tools ask state, permits and stops."""
 
     def __init__(self):
         gate = Gate()
@@ -52,13 +52,13 @@ class Standing:
 
 @pytest.fixture
 def session():
-    return Standing()
+    return FeedNotice()
 
 
 @pytest.fixture
-def hands(microscope, view, session):
+def tools(microscope, view, session):
     microscope.change(tip=TipSeen(TipState.TRACKED, np.array([65.0, 51.0])))
-    made = Hands(Requests(session), microscope, view)
+    made = PointerTools(Requests(session), microscope, view)
     made.said = []
     made.asked = []
     made._workbench.refused.connect(made.said.append)
@@ -83,13 +83,13 @@ def test_the_newest_picture_is_painted_where_it_belongs(qtbot, view, microscope)
     view.set_contrast(Contrast(auto=False))
     with qtbot.waitSignal(view.painted, check_params_cb=lambda frame: frame is taken):
         microscope.feed(frame=taken)
-        view.show_sight(microscope.sight)
+        view.show_status(microscope.status)
     image = view.grab().toImage()
     for column, row, level in ((31, 41, 255), (49, 59, 255), (29, 50, 0), (51, 50, 0), (40, 39, 0)):
         place = at(view, column, row)
         assert QColor(image.pixel(place.x(), place.y())).red() == level
     microscope.feed(state=FeedState.FROZEN, reason="the same again")
-    view.show_sight(microscope.sight)
+    view.show_status(microscope.status)
     veiled = view.grab().toImage()
     corner = QPoint(250, 200)
     assert QColor(image.pixel(corner)).red() == 0
@@ -116,7 +116,7 @@ def test_wheel_pan_and_keys(qtbot, view):
     qtbot.mouseMove(view, QPoint(110, 95))
     qtbot.mouseRelease(view, Qt.MouseButton.MiddleButton, pos=QPoint(110, 95))
     assert view.viewport.to_screen(*held) == pytest.approx((70.0, 35.0))
-    view.set_hand(Hand.MARK)  # the left button has other work: the space bar makes it pan
+    view.set_tool(PointerTool.MARK)  # the left button has other work: the space bar makes it pan
     before = view.viewport.at
     with qtbot.assertNotEmitted(view.pressed):
         qtbot.keyPress(view, Qt.Key.Key_Space)
@@ -131,12 +131,18 @@ def test_wheel_pan_and_keys(qtbot, view):
     assert view.viewport.zoom == pytest.approx(2.0)
 
 
-def test_nothing_moves_unless_the_mode_is_on(qtbot, view, microscope, hands):
-    for hand in (Hand.PAN, Hand.MARK, Hand.TIP, Hand.CELL, Hand.MEASURE):
-        hands.choose(hand)
+def test_nothing_moves_unless_the_mode_is_on(qtbot, view, microscope, tools):
+    for tool in (
+        PointerTool.PAN,
+        PointerTool.MARK,
+        PointerTool.TIP,
+        PointerTool.CELL,
+        PointerTool.MEASURE,
+    ):
+        tools.choose(tool)
         qtbot.mouseClick(view, LEFT, pos=at(view, 80, 40))
     assert names(microscope) == ["mark_target", "track", "outline_cell", "forget_measure"]
-    hands.choose(Hand.MEASURE)
+    tools.choose(PointerTool.MEASURE)
     microscope.asked.clear()
     qtbot.mousePress(view, LEFT, pos=at(view, 20, 20))
     qtbot.mouseMove(view, at(view, 60, 50))
@@ -148,10 +154,10 @@ def test_nothing_moves_unless_the_mode_is_on(qtbot, view, microscope, hands):
     assert view.line is None
 
 
-def test_a_click_plans_shows_and_goes_and_a_drag_follows(qtbot, view, microscope, hands):
-    hands.choose(Hand.MOVE)
+def test_a_click_plans_shows_and_goes_and_a_drag_follows(qtbot, view, microscope, tools):
+    tools.choose(PointerTool.MOVE)
     qtbot.mousePress(view, LEFT, pos=at(view, 80, 40))
-    assert microscope.sight.planned is not None  # the ghost, before anything has moved
+    assert microscope.status.planned is not None  # the ghost, before anything has moved
     assert names(microscope) == ["plan"]
     qtbot.mouseMove(view, at(view, 90, 45))
     qtbot.mouseRelease(view, LEFT, pos=at(view, 90, 45))
@@ -160,25 +166,25 @@ def test_a_click_plans_shows_and_goes_and_a_drag_follows(qtbot, view, microscope
     assert microscope.asked[2] == ("go", False)
 
 
-def test_a_large_move_waits_for_a_yes(qtbot, view, microscope, hands):
+def test_a_large_move_waits_for_a_yes(qtbot, view, microscope, tools):
     microscope.confirm = True
-    hands.choose(Hand.MOVE)
+    tools.choose(PointerTool.MOVE)
     qtbot.mouseClick(view, LEFT, pos=at(view, 80, 40))
     assert "go" not in names(microscope)
-    assert hands.asked[-1] == "Move the tip 20 µm with the micro stage, ± 0.5 px?"
-    hands.answer(False)
-    assert (names(microscope)[-1], hands.asked[-1]) == ("cancel_plan", "")
-    hands.answer(True)  # of a question that was answered already
+    assert tools.asked[-1] == "Move the tip 20 µm with the micro stage, ± 0.5 px?"
+    tools.answer(False)
+    assert (names(microscope)[-1], tools.asked[-1]) == ("cancel_plan", "")
+    tools.answer(True)  # of a question that was answered already
     assert "go" not in names(microscope)
     qtbot.mouseClick(view, LEFT, pos=at(view, 80, 40))
-    hands.answer(True)
+    tools.answer(True)
     assert ("go", True) in microscope.asked
 
 
 @pytest.mark.parametrize("way", ["Esc", "stop", "hidden", "frozen", "mode off"])
-def test_what_ends_the_mode_forgets_the_move(qtbot, view, microscope, hands, session, way):
+def test_what_ends_the_mode_forgets_the_move(qtbot, view, microscope, tools, session, way):
     microscope.confirm = True
-    hands.choose(Hand.MOVE)
+    tools.choose(PointerTool.MOVE)
     qtbot.mouseClick(view, LEFT, pos=at(view, 80, 40))
     if way == "Esc":
         qtbot.keyClick(view, Qt.Key.Key_Escape)
@@ -189,45 +195,45 @@ def test_what_ends_the_mode_forgets_the_move(qtbot, view, microscope, hands, ses
     elif way == "frozen":
         microscope.feed(state=FeedState.FROZEN)
     else:
-        hands.choose(Hand.PAN)
-    hands.refresh(microscope.sight)
-    assert view.hand is Hand.PAN
-    assert microscope.sight.planned is None
-    assert hands.asked[-1] == ""
-    hands.answer(True)
+        tools.choose(PointerTool.PAN)
+    tools.refresh(microscope.status)
+    assert view.tool is PointerTool.PAN
+    assert microscope.status.planned is None
+    assert tools.asked[-1] == ""
+    tools.answer(True)
     assert "go" not in names(microscope)
 
 
 def test_what_speaks_against_a_move_is_said_and_nothing_is_planned(
-    qtbot, view, microscope, hands, session
+    qtbot, view, microscope, tools, session
 ):
-    hands.choose(Hand.MOVE)
+    tools.choose(PointerTool.MOVE)
     microscope.change(tip=TipSeen(TipState.LOST))
     qtbot.mouseClick(view, LEFT, pos=at(view, 80, 40))
     assert names(microscope) == []
-    assert "nothing is moved: the tip is not tracked" in hands.said[-1]
-    hands.choose(Hand.MARK)
-    against = hands.against(microscope.sight, session.state)
-    assert "tip is not tracked" in against[Hand.MOVE]
-    assert against[Hand.MARK] is None
-    hands.choose(Hand.MOVE)
+    assert "nothing is moved: the tip is not tracked" in tools.said[-1]
+    tools.choose(PointerTool.MARK)
+    against = tools.against(microscope.status, session.state)
+    assert "tip is not tracked" in against[PointerTool.MOVE]
+    assert against[PointerTool.MARK] is None
+    tools.choose(PointerTool.MOVE)
     microscope.change(tip=TipSeen(TipState.TRACKED))
     microscope.refuses = MicroscopeError("outside the calibrated field")
     qtbot.mouseClick(view, LEFT, pos=at(view, 80, 40))
-    assert hands.said[-1] == "outside the calibrated field"
+    assert tools.said[-1] == "outside the calibrated field"
     assert "go" not in names(microscope)
 
 
-def test_targets_are_visited_in_order(view, microscope, hands):
+def test_targets_are_visited_in_order(view, microscope, tools):
     microscope.change(targets=(Target(10.0, 20.0), Target(30.0, 40.0)))
-    hands.visit_next()
+    tools.visit_next()
     assert microscope.asked[0] == ("plan", (10.0, 20.0), None)
     assert names(microscope)[1:] == ["visit_next", "cancel_plan"]
     microscope.confirm = True
     microscope.asked.clear()
-    hands.visit_next()
+    tools.visit_next()
     assert names(microscope) == ["plan"]
-    hands.answer(True)
+    tools.answer(True)
     assert ("visit_next", True) in microscope.asked
 
 

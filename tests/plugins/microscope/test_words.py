@@ -8,7 +8,7 @@ import pytest
 from rotemina.app.cameras.feed import FeedState
 from rotemina.app.microscope.click_run import Visit
 from rotemina.app.microscope.click_to_move import PlannedMove
-from rotemina.app.microscope.sight import (
+from rotemina.app.microscope.status import (
     CellSeen,
     Measured,
     ScaleSource,
@@ -22,10 +22,10 @@ from rotemina.drivers.cameras.frame import Frame, Region
 from rotemina.drivers.cameras.settings import CameraSettings, PixelType, Trigger
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.microscope.camera_form import CameraTexts, settings_of, texts_of
+from rotemina.plugins.microscope.feed_notice import against_clicking, feed_notice
 from rotemina.plugins.microscope.overlays import Cross, Layer, Look, Ring, Stroke, shapes
 from rotemina.plugins.microscope.readout import cursor_text, measured_text
 from rotemina.plugins.microscope.scale_bar import scale_bar
-from rotemina.plugins.microscope.standing import against_clicking, standing
 from rotemina.plugins.microscope.words import stage_text, target_text, tip_text
 from rotemina.sim.vision.cell import CellOutline, MembraneAhead
 from rotemina.sim.vision.tip_fit import Depth
@@ -34,12 +34,12 @@ ALL = frozenset(Layer)
 
 
 @pytest.fixture
-def sight(microscope):
-    return microscope.sight
+def status(microscope):
+    return microscope.status
 
 
-def feed(sight, **changes):
-    return replace(sight, feed=replace(sight.feed, **changes))
+def feed(status, **changes):
+    return replace(status, feed=replace(status.feed, **changes))
 
 
 @pytest.mark.parametrize(
@@ -56,30 +56,30 @@ def feed(sight, **changes):
     ],
 )
 def test_every_state_of_the_camera_is_said_and_an_old_picture_is_veiled(
-    sight, state, title, veiled
+    status, state, title, veiled
 ):
-    said = standing(feed(sight, state=state, reason="why").feed)
+    said = feed_notice(feed(status, state=state, reason="why").feed)
     assert (said.title, said.veiled) == (title, veiled)
     assert said.badge
     if veiled:
         assert said.reason == ("why" if state is not FeedState.CLOSED else said.reason)
-    none = standing(feed(sight, state=FeedState.LIVE, frame=None, age_s=None).feed)
+    none = feed_notice(feed(status, state=FeedState.LIVE, frame=None, age_s=None).feed)
     assert none.title == "Waiting for the first picture"
 
 
-def test_the_age_of_a_live_picture_is_told(sight):
-    assert standing(sight.feed).badge == "live · 30 Hz · 12 ms old"
-    assert standing(feed(sight, rate_hz=0.0).feed).badge == "live · 12 ms old"  # the first one
-    old = feed(sight, state=FeedState.STALLED, age_s=3.21)
-    assert standing(old.feed).badge == "stalled · 3.2 s old"
+def test_the_age_of_a_live_picture_is_told(status):
+    assert feed_notice(status.feed).badge == "live · 30 Hz · 12 ms old"
+    assert feed_notice(feed(status, rate_hz=0.0).feed).badge == "live · 12 ms old"  # the first one
+    old = feed(status, state=FeedState.STALLED, age_s=3.21)
+    assert feed_notice(old.feed).badge == "stalled · 3.2 s old"
 
 
-def test_clicks_move_only_by_a_live_calibrated_picture_with_a_tracked_tip(sight):
+def test_clicks_move_only_by_a_live_calibrated_picture_with_a_tracked_tip(status):
     ready = SessionState(activity=DeviceState.IDLE)
-    tracked = replace(sight, tip=TipSeen(TipState.TRACKED))
+    tracked = replace(status, tip=TipSeen(TipState.TRACKED))
     assert against_clicking(tracked, ready) is None
     for wrong, said in (
-        (sight, "tip is not tracked"),
+        (status, "tip is not tracked"),
         (replace(tracked, calibration=None), "not calibrated"),
         (replace(tracked, calibration=None, calibration_problem="a bad file"), "a bad file"),
         *((feed(tracked, state=one), "not live") for one in FeedState if one != FeedState.LIVE),
@@ -115,32 +115,32 @@ def test_without_a_scale_the_bar_counts_pixels():
     assert scale_bar(None, ScaleSource.NONE, 40.0, 20.0).text == "1 px"
 
 
-def test_the_cursor_reads_pixel_value_and_place(sight):
-    value = int(sight.feed.frame.pixels[51, 75])
+def test_the_cursor_reads_pixel_value_and_place(status):
+    value = int(status.feed.frame.pixels[51, 75])
     # 10 px to the right of where the tip was at x = 27.5 mm.
-    said = cursor_text(sight, (75.2, 50.8))
+    said = cursor_text(status, (75.2, 50.8))
     assert said.startswith(f"75, 51 px   {value} of 4095")
     assert "x 27503.42, y 27499.93 µm" in said
-    assert cursor_text(sight, (130.0, 4.0)) == cursor_text(sight, None) == ""
-    plain = replace(sight, calibration=None)
+    assert cursor_text(status, (130.0, 4.0)) == cursor_text(status, None) == ""
+    plain = replace(status, calibration=None)
     assert "3.4, 6.7 µm from the corner" in cursor_text(plain, (10.0, 20.0))
     assert cursor_text(replace(plain, pixel_m=None), (0.0, 0.0)).count("µm") == 0
     red = Frame(np.full((4, 4, 3), 7, np.uint8), 0.0, 0, 8, Region(0, 0, 4, 4))
-    assert "RGB 7 7 7" in cursor_text(feed(sight, frame=red), (1.0, 1.0))
+    assert "RGB 7 7 7" in cursor_text(feed(status, frame=red), (1.0, 1.0))
 
 
-def outlined(sight):
+def outlined(status):
     figures = np.array([60.0, 50.0, 20.0, 10.0, np.pi / 2])
     outline = CellOutline(figures, np.eye(5), np.zeros((3, 2)), 0.1)
     ahead = MembraneAhead(12.0, 0.5, np.radians(10.0), 0.02)
     tip = TipSeen(TipState.TRACKED, np.array([80.0, 50.0]), 0.4, 0.0, Depth(2e-6, 3e-7, False))
     cell = CellSeen(outline, ahead, 4.02e-6, 1.7e-7)
-    return replace(sight, cell=cell, tip=tip)
+    return replace(status, cell=cell, tip=tip)
 
 
-def test_what_is_drawn_is_where_it_was_seen(sight):
+def test_what_is_drawn_is_where_it_was_seen(status):
     seen = replace(
-        outlined(sight),
+        outlined(status),
         targets=(Target(5.0, 6.0), Target(7.0, 8.0, Visit.FAILED, "lost")),
         planned=PlannedMove(
             np.array([90.0, 70.0]), np.array([90.0, 71.0]), 1.5, "micro", {}, 1e-5, False
@@ -170,12 +170,12 @@ def test_what_is_drawn_is_where_it_was_seen(sight):
     assert {one.look for one in shapes(seen, frozenset())} == {Look.GHOST}  # always in sight
 
 
-def test_words_tell_uncertainties(sight):
-    said = tip_text(outlined(sight).tip)
+def test_words_tell_uncertainties(status):
+    said = tip_text(outlined(status).tip)
     assert "80.00, 50.00 ± 0.40 px" in said
     assert "±2.00 ± 0.30 µm from focus" in said  # its sign is not known
     assert tip_text(TipSeen(TipState.LOST, reason="covered")) == "lost: covered"
-    known = stage_text("micro", sight.calibration.micro)
+    known = stage_text("micro", status.calibration.micro)
     assert known.startswith("micro: 335.00 × 335.00 ± 0.00 nm/px, turned 0.000")
     assert "residual 0.07 px, of 2026-03-04 05:06" in known
     assert stage_text("nano", None) == "nano: not calibrated"

@@ -23,7 +23,7 @@ def test_finished_ones_are_listed_newest_first_and_spoilt_ones_say_why(folder, m
     assert good.events >= 1
     assert good.size == made.stat().st_size
     assert "spoilt.arrows: no recording of this program" in spoilt.problem
-    assert found.left == ()
+    assert found.unfinished == ()
 
 
 def test_what_has_not_changed_is_not_opened_again(folder, make_recording, monkeypatch):
@@ -39,7 +39,7 @@ def test_left_ones_are_told_from_those_that_are_recorded_now(folder, make_record
     crashed = folder / "crashed.arrows.part"
     crashed.write_bytes(busy.read_bytes())
     found = look(folder, frozenset({own}), {})
-    assert [(one.path, one.busy) for one in found.left] == [(busy, True), (crashed, False)]
+    assert [(one.path, one.busy) for one in found.unfinished] == [(busy, True), (crashed, False)]
     spoilt = folder / "spoilt.arrows.part"
     spoilt.write_bytes(b"nothing of ours")
     done, refused = recovered((spoilt, crashed))

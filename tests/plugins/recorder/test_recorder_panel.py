@@ -119,17 +119,17 @@ def test_a_start_after_a_crash_and_a_recording_that_ends_with_the_window(
     writer = operation.recording.writer
 
     # What a crash left is named, apart from what others record; its own is neither.
-    qtbot.waitUntil(panel.left.isVisible, timeout=LONG_MS)
-    assert "crashed.arrows.part" in panel.left.text.text()
-    assert "busy.arrows.part is being recorded by another program" in panel.left.text.text()
-    assert writer.path.name not in panel.left.text.text()
+    qtbot.waitUntil(panel.unfinished.isVisible, timeout=LONG_MS)
+    assert "crashed.arrows.part" in panel.unfinished.text.text()
+    assert "busy.arrows.part is being recorded by another program" in panel.unfinished.text.text()
+    assert writer.path.name not in panel.unfinished.text.text()
     assert notices(window) == [
         "Recordings that were cut off: crashed.arrows.part. Recover them in the panel Recorder."
     ]
-    click(qtbot, panel.left.recover)
+    click(qtbot, panel.unfinished.recover)
     qtbot.waitUntil(lambda: panel.recordings.table.rowCount() == 1, timeout=LONG_MS)
     assert notices(window)[0] == "Recovered crashed.arrows"
-    qtbot.waitUntil(panel.left.recover.isHidden, timeout=LONG_MS)
+    qtbot.waitUntil(panel.unfinished.recover.isHidden, timeout=LONG_MS)
     panel.recordings.table.selectRow(0)
     panel.recordings.begin.setText("1,5")
     click(qtbot, panel.recordings.to_trajectory)

@@ -5,8 +5,15 @@ from pathlib import Path
 
 import pytest
 
-from rotemina.plugins.recorder.listing import Left, Listed
-from rotemina.plugins.recorder.words import SpanError, cells, left_text, room_text, scarce, span
+from rotemina.plugins.recorder.listing import Listed, Unfinished
+from rotemina.plugins.recorder.words import (
+    SpanError,
+    cells,
+    room_text,
+    scarce,
+    span,
+    unfinished_text,
+)
 
 
 def test_a_recording_in_a_row():
@@ -32,9 +39,10 @@ def test_scarce_room_is_said_in_time():
 
 
 def test_what_was_left_is_named_and_what_others_record_is_said_so():
-    assert left_text([]) == ""
-    text = left_text(
-        [Left(Path(f"{n}.part"), 1000, False) for n in "abcde"] + [Left(Path("z.part"), 1, True)]
+    assert unfinished_text([]) == ""
+    text = unfinished_text(
+        [Unfinished(Path(f"{n}.part"), 1000, False) for n in "abcde"]
+        + [Unfinished(Path("z.part"), 1, True)]
     )
     assert "a.part (1 kB), b.part (1 kB), c.part (1 kB) and 2 more" in text
     assert "z.part is being recorded by another program" in text

@@ -253,7 +253,7 @@ def test_the_pointer_drags_and_springs_back(qtbot, bench, panel):
     area, left = panel.pad.area, Qt.MouseButton.LeftButton
     panel.pad.most.setCurrentIndex(panel.pad.most.findData(0.5))
     QTest.mousePress(area, left, pos=QPoint(64, 64))
-    assert not panel.pad._hand.dragging or bench.operation.pad._deflections["x"] == 0.0
+    assert not panel.pad._stick.dragging or bench.operation.pad._deflections["x"] == 0.0
     QTest.mouseMove(area, QPoint(64, 4))
     driving(qtbot, panel)
     view = steered(panel).coordinates[1]
@@ -276,7 +276,7 @@ def test_beside_a_joystick_the_pad_takes_over_when_asked(qtbot, bench, panel, st
     qtbot.waitUntil(lambda: head.word.text() == "ready", timeout=LONG_MS)
     qtbot.waitUntil(panel.pad.take_over.isEnabled, timeout=LONG_MS)
     QTest.keyPress(panel.pad.area, RIGHT)
-    assert not panel.pad._hand.busy
+    assert not panel.pad._stick.busy
     assert "take over" in panel.pad.area.toolTip()
     QTest.keyRelease(panel.pad.area, RIGHT)
     QTest.mousePress(panel.pad.take_over, Qt.MouseButton.LeftButton)

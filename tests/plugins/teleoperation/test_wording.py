@@ -7,11 +7,11 @@ import pytest
 from rotemina.app.motion.teleoperation.calibration import Calibration
 from rotemina.app.motion.teleoperation.devices_view import DevicesView
 from rotemina.app.motion.teleoperation.frames import Coordinate
+from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.mapped_device import AxisView
 from rotemina.app.motion.teleoperation.mapping import PluggedDevice
-from rotemina.app.motion.teleoperation.operator_desk import DeviceView
-from rotemina.app.motion.teleoperation.profile import Seat
+from rotemina.app.motion.teleoperation.profile import OperatorRole
 from rotemina.app.motion.teleoperation.reference import Bounds
 from rotemina.app.motion.teleoperation.scales import LawKind, Scale
 from rotemina.app.motion.teleoperation.views import CoordinateView, TeleoperationState
@@ -25,7 +25,7 @@ TABLE = Coordinate("x", "m", Bounds(0.0, 0.055, 0.01, 0.2), 0.0275)
 STATE = TeleoperationState("micro", LawKind.RATE)
 
 
-def device(source="hid", seat=Seat.TRAINER, drives=True, problem=None, **reasons):
+def device(source="hid", seat=OperatorRole.TRAINER, drives=True, problem=None, **reasons):
     """A device whose axes x, y, z are trusted but for reasons."""
     name = {"hid": "Thrust <3>", "keys": "pad"}[source]
     identity = InputIdentity(f"{source}:1", name, source)
@@ -37,7 +37,7 @@ def device(source="hid", seat=Seat.TRAINER, drives=True, problem=None, **reasons
     )
 
 
-STICK = DevicesView(1.0, (device(), device("keys", Seat.TRAINEE, drives=False)))
+STICK = DevicesView(1.0, (device(), device("keys", OperatorRole.TRAINEE, drives=False)))
 PAD = DevicesView(1.0, (device("keys"),))
 
 

@@ -17,7 +17,7 @@ from rotemina.sim.blind.loads import (
 )
 from rotemina.sim.blind.machine import Commands, machine_of
 from rotemina.sim.blind.mechanics import ROW, SLIP, hardened, load_force
-from rotemina.sim.blind.part import Course
+from rotemina.sim.blind.part import SimulationRun
 from rotemina.sim.blind.preisach import draw_plane, run_plane
 from rotemina.sim.blind.sensing import encoder_interpolation, sensor_lag
 from rotemina.sim.plant.response import nominal_response
@@ -115,7 +115,7 @@ def test_a_preisach_plane_lags_behind_and_knows_no_rate():
 @pytest.mark.parametrize("seed", range(12))
 def test_a_flexure_hardens_over_its_whole_range(piezo, seed):
     part = stiffness_nonlinearity(piezo, np.random.default_rng(seed))
-    row = part.act(np.zeros(1), Course(1e-4, 1, 0, 0), 0.3)
+    row = part.act(np.zeros(1), SimulationRun(1e-4, 1, 0, 0), 0.3)
     places = np.linspace(piezo.low, piezo.low + piezo.span, 201)
     force = np.array([hardened(row, q) for q in places])
     bends = np.diff(force, 2) * np.sign(places[1:-1] - row[3])
@@ -128,8 +128,8 @@ def test_hysteresis_is_as_wide_as_its_size_says_and_independent_of_rate(piezo, s
     part = hysteresis(piezo, np.random.default_rng(seed))
     ramp = np.concatenate([np.linspace(0, 1, 801), np.linspace(1, 0, 801)])
     ramp = piezo.low + piezo.span * np.concatenate([ramp, ramp])
-    out = part.act(ramp, Course(5e-5, 20, 0, 0), 0.1)
-    assert np.allclose(part.act(ramp[::2], Course(5e-5, 20, 0, 0), 0.1), out[::2], atol=1e-7)
+    out = part.act(ramp, SimulationRun(5e-5, 20, 0, 0), 0.1)
+    assert np.allclose(part.act(ramp[::2], SimulationRun(5e-5, 20, 0, 0), 0.1), out[::2], atol=1e-7)
     up, down = out[1602 : 1602 + 801], out[1602 + 801 :][::-1]
     assert 0.02 < np.max(down - up) / piezo.span < 0.25
 
@@ -138,7 +138,7 @@ def test_creep_adds_its_share_per_decade_and_starts_from_rest(piezo):
     part = creep(piezo, np.random.default_rng(3))
     step_s = 1e-3
     values = np.where(np.arange(40_000) < 5000, 0.3, 0.7) * piezo.span
-    out = part.act(values, Course(step_s, 1, 2000, 0), 0.02) - values
+    out = part.act(values, SimulationRun(step_s, 1, 2000, 0), 0.02) - values
     assert np.all(out[:5000] == 0.0)
     decade = out[5000 + 20_000] - out[5000 + 2000]
     assert decade / (0.4 * piezo.span) == pytest.approx(0.02, rel=0.4)
@@ -146,12 +146,12 @@ def test_creep_adds_its_share_per_decade_and_starts_from_rest(piezo):
 
 def test_lost_steps_are_multiples_of_four_full_steps(axis):
     part = lost_steps(axis, np.random.default_rng(0))
-    course = Course(1e-3, 1, 100, 7)
+    run = SimulationRun(1e-3, 1, 100, 7)
     values = np.interp(np.arange(4000), [500, 600, 2000, 2100], [0.03, 0.031, 0.031, 0.03])
-    lost = (values - part.act(values, course, 2.0)) / (4.0 * axis.full_step)
+    lost = (values - part.act(values, run, 2.0)) / (4.0 * axis.full_step)
     assert np.allclose(lost, np.round(lost), atol=1e-6)
     assert len(np.unique(np.round(lost))) > 1
-    assert np.array_equal(part.act(values, course, 2.0), part.act(values, course, 2.0))
+    assert np.array_equal(part.act(values, run, 2.0), part.act(values, run, 2.0))
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -170,7 +170,9 @@ def test_a_dither_within_the_play_moves_nothing(axis, seed):
     rise = np.linspace(0.0, 30e-6, 2000)
     dither = 0.8e-6 * np.sin(np.linspace(0.0, 60.0 * np.pi, 6000))
     values = axis.low + np.concatenate([rise, 26.5e-6 + dither])  # off the flank
-    out = backlash(axis, np.random.default_rng(seed)).act(values, Course(1e-3, 1, 0, 0), 8e-6)
+    out = backlash(axis, np.random.default_rng(seed)).act(
+        values, SimulationRun(1e-3, 1, 0, 0), 8e-6
+    )
     assert np.ptp(out[4000:]) < 1e-3 * 8e-6
     turned = values[2000:].mean() - out[4000:].mean()
     assert abs(turned) < 4e-6  # and it has not come to where a rise or a fall leaves it
@@ -203,7 +205,7 @@ def test_contact_pushes_on_one_side_alone(piezo):
     commands = piezo_commands(swing())
     plain = machine(("thx", "thy", "zn"), commands)
     part = contact(plain.axes[2], np.random.default_rng(1)).sized(0.5)
-    at, side = part.act(np.zeros(0), Course(1e-3, 1, 0, 0), 0.5)[[2, 5]]
+    at, side = part.act(np.zeros(0), SimulationRun(1e-3, 1, 0, 0), 0.5)[[2, 5]]
     gap = (plain.having([part]).respond(commands, 0).motion - plain.respond(commands, 0).motion)[
         :, 2
     ]
@@ -227,14 +229,14 @@ def test_a_flexible_mode_rings_and_leaves_the_static_gain(piezo):
 def test_a_sensor_lags_a_ramp_by_its_size(axis, seed):
     part = sensor_lag(axis, np.random.default_rng(seed))
     ramp = np.arange(60_000) * 1e-8
-    late = ramp - part.act(ramp, Course(5e-5, 20, 0, 0), 2e-3)
+    late = ramp - part.act(ramp, SimulationRun(5e-5, 20, 0, 0), 2e-3)
     assert late[-1] == pytest.approx(2e-3 / 5e-5 * 1e-8, rel=1e-3)
 
 
 def test_an_encoder_errs_with_the_period_of_its_grating(axis):
     part = encoder_interpolation(axis, np.random.default_rng(0))
     position = np.linspace(0.0, 80e-6, 80_001)
-    error = part.act(position, Course(1e-3, 1, 0, 0), 0.1) - position
+    error = part.act(position, SimulationRun(1e-3, 1, 0, 0), 0.1) - position
     assert np.allclose(error[:40_000], error[40_000:80_000], atol=1e-12)
     assert 1e-8 < np.abs(error).max() < 3e-6
 

@@ -7,7 +7,7 @@ import pytest
 
 from rotemina.sim.compensate.conditioning import conditioning
 from rotemina.sim.compensate.errors import CompensationError
-from rotemina.sim.compensate.inverse import Beyond, Inverse
+from rotemina.sim.compensate.inverse import Exceedance, Inverse
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.file import load_robot
@@ -42,7 +42,7 @@ def test_it_nearly_reaches_both_ends_inside_every_limit_and_comes_back(start):
     assert dry_run(ROBOT, sweep).allowed
     inverse = Inverse(MODEL, 2e-3)
     inverse.run(path)
-    assert not inverse.beyond & Beyond.COMMAND
+    assert not inverse.beyond & Exceedance.COMMAND
 
 
 def test_after_it_no_past_is_left():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rotemina.sim.compensate.errors import CompensationError
-from rotemina.sim.compensate.inverse import Beyond, Inverse
+from rotemina.sim.compensate.inverse import Exceedance, Inverse
 from rotemina.sim.compensate.model import InverseModel, Premises
 
 SAMPLE_S = 1e-3
@@ -97,22 +97,22 @@ def test_it_begins_at_rest(model):
 def test_what_lies_beyond_is_clamped_and_said():
     inverse = Inverse(line(), SAMPLE_S)
     assert inverse.step(5e-6) == pytest.approx(5e-6)
-    assert inverse.beyond == Beyond(0)
+    assert inverse.beyond == Exceedance(0)
     assert inverse.step(1.2e-5) == pytest.approx(1e-5)
-    assert inverse.beyond == Beyond.HIGH
+    assert inverse.beyond == Exceedance.HIGH
     assert inverse.step(-1e-6) == 0.0
-    assert inverse.beyond == Beyond.LOW
+    assert inverse.beyond == Exceedance.LOW
     quick = Inverse(line(speed=1e-3), SAMPLE_S)
     commands, said = quick.run_and_tell(np.array([0.0, 5e-7, 5e-6]))
-    assert said.tolist() == [0, 0, Beyond.FAST]
+    assert said.tolist() == [0, 0, Exceedance.FAST]
     assert commands[-1] == pytest.approx(5e-6)
-    assert quick.beyond == Beyond.FAST
+    assert quick.beyond == Exceedance.FAST
 
 
 def test_a_command_stays_inside_the_machine():
     inverse = Inverse(line(consequents=np.array([[0.0, 2.0]])), SAMPLE_S)
     assert inverse.step(8e-6) == 1e-5
-    assert inverse.beyond == Beyond.COMMAND
+    assert inverse.beyond == Exceedance.COMMAND
 
 
 def test_positions_beyond_are_refused_with_row_value_and_bound():

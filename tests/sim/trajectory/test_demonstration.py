@@ -8,7 +8,7 @@ import pytest
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.simulation.simulation import simulate
-from rotemina.sim.trajectory.demonstration import WORN, demonstration, wear
+from rotemina.sim.trajectory.demonstration import WORN, demonstration, worn_effects
 from rotemina.sim.trajectory.dry_run import dry_run
 
 ROBOT = load_robot("rotemina")
@@ -17,18 +17,18 @@ ROBOT = load_robot("rotemina")
 def test_the_worn_machine_is_the_nominal_one_with_wear():
     worn = load_robot(WORN)
     assert replace(worn, name=ROBOT.name, effects=()) == ROBOT
-    assert wear(ROBOT) == worn.effects
+    assert worn_effects(ROBOT) == worn.effects
     assert {one.id for one in worn.effects} == {
         *("hysteresis", "creep", "backlash", "leadscrew_error", "flexible_mode", "thermal_drift")
     }
-    assert wear(load_robot("picma")) == ()
+    assert worn_effects(load_robot("picma")) == ()
 
 
 @pytest.mark.parametrize("pace", [1.0, 0.83])
 def test_its_motions_may_be_played_and_show_the_wear(pace):
     asked = demonstration(ROBOT, pace)
     assert dry_run(ROBOT, asked).allowed
-    real = simulate(ROBOT, wear(ROBOT), asked, np.random.default_rng(1))
+    real = simulate(ROBOT, worn_effects(ROBOT), asked, np.random.default_rng(1))
     gap = real.signal("zn", Tap.MEAS) - real.signal("zn", Tap.CMD)
     floor = ROBOT.axes["zn"].sensor.noise_floor
     assert np.std(gap) > 50.0 * floor

@@ -7,7 +7,7 @@ from itertools import islice
 import pytest
 
 from rotemina.sim.tuning.errors import TuningError
-from rotemina.sim.tuning.objectives import Against, Constraints
+from rotemina.sim.tuning.objectives import Constraints, SecondObjective
 from rotemina.sim.tuning.problem import TuningProblem
 from rotemina.sim.tuning.result import load_tuning, save_tuning, tuning_of
 from rotemina.sim.tuning.search import SearchSettings, generations, objectives_of
@@ -36,7 +36,7 @@ def test_a_front_holds_points_that_keep_the_constraints_and_that_none_dominates(
         assert point.figures.overshoot <= fast.constraints.overshoot
         assert point.figures.limited == 0.0
         assert fast.evaluate(point.gains) == point.figures
-    scores = [objectives_of(point.figures, Against.EFFORT) for point in front]
+    scores = [objectives_of(point.figures, SecondObjective.EFFORT) for point in front]
     assert scores == sorted(scores)
     efforts = [effort for _, effort in scores]
     assert efforts == sorted(efforts, reverse=True)

@@ -58,10 +58,10 @@ def test_sharpness_is_of_detail_and_not_of_noise():
 
 
 def test_the_search_for_focus_ends_at_the_sharpest_place():
-    rng, search, looks = np.random.default_rng(1), Autofocus.over(-50e-6, 50e-6), 0
+    rng, search, looks = np.random.default_rng(1), Autofocus.between(-50e-6, 50e-6), 0
     while not search.done:
         away = (search.target - 7.3e-6) / 6e-6
-        search = search.told(2.0 + 10.0 / (1.0 + away**2) + 0.02 * rng.standard_normal())
+        search = search.with_sharpness(2.0 + 10.0 / (1.0 + away**2) + 0.02 * rng.standard_normal())
         looks += 1
     assert search.peak.place == pytest.approx(7.3e-6, abs=max(3 * search.peak.uncertainty, 1e-7))
     assert search.target == search.peak.place
@@ -69,11 +69,13 @@ def test_the_search_for_focus_ends_at_the_sharpest_place():
 
 
 def test_the_tip_is_brought_into_focus(make_view):
-    view, search = make_view(), Autofocus.over(-30e-6, 40e-6)
+    view, search = make_view(), Autofocus.between(-30e-6, 40e-6)
     column, row = np.rint(view.pixel(np.zeros(3))).astype(int)
     while not search.done:
         image = view.image(np.zeros(3), search.target)
-        search = search.told(sharpness(image[row - 25 : row + 26, column - 25 : column + 26]))
+        search = search.with_sharpness(
+            sharpness(image[row - 25 : row + 26, column - 25 : column + 26])
+        )
     assert abs(search.peak.place) < 4e-6  # a body that climbs is sharpest a little up
 
 
@@ -98,4 +100,4 @@ def test_noise_is_no_peak():
 
 def test_a_range_that_is_none_is_refused():
     with pytest.raises(VisionError, match="no range"):
-        Autofocus.over(1e-6, 1e-6)
+        Autofocus.between(1e-6, 1e-6)

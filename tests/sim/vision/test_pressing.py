@@ -7,7 +7,7 @@ import pytest
 
 from rotemina.sim.microscope.cell import UNTOUCHED, Cell, met
 from rotemina.sim.vision.ground import Ground
-from rotemina.sim.vision.image import over
+from rotemina.sim.vision.image import relative_to
 from rotemina.sim.vision.tracking import begin_track, follow, learn
 
 CELL = Cell((-5e-6, -3e-6, -16e-6))
@@ -28,7 +28,7 @@ def bare(view, pictures=8):
 def above(view, ground, frames=12):
     """Return the track of a tip above the cell, after it was learnt."""
     tip_m = np.zeros(3)
-    track = begin_track(over(view.image(tip_m, FOCUS_M), ground), view.pipette)
+    track = begin_track(relative_to(view.image(tip_m, FOCUS_M), ground), view.pipette)
     for _ in range(frames):
         track = learn(track, view.image(tip_m, FOCUS_M), background=ground)
     return track

@@ -6,7 +6,7 @@ from scipy import ndimage
 
 from rotemina.sim.vision.drift import background_drift, steadied
 from rotemina.sim.vision.errors import RegistrationError, VisionError
-from rotemina.sim.vision.image import grey, noise_rms, over
+from rotemina.sim.vision.image import grey, noise_rms, relative_to
 from rotemina.sim.vision.registration import register
 
 ROWS, COLUMNS, EDGE = 300, 380, 80
@@ -81,7 +81,7 @@ def test_what_is_no_picture_is_refused():
     with pytest.raises(VisionError, match="shape"):
         grey(np.zeros((4, 4)))
     with pytest.raises(VisionError, match="take it again"):
-        over(np.ones((64, 64), np.float32), np.ones((32, 64), np.float32))
+        relative_to(np.ones((64, 64), np.float32), np.ones((32, 64), np.float32))
 
 
 def test_colour_becomes_one_plane():

@@ -9,7 +9,7 @@ import pytest
 from rotemina.sim.microscope.cell import UNTOUCHED, Cell, met
 from rotemina.sim.microscope.scene import Pin
 from rotemina.sim.vision.errors import VisionError
-from rotemina.sim.vision.image import grey, over
+from rotemina.sim.vision.image import grey, relative_to
 from rotemina.sim.vision.pipette import Pipette
 from rotemina.sim.vision.tip import find_tip, fit_depths
 from rotemina.sim.vision.tip_fit import fit_tip
@@ -145,7 +145,7 @@ def followed(make_view, frames):
     state, track, lost, misses = UNTOUCHED, None, 0, []
     for tip_m in penetration(frames):
         state = met(cell, state, tip_m)
-        image = over(view.image(tip_m, focus_m, state), background)
+        image = relative_to(view.image(tip_m, focus_m, state), background)
         track = (
             begin_track(image, view.pipette, dimple=True) if track is None else follow(track, image)
         )

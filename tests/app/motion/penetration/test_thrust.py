@@ -7,7 +7,7 @@ import pytest
 
 from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
-from rotemina.app.motion.penetration.thrust import followed, plan_thrust, resonance_of
+from rotemina.app.motion.penetration.thrust import plan_thrust, resonance_of, thrust_response
 from rotemina.drivers.simulator.profile_motion import ProfileMotion
 from rotemina.sim.robot.file import load_robot
 
@@ -68,13 +68,13 @@ def test_the_error_is_told_apart_from_the_delay():
     plan = plan_thrust(ROBOT, PenetrationParameters(), 1e-3)
     time_s = np.arange(0.0, 0.4, 1e-3)
     late = plan.wanted.position(time_s - 0.1 - 0.0137)
-    found = followed(plan, time_s, 7e-6 + late, 0.1)
+    found = thrust_response(plan, time_s, 7e-6 + late, 0.1)
     assert found.delay_s == pytest.approx(0.0137, abs=1e-5)
     assert found.error < 1e-8
     assert found.depth == pytest.approx(50e-6)
     assert found.peak_speed == pytest.approx(plan.peak_speed, rel=0.01)
     assert found.rate_hz == pytest.approx(1e3)
-    found = followed(plan, time_s, 0.9 * late, 0.1)
+    found = thrust_response(plan, time_s, 0.9 * late, 0.1)
     assert found.depth == pytest.approx(45e-6)
     assert found.error == pytest.approx(5e-6, rel=0.05)
 
@@ -84,7 +84,7 @@ def test_samples_that_do_not_cover_the_thrust_are_refused(kept):
     plan = plan_thrust(ROBOT, PenetrationParameters(), 1e-3)
     time_s = np.arange(0.0, 0.4, 1e-3)[kept]
     with pytest.raises(PenetrationError, match="none of"):
-        followed(plan, time_s, plan.wanted.position(time_s - 0.1), 0.1)
+        thrust_response(plan, time_s, plan.wanted.position(time_s - 0.1), 0.1)
 
 
 def test_a_thrust_beyond_an_axis_speed_is_refused_by_its_profile():

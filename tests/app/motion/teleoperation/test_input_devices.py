@@ -1,4 +1,4 @@
-"""Input devices found, opened, read and lost, with the desk told of it all."""
+"""Input devices found, opened, read and lost, with the arbiter told of it all."""
 
 import threading
 
@@ -10,9 +10,9 @@ from rotemina.app.motion.teleoperation.mapping import PluggedDevice
 from rotemina.app.motion.teleoperation.profile import (
     AxisMapping,
     DeviceMapping,
+    OperatorRole,
     Profile,
     ProfileError,
-    Seat,
 )
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.inputs.device import InputIdentity
@@ -105,8 +105,8 @@ def test_a_joystick_goes_before_the_pad_which_may_take_over(make, clock, stick):
     devices.look()
     run(devices, clock)
     assert [(one.key, one.seat) for one in devices.profile.devices] == [
-        ("hid:stick", Seat.TRAINER),
-        ("keys:pad", Seat.TRAINEE),
+        ("hid:stick", OperatorRole.TRAINER),
+        ("keys:pad", OperatorRole.TRAINEE),
     ]
     keys.deflect("x", 1.0)
     assert run(devices, clock).intent.deflections["x"] == 0.0
@@ -122,7 +122,7 @@ def test_a_joystick_goes_before_the_pad_which_may_take_over(make, clock, stick):
     devices.look()
     run(devices, clock)
     assert devices.profile.devices[0].key == "keys:pad"
-    assert devices.profile.devices[0].seat is Seat.TRAINER
+    assert devices.profile.devices[0].seat is OperatorRole.TRAINER
 
 
 def test_a_kept_profile_that_fits_is_used_by_itself(make, clock, stick):

@@ -13,9 +13,9 @@ from rotemina.app.motion.teleoperation.profile import (
     ActionMapping,
     AxisMapping,
     DeviceMapping,
+    OperatorRole,
     Profile,
     ProfileError,
-    Seat,
 )
 from rotemina.drivers.inputs.device import InputIdentity
 
@@ -62,7 +62,7 @@ def test_two_owners_on_two_alike_devices_are_found():
 
 def test_two_seats_may_drive_the_same():
     trainer = DeviceMapping(key="a", axes=(axis("X", "x"),))
-    trainee = DeviceMapping(key="b", axes=(axis("X", "x"),), seat=Seat.TRAINEE)
+    trainee = DeviceMapping(key="b", axes=(axis("X", "x"),), seat=OperatorRole.TRAINEE)
     check_profile(profile(trainer, trainee), ROBOT)
     with pytest.raises(ProfileError, match="one must have 'trainer'"):
         check_profile(profile(trainee), ROBOT)
@@ -126,7 +126,7 @@ def test_controls_that_a_device_does_not_have_are_refused(mapping, said):
 
 def test_a_full_key_goes_before_a_pattern_and_a_device_has_one_mapping():
     pattern, full = DeviceMapping(key="hid:*"), DeviceMapping(key="hid:2")
-    one = profile(pattern, full, DeviceMapping(key="hid:*", seat=Seat.TRAINEE))
+    one = profile(pattern, full, DeviceMapping(key="hid:*", seat=OperatorRole.TRAINEE))
     found = assigned(one, [device("hid:2"), device("hid:1"), device("hid:3"), device("hid:4")])
     assert found == {"hid:2": full, "hid:1": pattern, "hid:3": one.devices[2]}
 

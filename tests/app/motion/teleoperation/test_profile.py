@@ -11,9 +11,9 @@ from rotemina.app.motion.teleoperation.profile import (
     ActionMapping,
     AxisMapping,
     DeviceMapping,
+    OperatorRole,
     Profile,
     ProfileError,
-    Seat,
     listed_profiles,
     load_profile,
     parse_profile,
@@ -29,7 +29,7 @@ PROFILES = st.builds(
         st.builds(
             DeviceMapping,
             key=TEXT,
-            seat=st.sampled_from(Seat),
+            seat=st.sampled_from(OperatorRole),
             axes=st.lists(
                 st.builds(AxisMapping, control=TEXT, drives=TEXT, inverted=st.booleans())
             ).map(tuple),

@@ -1,0 +1,200 @@
+"""A look at a machine that rests: pictures taken after it came to rest, and where it stood.
+
+Whoever moves by what a camera shows waits here. Anything that makes the picture or the place
+doubtful ends the wait with the reason: then nothing is to move.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from rotemina.app.cameras.frame_check import FrameCheck, PictureState
+from rotemina.app.microscope.errors import MicroscopeError
+from rotemina.app.motion.session import MotionSession
+from rotemina.app.motion.state import Connection, SessionState
+from rotemina.drivers.cameras.frame import Frame, Region
+from rotemina.drivers.gate import Permit
+from rotemina.drivers.samples import DeviceState
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.vision.image import Image, grey
+
+#: Return the newest picture, or None while there is none; never waits.
+Newest = Callable[[], Frame | None]
+
+SETTLE_S = 0.15  # after the machine came to rest: vibrations, and a picture in exposure
+PICTURES = 3
+PATIENCE_S = 3.0  # with a camera
+REST_PATIENCE_S = 30.0  # with a machine
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SettledFrame:
+    """What was seen of a machine at rest.
+
+    Attributes
+    ----------
+    image : (rows, columns)
+        Mean of the pictures, as one plane.
+    command, measured : (axes,)
+        m or rad, in the driver's order; means over the look.
+    region : Region
+        The part of the sensor that the pictures show.
+    host_time_s : float
+        Of the last picture.
+    """
+
+    image: Image
+    command: FloatArray
+    measured: FloatArray
+    region: Region
+    host_time_s: float
+
+
+class SettledFrameGrabber:
+    """Waits for one look at a time; somebody calls :meth:`step` at about the camera's rate.
+
+    Parameters
+    ----------
+    session : MotionSession
+    newest : callable
+        The camera's newest picture.
+    pictures : int
+        How many are averaged.
+    settle_s : float
+        From rest to the first of them.
+    permit : Permit, optional
+        Of the request that led here; drawn now without it.
+    """
+
+    def __init__(
+        self,
+        session: MotionSession,
+        newest: Newest,
+        *,
+        pictures: int = PICTURES,
+        settle_s: float = SETTLE_S,
+        permit: Permit | None = None,
+    ) -> None:
+        self._session = session
+        self._newest = newest
+        self._pictures, self._settle_s = pictures, settle_s
+        self._region: Region | None = None
+        #: Drawn when it began; every move of what looks goes with it, and a stop ends them all.
+        self.permit = session.permit() if permit is None else permit
+        self._begun_s = 0.0
+        self._rested_s: float | None = None
+        self._same = False
+        self._restart()
+
+    def begin(self, now_s: float) -> None:
+        """Wait for the next rest."""
+        self._begun_s = now_s
+        self._restart()
+
+    def step(self, now_s: float) -> SettledFrame | None:
+        """Return the look as soon as there is one.
+
+        Raises
+        ------
+        MicroscopeError
+            If somebody stopped the machine, it cannot move any more or does not come to rest, or
+            the camera stands still, is black, or shows another part of its sensor.
+        VisionError
+            If the picture is none.
+        """
+        state = self._session.snapshot()
+        self._refuse_if_broken(state)
+        if state.activity is not DeviceState.IDLE or state.queued:
+            self._restart()
+            if now_s - self._begun_s > REST_PATIENCE_S:
+                raise MicroscopeError(
+                    f"the machine did not come to rest within {REST_PATIENCE_S:g} s; look what "
+                    "drives it, and begin again"
+                )
+            return None
+        if self._rested_s is None:
+            self._rested_s = now_s
+        self._take(state)
+        if len(self._images) >= self._pictures:
+            return self._seen()
+        waited_s = now_s - self._rested_s
+        if waited_s > self._settle_s + PATIENCE_S:
+            what = "frozen: it gives the same picture again" if self._same else "stalled"
+            raise MicroscopeError(
+                f"the camera is {what}; {len(self._images)} of {self._pictures} new pictures came "
+                f"within {waited_s:.1f} s. Nothing is moved: see to the camera and begin again"
+            )
+        return None
+
+    def check(self) -> None:
+        """Refuse if nothing may be moved any more; to be asked right before every move.
+
+        What is computed from a picture takes a while, in which somebody may stop the machine.
+
+        Raises
+        ------
+        MicroscopeError
+            As :meth:`step`.
+        """
+        self._refuse_if_broken(self._session.snapshot())
+
+    def _restart(self) -> None:
+        self._rested_s = None
+        self._watch = FrameCheck()
+        self._images: list[Image] = []
+        self._commands: list[FloatArray] = []
+        self._measured: list[FloatArray] = []
+        self._latest: Frame | None = None
+        self._same = False
+
+    def _take(self, state: SessionState) -> None:
+        """Keep the newest picture, if it is a new one that was taken at rest."""
+        frame = self._newest()
+        assert self._rested_s is not None
+        if frame is None or frame.host_time_s < self._rested_s + self._settle_s:
+            return
+        before, self._latest = self._latest, frame
+        if before is not None and frame.number == before.number:
+            return
+        if self._region is not None and frame.region != self._region:
+            raise MicroscopeError(
+                f"the camera shows {_size(frame.region)} now, and {_size(self._region)} when this "
+                "began; keep its settings and begin again"
+            )
+        self._region = frame.region
+        if self._watch.judge(frame) is PictureState.BLACK:
+            raise MicroscopeError(
+                "the picture is black; look at lamp, shutter and exposure. Nothing is moved"
+            )
+        self._same = before is not None and np.array_equal(before.pixels, frame.pixels)
+        if self._same:
+            return  # a camera's noise never gives the same picture twice
+        axes = self._session.driver.axes
+        self._images.append(grey(frame.pixels))
+        self._commands.append(np.array([state.command[axis] for axis in axes]))
+        self._measured.append(np.array([state.measured[axis] for axis in axes]))
+
+    def _seen(self) -> SettledFrame:
+        assert self._latest is not None
+        assert self._region is not None
+        return SettledFrame(
+            image=np.mean(self._images, axis=0, dtype=np.float32),
+            command=np.mean(self._commands, axis=0),
+            measured=np.mean(self._measured, axis=0),
+            region=self._region,
+            host_time_s=self._latest.host_time_s,
+        )
+
+    def _refuse_if_broken(self, state: SessionState) -> None:
+        if not self.permit.valid:
+            raise MicroscopeError("somebody stopped the machine; it stays where it is")
+        if state.connection is not Connection.CONNECTED or state.fault is not None:
+            reason = state.fault or state.locked or "it is not connected"
+            raise MicroscopeError(f"the machine does not move any more: {reason}")
+        if state.locked is not None:
+            raise MicroscopeError(f"motion is locked: {state.locked}")
+
+
+def _size(region: Region) -> str:
+    return f"{region.width} × {region.height} px from {region.left}, {region.top}"

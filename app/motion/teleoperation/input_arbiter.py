@@ -1,0 +1,328 @@
+"""The input arbiter: from the readings of all input devices to one intent.
+
+It has neither threads nor a clock: whoever reads the devices tells it what came in and the time.
+"""
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import compress
+from types import MappingProxyType
+
+from rotemina.app.motion.teleoperation.calibration import Calibration, CalibrationError
+from rotemina.app.motion.teleoperation.intent import Action, Intent
+from rotemina.app.motion.teleoperation.mapped_device import STOPS, AxisView, MappedDevice
+from rotemina.app.motion.teleoperation.mapping import (
+    PluggedDevice,
+    assigned,
+    check_controls,
+    check_profile,
+    missing,
+)
+from rotemina.app.motion.teleoperation.profile import (
+    DeviceMapping,
+    OperatorRole,
+    Profile,
+    ProfileError,
+)
+from rotemina.app.motion.teleoperation.takeover import RoleState, Takeover
+from rotemina.drivers.inputs.device import InputReading
+
+
+@dataclass(frozen=True, slots=True)
+class DeviceView:
+    """One plugged device for the screen.
+
+    Attributes
+    ----------
+    device : PluggedDevice
+    seat : OperatorRole or None
+        None if the profile has nothing for it.
+    drives : bool
+        Whether it is of the seat that drives.
+    problem : str or None
+        Why it cannot be used at all.
+    axes : tuple of AxisView
+    held : frozenset of Action
+    newest : InputReading or None
+        What it said last, as long as that holds.
+    calibration : Calibration
+    """
+
+    device: PluggedDevice
+    seat: OperatorRole | None
+    drives: bool
+    problem: str | None
+    axes: tuple[AxisView, ...]
+    held: frozenset[Action]
+    newest: InputReading | None
+    calibration: Calibration
+
+    @property
+    def lit(self) -> frozenset[str]:
+        """The buttons that are down."""
+        said = () if self.newest is None else self.newest.buttons
+        return frozenset(compress(self.device.buttons, said))
+
+
+class InputArbiter:
+    """Ties calibration, trust, mapping and takeover together.
+
+    Parameters
+    ----------
+    robot_axes : collection of str
+        The axes that may be driven directly.
+    profile : Profile, optional
+        Without one nothing is driven.
+
+    Raises
+    ------
+    ProfileError
+        If the profile cannot be used with this robot.
+    """
+
+    def __init__(self, robot_axes: Collection[str], profile: Profile | None = None) -> None:
+        self._robot_axes = tuple(robot_axes)
+        self._profile = profile
+        self._plugged: dict[str, PluggedDevice] = {}
+        self._calibrations: dict[str, Calibration] = {}
+        self._devices: dict[str, MappedDevice] = {}
+        self._unusable: dict[str, str] = {}
+        self._takeover = Takeover()
+        self._mapping_open = False
+        self._lost: list[str] = []
+        if profile is not None:
+            check_profile(profile, self._robot_axes)
+
+    # What is there
+
+    def plug(self, device: PluggedDevice, calibration: Calibration | None = None) -> None:
+        """Take in a device that was opened; one that the profile does not fit is a problem."""
+        key = device.identity.key
+        self.unplug(key, "replugged")
+        self._plugged[key] = device
+        self._calibrations[key] = calibration or Calibration(device=key)
+        self._arrange({key})
+
+    def unplug(self, key: str, why: str = "unplugged") -> None:
+        """Let go of a device; if it was driving, that is over."""
+        if key not in self._plugged:
+            return
+        self._lose(key, why)
+        del self._plugged[key], self._calibrations[key]
+        self._arrange(())
+
+    def inform(self, key: str, *, streams: bool) -> None:
+        """Take note whether a plugged device streams: that may turn out while it is open."""
+        device = self._plugged[key]
+        if device.streams is not streams:
+            self._plugged[key] = self._devices[key].device = replace(device, streams=streams)
+
+    def use(self, profile: Profile) -> None:
+        """Take another profile; nothing moves before every stick was seen at rest.
+
+        Raises
+        ------
+        ProfileError
+            If it does not fit the robot, or names controls that a plugged device does not have;
+            the one before stays. That a device is not there is no error, see :attr:`problems`.
+        """
+        check_profile(profile, self._robot_axes)
+        for key, mapping in assigned(profile, self._plugged.values()).items():
+            check_controls(mapping, self._plugged[key])
+        self._profile = profile
+        self._takeover = Takeover()
+        self._lost.append("another profile is used")
+        self._arrange(set(self._plugged))
+
+    def calibrate(self, key: str, calibration: Calibration) -> None:
+        """Use another calibration of a plugged device; it must be seen at rest anew.
+
+        Raises
+        ------
+        CalibrationError
+            If there is no such device, or the calibration is another's.
+        """
+        if key not in self._plugged:
+            raise CalibrationError(f"device {key!r} is not plugged in; its calibration has no use")
+        if calibration.device != key:
+            raise CalibrationError(f"a calibration of {calibration.device!r} is not for {key!r}")
+        self._calibrations[key] = calibration
+        self._lose(key, "calibrated anew")
+        self._arrange({key})
+
+    @property
+    def mapping_open(self) -> bool:
+        """Whether mappings are made or sticks calibrated: nothing is sent, but for stops."""
+        return self._mapping_open
+
+    def open_mapping(self) -> None:
+        """Send nothing but stops from now on; what drove, drives no more."""
+        if not self._mapping_open:
+            self._mapping_open = True
+            self._lost.append("input devices are being set up")
+
+    def close_mapping(self) -> None:
+        """Send again, after every stick was seen at rest and every button let go of."""
+        if self._mapping_open:
+            self._mapping_open = False
+            self._arrange(set(self._plugged))
+
+    # What the operator wants
+
+    def step(self, readings: Mapping[str, Sequence[InputReading]], now_s: float) -> Intent:
+        """Return what is asked for now.
+
+        Parameters
+        ----------
+        readings : mapping of str to sequence of InputReading
+            By device key, what came in since the last step, oldest first.
+        now_s : float
+            ``host_time_s``.
+        """
+        for key, device in self._devices.items():
+            device.step(readings.get(key, ()), now_s)
+            if device.lost is not None:
+                self._lose(key, device.lost)
+        if not self._mapping_open:
+            self._hand_over()
+        lost, self._lost = "; ".join(self._lost) or None, []
+        pressed, held = self._actions()
+        return Intent(
+            host_time_s=self._newest_s(now_s),
+            deflections=MappingProxyType(self._deflections(held)),
+            pressed=pressed,
+            held=held,
+            device=self._driving_key(),
+            lost=lost,
+        )
+
+    @property
+    def driving(self) -> OperatorRole:
+        """The seat that drives."""
+        return self._takeover.driving
+
+    @property
+    def problems(self) -> tuple[str, ...]:
+        """What keeps a profile or a device from being used, in words."""
+        if self._profile is None:
+            return ("no profile is chosen: the input devices do nothing",)
+        absent = missing(self._profile, tuple(self._plugged.values()))
+        return (*((absent,) if absent is not None else ()), *self._unusable.values())
+
+    @property
+    def views(self) -> tuple[DeviceView, ...]:
+        """All plugged devices, for live bars."""
+        return tuple(
+            DeviceView(
+                device.device,
+                device.mapping.seat if device.mapping is not None else None,
+                self._drives(device),
+                self._unusable.get(key) or device.problem,
+                device.axes,
+                device.held,
+                device.newest,
+                self._calibrations[key],
+            )
+            for key, device in self._devices.items()
+        )
+
+    def travel_m(self, drives: str) -> float | None:
+        """Return the way of the driving stick for a deflection of 1, m, where it is known."""
+        ways = (device.travel_m(drives) for device in self._of(self.driving))
+        return next((way for way in ways if way is not None), None)
+
+    # How
+
+    def _arrange(self, anew: Collection[str]) -> None:
+        """Give each device its mapping; those that are new, or have another one, begin anew."""
+        mappings = self._mappings()
+        devices: dict[str, MappedDevice] = {}
+        for key, device in self._plugged.items():
+            mapping = mappings.get(key)
+            kept = self._devices.get(key)
+            if kept is None or key in anew or kept.mapping is not mapping:
+                last = None if kept is None else kept.newest
+                kept = MappedDevice(device, self._calibrations[key], mapping, last)
+            devices[key] = kept
+        self._devices = devices
+
+    def _mappings(self) -> dict[str, DeviceMapping]:
+        self._unusable = {}
+        if self._profile is None:
+            return {}
+        found = dict(assigned(self._profile, self._plugged.values()))
+        for key, mapping in tuple(found.items()):
+            try:
+                check_controls(mapping, self._plugged[key])
+            except ProfileError as error:
+                self._unusable[key] = str(error)
+                del found[key]
+        return found
+
+    def _lose(self, key: str, why: str) -> None:
+        if self._drives(self._devices[key]):
+            self._lost.append(f"{self._plugged[key].identity.name}: {why}")
+            for device in self._of(self.driving):
+                device.distrust(f"another device is gone ({why}): let go of it")
+
+    def _drives(self, device: MappedDevice) -> bool:
+        return device.mapping is not None and device.mapping.seat is self.driving
+
+    def _of(self, seat: OperatorRole) -> tuple[MappedDevice, ...]:
+        return tuple(
+            device
+            for device in self._devices.values()
+            if device.mapping is not None and device.mapping.seat is seat
+        )
+
+    def _hand_over(self) -> None:
+        reason = self._takeover.decide(
+            self._state(OperatorRole.TRAINER), self._state(OperatorRole.TRAINEE)
+        )
+        if reason is not None:
+            self._lost.append(reason)
+            for device in self._of(self.driving):
+                device.distrust(f"{reason}: let go of it first")
+
+    def _state(self, seat: OperatorRole) -> RoleState:
+        devices = self._of(seat)
+        deflections = [abs(d) for device in devices for d in device.deflections.values()]
+        return RoleState(
+            present=any(device.problem is None for device in devices),
+            asks=any(Action.TAKE_OVER in device.pressed for device in devices),
+            most=max(deflections, default=0.0),
+        )
+
+    def _actions(self) -> tuple[frozenset[Action], frozenset[Action]]:
+        """Return the actions pressed and held: all of the seat that drives, stops of every one."""
+        pressed: set[Action] = set()
+        held: set[Action] = set()
+        for device in self._devices.values():
+            heard = self._drives(device) and not self._mapping_open
+            pressed |= device.pressed if heard else device.pressed & STOPS
+            held |= device.held if heard else device.held & STOPS
+        return frozenset(pressed), frozenset(held)
+
+    def _deflections(self, held: Collection[Action]) -> dict[str, float]:
+        if self._mapping_open or (self._guarded() and Action.DEAD_MAN not in held):
+            return {}
+        devices = self._of(self.driving)
+        return {axis: d for device in devices for axis, d in device.deflections.items()}
+
+    def _guarded(self) -> bool:
+        """Whether the driving seat has a dead-man, be it plugged in or not."""
+        return self._profile is not None and any(
+            action.action is Action.DEAD_MAN
+            for device in self._profile.devices
+            if device.seat is self.driving
+            for action in device.actions
+        )
+
+    def _driving_key(self) -> str:
+        keys = [d.device.identity.key for d in self._of(self.driving) if d.wants_to_drive]
+        return keys[0] if keys else ""
+
+    def _newest_s(self, now_s: float) -> float:
+        newest = (device.newest for device in self._of(self.driving))
+        times = [reading.host_time_s for reading in newest if reading is not None]
+        return max(times, default=now_s)

@@ -1,0 +1,148 @@
+"""How a board handles frames that ask, and those that change the parameters it keeps."""
+
+from collections.abc import Callable
+from typing import Any
+
+from rotemina.drivers.mc68hc11 import reports, requests
+from rotemina.drivers.mc68hc11.budget import rates
+from rotemina.drivers.mc68hc11.codes import (
+    LCD_COLUMNS,
+    LCD_ROWS,
+    VERSION,
+    Ability,
+    Fault,
+    Refusal,
+)
+from rotemina.drivers.mc68hc11.message import Message
+from rotemina.drivers.virtual_board.firmware import Firmware
+from rotemina.drivers.virtual_board.refusal import axes_of, axis_of, demand, has_converter
+from rotemina.drivers.virtual_board.samples import fresh_sample, inputs
+from rotemina.drivers.virtual_board.sampling import Capture, Schedule
+
+_NAME = 10  # bytes of the robot's name in the board's
+_MS_US = 1000
+
+
+def _identify(board: Firmware, _: requests.Identify) -> Message:
+    abilities = (
+        Ability.MOVE
+        | Ability.VELOCITY
+        | Ability.SETPOINTS
+        | Ability.CAPTURE
+        | Ability.PROFILE
+        | Ability.JOYSTICK
+        | Ability.DISPLAY
+        | Ability.PARAMETERS
+    )
+    if any(board.steppers):
+        abilities |= Ability.HOMING
+    if any(has_converter(board, axis) for axis in range(len(board.axes))):
+        abilities |= Ability.DAC
+    if board.line.half_duplex:
+        abilities |= Ability.HALF_DUPLEX
+    name = board.robot.name.encode("ascii", "replace")[:_NAME] + b" %d" % board.number
+    own = board.kept
+    count = len(board.axes)
+    return reports.Identity(
+        VERSION, abilities, count, board.line.baud, len(own), own.fingerprint, name
+    )
+
+
+def _poll(board: Firmware, _: requests.Poll) -> Message:
+    if board.reporter.tells_inputs():
+        return inputs(board)
+    return board.reporter.polled() or fresh_sample(board)
+
+
+def _describe_axis(board: Firmware, asked: requests.DescribeAxis) -> Message:
+    return board.axes[axis_of(board, asked.axis)].described(board.robot)
+
+
+def _ask_rates(board: Firmware, _: requests.AskRates) -> Message:
+    return _rates(board)
+
+
+def _rates(board: Firmware) -> reports.Rates:
+    own, most = rates(board.line), round(1.0 / board.tick_s)
+    return reports.Rates(
+        min(own.telemetry, most),
+        min(own.telemetry_while_capturing, most),
+        min(own.capture_one, most),
+        min(own.capture_three, most),
+    )
+
+
+def _read_parameter(board: Firmware, asked: requests.ReadParameter) -> Message:
+    demand(asked.index < len(board.kept), Refusal.BAD_VALUE)
+    return reports.Parameter(asked.index, board.kept[asked.index])
+
+
+def _show_text(board: Firmware, asked: requests.ShowText) -> None:
+    end = asked.column + len(asked.text)
+    demand(asked.row < LCD_ROWS and end <= LCD_COLUMNS, Refusal.BAD_VALUE)
+    line = board.lcd[asked.row]
+    text = asked.text.decode("ascii", "replace")
+    board.lcd[asked.row] = line[: asked.column] + text + line[end:]
+
+
+def _set_telemetry(board: Firmware, asked: requests.SetTelemetry) -> None:
+    if asked.period_ms == 0:
+        board.reporter.set_telemetry(None)
+        return
+    demand(asked.period_ms * _rates(board).telemetry >= _MS_US, Refusal.BAD_VALUE)
+    schedule = Schedule(board.clock, asked.period_ms * _MS_US, asked.begin_us, board.now)
+    board.reporter.set_telemetry(schedule)
+
+
+def _capture(board: Firmware, asked: requests.Capture) -> None:
+    if asked.samples == 0:
+        board.reporter.set_capture(None)
+        return
+    axes = axes_of(board, asked.axes)
+    own = _rates(board)
+    most_hz = own.capture_one if len(axes) == 1 else own.capture_three
+    demand(asked.period_us * most_hz >= 1_000_000, Refusal.BAD_VALUE)
+    demand(board.reporter.capture is None, Refusal.BUSY)
+    telemetry = board.reporter.telemetry
+    first = telemetry.tick if telemetry is not None else board.now + 1
+    begin_us = board.clock.at_tick(first)
+    schedule = Schedule(board.clock, asked.period_us, begin_us, first - 1)
+    indices = tuple(board.indices[axis] for axis in axes)
+    board.reporter.set_capture(Capture(board.machine, indices, schedule, asked.samples))
+
+
+def _clear_fault(board: Firmware, _: requests.ClearFault) -> None:
+    own = zip(board.steppers, board.drives, strict=True)
+    demand(not any(stepper and drive.moving for stepper, drive in own), Refusal.FAULTY)
+    board.fault = Fault.NONE
+    board.ways = [0.0] * len(board.axes)  # away from a switch is right now
+
+
+def _watch(board: Firmware, asked: requests.Watch) -> None:
+    demand(asked.silence_ms > 0, Refusal.BAD_VALUE)
+    board.watch_us = asked.silence_ms * _MS_US
+    board.watch_tick = board.now + board.clock.ticks(board.watch_us)
+
+
+def _write_parameter(board: Firmware, asked: requests.WriteParameter) -> None:
+    demand(asked.index < len(board.kept), Refusal.BAD_VALUE)
+    demand(not board.moving and not board.stream.playing, Refusal.BUSY)
+    demand(board.kept.accepts(asked.index, asked.value), Refusal.BAD_VALUE)
+    board.kept.write(asked.index, asked.value)
+    for axis, drive in enumerate(board.drives):
+        board.rebound(axis, drive)
+
+
+HANDLERS: tuple[tuple[type[Message], Callable[[Firmware, Any], Message | None]], ...] = (
+    (requests.Identify, _identify),
+    (requests.ClearFault, _clear_fault),
+    (requests.Poll, _poll),
+    (requests.DescribeAxis, _describe_axis),
+    (requests.Watch, _watch),
+    (requests.AskRates, _ask_rates),
+    (requests.ReadParameter, _read_parameter),
+    (requests.WriteParameter, _write_parameter),
+    (requests.ShowText, _show_text),
+    (requests.SetTelemetry, _set_telemetry),
+    (requests.Capture, _capture),
+)

@@ -1,0 +1,68 @@
+"""How the session stands: its phase, why nothing moves, and the emergency stop."""
+
+from PySide6.QtWidgets import QHBoxLayout, QLabel
+
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.controls import allow
+from rotemina.app.shell.engine_words import spoken
+from rotemina.app.shell.language import translate
+from rotemina.app.shell.phase import PhaseLabel
+from rotemina.app.shell.workbench import Workbench
+from rotemina.plugins.connection import reasons
+from rotemina.plugins.connection.section import Section, button
+
+
+class StateSection(Section):
+    """The phase in one word, and the reason why motion is locked."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__(translate("connection", "State"))
+        self.phase = PhaseLabel()
+        self.device = QLabel()
+        self.device.setProperty("quiet", True)
+        row = QHBoxLayout()
+        row.setSpacing(8)
+        row.addWidget(self.phase)
+        row.addWidget(self.device, 1)
+        self.column.addLayout(row)
+        self.reason = self.add_text()
+        self.emergency = button(translate("connection", "E-stop"), workbench.emergency_stop)
+        self.release = button(translate("connection", "Release"), workbench.release)
+        self.clear = button(translate("connection", "Clear fault"), workbench.clear_fault)
+        self.add_row(self.emergency, self.release, self.clear)
+        self._session = workbench.session
+
+    def refresh(self, state: SessionState) -> None:
+        """Show a state."""
+        self.phase.show_state(state)
+        self.device.setText(self._session.driver.name)
+        locked = state.locked
+        self.reason.setText(
+            translate("connection", "Motion is possible.")
+            if locked is None
+            else translate("connection", "Locked: {locked}.").format(locked=spoken(locked))
+        )
+        latched = (
+            translate("connection", "{latched} is latched already").format(
+                latched=spoken(state.latched)
+            )
+            if state.latched is not None
+            else None
+        )
+        allow(
+            self.emergency,
+            latched,
+            translate("connection", "Stop all axes, and let nothing move until it is released"),
+        )
+        allow(
+            self.release,
+            None
+            if state.latched is not None
+            else translate("connection", "no emergency stop is latched"),
+            translate("connection", "Let the machine move again; it stands until it is told to"),
+        )
+        allow(
+            self.clear,
+            reasons.against_clearing(state),
+            translate("connection", "Acknowledge the device's fault"),
+        )

@@ -1,0 +1,30 @@
+"""Texts that a file has in English, and the window in its own language."""
+
+from typing import Self
+
+from rotemina.app.shell.language import translate
+
+
+class FilledTemplate(str):
+    """A marked template, filled: itself is the English text; :func:`localized` tells the other."""
+
+    __slots__ = ("template", "values")
+    template: str
+    values: dict[str, object]
+
+    def __new__(cls, template: str, **values: object) -> Self:
+        """Fill a template's named fields."""
+        made = super().__new__(cls, template.format(**values))
+        made.template, made.values = template, values
+        return made
+
+
+def localized(text: str) -> str:
+    """Return a text, a marked or a filled one or anybody's, in the language of the window."""
+    if isinstance(text, FilledTemplate):
+        filled = {
+            name: localized(value) if isinstance(value, str) else value
+            for name, value in text.values.items()
+        }
+        return translate("identification", text.template).format(**filled)
+    return translate("identification", text) if text else text

@@ -1,0 +1,136 @@
+"""How the camera is doing, in words over the picture.."""
+
+from dataclasses import dataclass
+
+from rotemina.app.cameras.feed import FeedState, FeedView
+from rotemina.app.microscope.status import Activity, MicroscopeStatus, TipState
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.language import marked, translate
+from rotemina.drivers.samples import DeviceState
+from rotemina.plugins.microscope.engine_words import spoken
+
+TONES = {
+    FeedState.CLOSED: "quiet",
+    FeedState.OPENING: "busy",
+    FeedState.LIVE: "good",
+    FeedState.WAITING: "busy",
+    FeedState.STALLED: "danger",
+    FeedState.FROZEN: "danger",
+    FeedState.BLACK: "warning",
+    FeedState.LOST: "danger",
+}
+TITLES = {
+    FeedState.CLOSED: marked("microscope", "No camera"),
+    FeedState.OPENING: marked("microscope", "Opening …"),
+    FeedState.WAITING: marked("microscope", "Waiting for a trigger"),
+    FeedState.STALLED: marked("microscope", "STALLED"),
+    FeedState.FROZEN: marked("microscope", "FROZEN"),
+    FeedState.BLACK: marked("microscope", "BLACK"),
+    FeedState.LOST: marked("microscope", "LOST"),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class FeedNotice:
+    """What is said of the picture.
+
+    Attributes
+    ----------
+    tone : str
+        Of the theme: good, busy, quiet, warning, danger.
+    badge : str
+        In a corner: state, rate, age.
+    title, reason : str
+        Over the picture; empty where nothing stands in the way.
+    veiled : bool
+        The picture shows the past: it is greyed and hatched, and nothing is moved by it.
+    """
+
+    tone: str
+    badge: str
+    title: str = ""
+    reason: str = ""
+    veiled: bool = False
+
+
+def feed_notice(view: FeedView) -> FeedNotice:
+    """Return what is to be said of a camera's moment."""
+    state, tone = view.state, TONES[view.state]
+    if state is FeedState.LIVE and view.frame is None:
+        return FeedNotice(
+            "busy",
+            translate("microscope", "opened"),
+            translate("microscope", "Waiting for the first picture"),
+        )
+    if state is FeedState.LIVE:
+        # One picture has no rate yet.
+        parts = [
+            translate("microscope", "live"),
+            *([f"{view.rate_hz:.0f} Hz"] if view.rate_hz > 0.0 else []),
+        ]
+        return FeedNotice(tone, " · ".join((*parts, age(view.age_s))))
+    badge = spoken(state)
+    if view.frame is not None:
+        badge = f"{badge} · {age(view.age_s)}"
+    if state is FeedState.WAITING:
+        title = "" if view.frame is not None else translate("microscope", TITLES[state])
+        return FeedNotice(tone, badge, title)
+    reason = spoken(view.reason)
+    if state is FeedState.CLOSED:
+        reason = translate("microscope", "Choose a camera under Tools, Camera, and open it.")
+    title = translate("microscope", TITLES[state])
+    return FeedNotice(tone, badge, title, reason, veiled=state is not FeedState.OPENING)
+
+
+def age(age_s: float | None) -> str:
+    """Return an age as text, which does not flicker below a tenth of a second."""
+    if age_s is None:
+        return "–"
+    return (
+        translate("microscope", "{ms:.0f} ms old").format(ms=1e3 * age_s)
+        if age_s < 1.0
+        else translate("microscope", "{s:.1f} s old").format(s=age_s)
+    )
+
+
+def against_aiming(status: MicroscopeStatus) -> str | None:
+    """Return why a place in the picture is no place to go to; None if it is."""
+    if status.feed.state is not FeedState.LIVE or status.feed.frame is None:
+        return translate("microscope", "the picture is not live: {state}").format(
+            state=spoken(status.feed.state)
+        )
+    if status.calibration is None:
+        return status.calibration_problem or translate(
+            "microscope", "this camera and objective are not calibrated yet"
+        )
+    return None
+
+
+def against_clicking(status: MicroscopeStatus, state: SessionState) -> str | None:
+    """Return why no click may move anything now; None if it may."""
+    why = against_aiming(status) or against_moving(status, state)
+    if why is None and status.tip.state is not TipState.TRACKED:
+        why = translate(
+            "microscope",
+            "the tip is not tracked; click it with Tip, or switch tracking on under Vision",
+        )
+    return why
+
+
+def against_moving(status: MicroscopeStatus, state: SessionState) -> str | None:
+    """Return why nothing may be moved by the picture now; None if it may."""
+    if status.feed.state is not FeedState.LIVE or status.feed.frame is None:
+        return translate("microscope", "the picture is not live: {state}").format(
+            state=spoken(status.feed.state)
+        )
+    if status.activity is not Activity.NONE:
+        return translate("microscope", "{activity} is under way").format(
+            activity=spoken(status.activity)
+        )
+    if state.locked is not None:
+        return translate("microscope", "motion is locked: {locked}").format(
+            locked=spoken(state.locked)
+        )
+    if state.activity is not DeviceState.IDLE:
+        return translate("microscope", "the machine is not at rest")
+    return None
