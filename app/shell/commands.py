@@ -247,7 +247,7 @@ def _view(window: "MainWindow") -> list[Command]:
         ),
         Command(
             translate("shell", "&View"),
-            translate("shell", "Text as the screen suits"),
+            translate("shell", "Text size: automatic"),
             "Ctrl+0",
             looks.suit_the_screen,
             translate("shell", "By its height"),

@@ -121,7 +121,7 @@ class Palette(QDialog):
         self.reason.setText(
             translate("shell", "Not now: {reason}.").format(reason=reason)
             if reason
-            else translate("shell", "Enter does it.")
+            else translate("shell", "Press Enter to run it.")
         )
 
 

@@ -136,7 +136,7 @@ def no_position(axis: str, text: str, scale: Scale) -> str:
     """Return why a text moves nothing."""
     return translate(
         "control",
-        "{label}: {text!r} is no position; type a number in {symbol} with a decimal point.",
+        "{label}: {text!r} is not a position; type a number in {symbol} with a decimal point.",
     ).format(label=label(axis), text=text.strip(), symbol=scale.symbol)
 
 

@@ -66,7 +66,7 @@ class ShrinkageView(QSplitter):
             return
         unit = answer.unit(told.axis, told.tap)
         sizes = [
-            (translate("gap", "as it is"), told.raw, "command"),
+            (translate("gap", "nominal"), told.raw, "command"),
             (translate("gap", "re-tuned"), told.retuned, "command"),
         ]
         sizes += [(f"+ {effect_title(step.effect)}", step.rms, "model") for step in told.steps]

@@ -34,7 +34,7 @@ class CameraSection(Section):
         self._workbench, self._microscope = workbench, microscope
         self.choice = SteadyChoice(translate("microscope", "Camera"))
         self.address = QLineEdit()
-        self.address.setPlaceholderText(translate("microscope", "or, say, opencv:film.avi"))
+        self.address.setPlaceholderText(translate("microscope", "e.g. opencv:film.avi"))
         self.address.setAccessibleName(
             translate("microscope", "Source and address of another camera")
         )
@@ -125,7 +125,7 @@ class SettingsSection(Section):
     """Exposure, gain, region, kind of pixels and trigger, as far as the camera has them."""
 
     def __init__(self, workbench: Workbench, microscope: Microscope, view: PictureView) -> None:
-        super().__init__(translate("microscope", "Settings of the camera"))
+        super().__init__(translate("microscope", "Camera settings"))
         self._workbench, self._microscope, self._view = workbench, microscope, view
         self._shown: CameraSettings | None = None
         self._can: CameraDescription | None = None
@@ -139,7 +139,7 @@ class SettingsSection(Section):
             SteadyChoice(translate("microscope", "Kind of pixels")),
             SteadyChoice(translate("microscope", "Trigger")),
         )
-        self.repeat = QCheckBox(translate("microscope", "begin again at the end"))
+        self.repeat = QCheckBox(translate("microscope", "Loop at the end"))
         self.repeat.setToolTip(
             plain_tip(translate("microscope", "Of a file or a sequence of pictures"))
         )
@@ -169,13 +169,13 @@ class SettingsSection(Section):
             translate("microscope", "Set the camera so; what it refuses is said below"),
         )
         self.cut = button(
-            translate("microscope", "Region in sight"),
+            translate("microscope", "Use visible region"),
             self._cut,
             translate("microscope", "Read out only what is in sight now"),
         )
         self.add_row(self.apply, self.cut)
         self.shoot = button(
-            translate("microscope", "Take a picture"),
+            translate("microscope", "Save picture"),
             lambda: workbench.ask(microscope.trigger),
             translate("microscope", "Trigger the camera once"),
         )
@@ -229,7 +229,7 @@ class SettingsSection(Section):
             field.setText(text)
             field.setEnabled(bounds is not None)
             field.setPlaceholderText(
-                translate("microscope", "as it is")
+                translate("microscope", "unchanged")
                 if bounds is not None
                 else translate("microscope", "cannot be set")
             )

@@ -76,7 +76,7 @@ class RecordingSection(QWidget):
         self.keep = QPushButton(translate("recorder", "Note"))
         self.keep.setToolTip(translate("recorder", "Write the remark into the recording"))
         self.keep.clicked.connect(self.remark)
-        self.at_start = QCheckBox(translate("recorder", "Record from every start on"))
+        self.at_start = QCheckBox(translate("recorder", "Record from program start"))
         self.at_start.setToolTip(
             translate("recorder", "Begin a recording by itself when the program is started")
         )

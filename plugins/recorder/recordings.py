@@ -142,7 +142,7 @@ class RecordingsView(QWidget):
         self.to_trajectory = _button(
             translate("recorder", "To trajectory"), lambda: self._with_chosen(self.take_in_hand)
         )
-        self.again = _button(translate("recorder", "Look again"), self.looked_for.emit)
+        self.again = _button(translate("recorder", "Refresh"), self.looked_for.emit)
         self.again.setToolTip(translate("recorder", "Look into the folder again"))
         self.begin, self.end = _field(BEGIN), _field(END)
         self.begin_here = _button(translate("recorder", "▏Here"), lambda: self._here(self.begin))

@@ -408,7 +408,7 @@
         <translation>nach {target}</translation>
     </message>
     <message>
-        <source>{label}: {text!r} is no position; type a number in {symbol} with a decimal point.</source>
+        <source>{label}: {text!r} is not a position; type a number in {symbol} with a decimal point.</source>
         <translation>{label}: {text!r} ist keine Position; eine Zahl in {symbol} mit Dezimalpunkt eingeben.</translation>
     </message>
     <message>

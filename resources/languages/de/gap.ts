@@ -332,10 +332,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Auf dieser Achse ist keine Lücke zu schließen.</translation>
     </message>
     <message>
-        <source>as it is</source>
-        <translation>wie es ist</translation>
-    </message>
-    <message>
         <source>re-tuned</source>
         <translation>abgestimmt</translation>
     </message>
@@ -1009,15 +1005,15 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>kleine Schwingung</translation>
     </message>
     <message>
-        <source>low end of the way</source>
+        <source>low end of travel</source>
         <translation>unteres Wegende</translation>
     </message>
     <message>
-        <source>middle of the way</source>
+        <source>middle of travel</source>
         <translation>Wegmitte</translation>
     </message>
     <message>
-        <source>high end of the way</source>
+        <source>high end of travel</source>
         <translation>oberes Wegende</translation>
     </message>
     <message>

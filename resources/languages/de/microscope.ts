@@ -96,7 +96,7 @@
         <translation>Kamera</translation>
     </message>
     <message>
-        <source>or, say, opencv:film.avi</source>
+        <source>e.g. opencv:film.avi</source>
         <translation>oder etwa opencv:film.avi</translation>
     </message>
     <message>
@@ -140,7 +140,7 @@
         <translation>keine Kamera offen</translation>
     </message>
     <message>
-        <source>Settings of the camera</source>
+        <source>Camera settings</source>
         <translation>Kameraeinstellungen</translation>
     </message>
     <message>
@@ -152,7 +152,7 @@
         <translation>Auslöser</translation>
     </message>
     <message>
-        <source>begin again at the end</source>
+        <source>Loop at the end</source>
         <translation>am Ende neu beginnen</translation>
     </message>
     <message>
@@ -192,7 +192,7 @@
         <translation>Kamera so einstellen; was sie ablehnt, steht unten</translation>
     </message>
     <message>
-        <source>Region in sight</source>
+        <source>Use visible region</source>
         <translation>Sichtbares</translation>
     </message>
     <message>
@@ -200,7 +200,7 @@
         <translation>Nur den sichtbaren Ausschnitt auslesen</translation>
     </message>
     <message>
-        <source>Take a picture</source>
+        <source>Save picture</source>
         <translation>Bild aufnehmen</translation>
     </message>
     <message>
@@ -220,7 +220,7 @@
         <translation>sie läuft frei</translation>
     </message>
     <message>
-        <source>as it is</source>
+        <source>unchanged</source>
         <translation>unverändert</translation>
     </message>
     <message>

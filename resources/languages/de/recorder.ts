@@ -155,7 +155,7 @@
         <translation>Die Bemerkung in die Aufnahme schreiben</translation>
     </message>
     <message>
-        <source>Record from every start on</source>
+        <source>Record from program start</source>
         <translation>Ab jedem Start aufnehmen</translation>
     </message>
     <message>
@@ -283,7 +283,7 @@
         <translation>Zur Trajektorie</translation>
     </message>
     <message>
-        <source>Look again</source>
+        <source>Refresh</source>
         <translation>Neu suchen</translation>
     </message>
     <message>

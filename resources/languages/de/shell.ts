@@ -220,7 +220,7 @@
         <translation>Kleinere Schrift</translation>
     </message>
     <message>
-        <source>Text as the screen suits</source>
+        <source>Text size: automatic</source>
         <translation>Schrift passend zum Bildschirm</translation>
     </message>
     <message>
@@ -772,7 +772,7 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Nicht jetzt: {reason}.</translation>
     </message>
     <message>
-        <source>Enter does it.</source>
+        <source>Press Enter to run it.</source>
         <translation>Enter führt es aus.</translation>
     </message>
     <message>

@@ -60,7 +60,7 @@ def test_what_must_not_move_is_refused_and_a_large_move_is_confirmed(qtbot, wind
     session, row = window.workbench.session, panel.rows["x"]
     qtbot.waitUntil(row.go.isEnabled, timeout=LONG_MS)
     qtbot.mouseClick(row.go, Qt.MouseButton.LeftButton)
-    assert "is no position" in window.notices.notices()[0].text
+    assert "is not a position" in window.notices.notices()[0].text
     qtbot.keyClicks(row.target, "2,8")
     qtbot.keyClick(row.target, Qt.Key.Key_Return)
     assert "decimal point" in window.notices.notices()[0].text

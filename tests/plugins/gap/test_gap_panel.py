@@ -355,7 +355,7 @@ def test_which_ranks_candidates_and_says_what_cannot_be_told_apart(answered):
 def test_how_far_shows_bars_and_the_gap_before_and_after(answered):
     answered.tabs.setCurrentIndex(FAR)
     assert [(bar.name, bar.text) for bar in answered.shrinkage.bars.bars] == [
-        ("as it is", "33 µrad"),
+        ("nominal", "33 µrad"),
         ("re-tuned", "32 µrad"),
         ("+ Hysteresis", "0.78 µrad"),
         ("corrected", "0.77 µrad"),
