@@ -3,9 +3,7 @@
 The constant part of a difference is no evidence: the offset of a record is a nuisance.
 """
 
-import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple, Self
 
@@ -69,10 +67,6 @@ class Observation:
         return tuple(self.real)
 
 
-# A simulation lets other threads run meanwhile.
-_THREADS = ThreadPoolExecutor(os.cpu_count(), "records")
-
-
 def _unheard() -> None:
     """Do nothing."""
 
@@ -81,15 +75,13 @@ def _unheard() -> None:
 class Evidence:
     """All records that speak of one axis of a robot, whose own effects are part of the model.
 
-    ``heartbeat`` is called before every simulation; what it raises ends what is under way. With
-    more than one of ``jobs`` records are simulated side by side.
+    ``heartbeat`` is called before every simulation; what it raises ends what is under way.
     """
 
     robot: Robot
     axis: str
     observations: tuple[Observation, ...]
     heartbeat: Callable[[], None] = _unheard
-    jobs: int = 1
     _runs: dict[tuple[int, tuple[str, ...]], Run] = field(default_factory=dict)
     _own: dict[tuple[int, Tap], FloatArray] = field(default_factory=dict)
 
@@ -129,11 +121,11 @@ class Evidence:
 
     def with_model(self, robot: Robot) -> "Evidence":
         """Return the same evidence beside another model of the machine."""
-        return Evidence(robot, self.axis, self.observations, self.heartbeat, self.jobs)
+        return Evidence(robot, self.axis, self.observations, self.heartbeat)
 
     def with_observations(self, observations: Sequence[Observation]) -> "Evidence":
         """Return evidence of other observations of the same axis."""
-        return Evidence(self.robot, self.axis, tuple(observations), self.heartbeat, self.jobs)
+        return Evidence(self.robot, self.axis, tuple(observations), self.heartbeat)
 
     def has(self, tap: Tap) -> bool:
         """Tell whether any record holds a tap."""
@@ -267,36 +259,22 @@ class Evidence:
         """Give the number of each record, and the answers from its start and from other ones."""
         self.heartbeat()
         robot = replace(self.robot, effects=(*self.robot.effects, *effects))
-        numbers = range(len(self.observations)) if only is None else only
         plants: dict[tuple[bool, float], Plant] = {}
-        for number in numbers:
+        for number in range(len(self.observations)) if only is None else only:
             observation = self.observations[number]
-            key = observation.record.closed_loop, observation.origin
+            record = observation.record
+            key = record.closed_loop, observation.origin
             if key not in plants:
                 seen = _moved(robot, self.axis, observation.origin)
-                plants[key] = Plant.of(seen, closed_loop=key[0], only={self.axis})
-
-        def answers(number: int) -> list[Signals]:
-            observation = self.observations[number]
-            plant = plants[observation.record.closed_loop, observation.origin]
-            return self._from_all_starts(number, plant)
-
-        side_by_side = self.jobs > 1 and len(numbers) > 1
-        found = (_THREADS.map if side_by_side else map)(answers, numbers)
-        yield from zip(numbers, found, strict=True)
-
-    def _from_all_starts(self, number: int, plant: Plant) -> list[Signals]:
-        """Return what a plant answers to a record from its start, and from other ones."""
-        observation, run = self.observations[number], self._run(number, plant)
-        record = observation.record
-        answer = self._answer(plant, run, start(plant, record, run), observation)
-        return [
-            answer,
-            *(
+                plants[key] = Plant.of(seen, closed_loop=record.closed_loop, only={self.axis})
+            plant = plants[key]
+            run = self._run(number, plant)
+            answer = self._answer(plant, run, start(plant, record, run), observation)
+            others = [
                 self._until_forgotten(plant, run, state, observation, answer)
                 for state in other_starts(plant, record, run, self.axis)
-            ),
-        ]
+            ]
+            yield number, [answer, *others]
 
     def _until_forgotten(
         self, plant: Plant, run: Run, state: PlantState, observation: Observation, answer: Signals

@@ -157,7 +157,7 @@ class _Run:
         context = [e for other, one in self.examined.items() if other != name for e in one.fitted]
         evidence = evidence.with_model(_with(self.robot, context))
         account = Account(name, self.listener, begin, share)
-        evidence = replace(evidence, heartbeat=account.heartbeat, jobs=self.jobs)
+        evidence = replace(evidence, heartbeat=account.heartbeat)
         before = float(np.mean(self._bare(name).residual() ** 2))
         now = float(np.mean(evidence.residual() ** 2))
         if context and now - 1.0 < _LEAST_LEFT * (before - 1.0):
@@ -173,7 +173,7 @@ class _Run:
             self.examined[name] = examined
 
     def _bare(self, name: str) -> Evidence:
-        return replace(Evidence.of(self.robot, name, self.records), jobs=self.jobs)
+        return Evidence.of(self.robot, name, self.records)
 
     def _told_of(self, name: str, places: tuple[Place, ...], has_gap: bool) -> AxisDiagnosis:
         if name in self.examined:
