@@ -25,7 +25,7 @@ def main(folder: Path) -> int:
     from rotemina.app.shell.window_run import make_window
     from rotemina.drivers.simulator.driver import Simulator
     from rotemina.sim.robot.file import load_robot
-    from rotemina.sim.trajectory.demonstration import wear
+    from rotemina.sim.trajectory.demonstration import worn_effects
 
     log_qt_messages()
     folder.mkdir(parents=True, exist_ok=True)
@@ -39,7 +39,7 @@ def main(folder: Path) -> int:
         window.workbench.start()
         window.panels.make_all()
         begun = window.saveState()
-        tell_the_story(window, wear(robot))
+        tell_the_story(window, worn_effects(robot))
         window.restoreState(begun)  # the layout of a first start
         while window.workbench.busy:  # panels that work on what was played
             QApplication.processEvents()
