@@ -188,7 +188,7 @@ def play(window: MainWindow, trajectory: Record) -> Run:
 
     def begin(state: SessionState) -> None:
         planned = bench.plan is not None and bench.plan.trajectory is trajectory
-        if state.locked is None and planned:
+        if state.locked is None and planned and bench.session.at_rest:
             bench.refreshed.disconnect(begin)
             bench.play()
 
